@@ -30,9 +30,10 @@ fn revision() -> String {
     }
 }
 
-/// Returns the commit of a package from a registry, which has neither git nor its neighbours.
+/// Returns the commit that Cargo recorded in a published package.
 ///
-/// Cargo records it; a package of changed sources also has a hash of them.
+/// Such a package has neither a git repository nor the other crates beside it. If its sources were
+/// changed, a hash of them is appended.
 fn packaged_commit() -> Option<String> {
     let info = fs::read_to_string(".cargo_vcs_info.json").ok()?;
     let (_, commit) = info.split_once("\"sha1\": \"")?;
@@ -47,7 +48,7 @@ fn packaged_commit() -> Option<String> {
 
 /// Returns the commit, and true if the sources are unchanged since it.
 fn commit() -> Option<(String, bool)> {
-    // A copy of the source inside another repository has no revision of its own.
+    // Do not take the revision of another repository that contains a copy of this source.
     git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
     let revision = git(&["rev-parse", "--short=12", "HEAD"])?;
     let changes = git(&["status", "--porcelain", "--untracked-files=no"])?;

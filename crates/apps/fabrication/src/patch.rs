@@ -270,7 +270,8 @@ impl Patch {
         let ([length, breadth, _], places) =
             (self.membrane_size(), self.places().collect::<Vec<_>>());
         for (j, row) in places.chunks(self.scales[0]).enumerate() {
-            // The surface of the body, from left to right, each point above its lower side.
+            // Each rung joins a point of the surface, from left to right, to the point below it on
+            // the lower face of the membrane.
             let mut rungs = vec![self.rung(&self.frame(0.0), 0.0)];
             for [x, y] in row {
                 let frame = self.frame(x + 0.5 * self.base());

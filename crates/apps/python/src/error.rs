@@ -81,7 +81,7 @@ pub fn invalid_definition(
             let (found, expected) = explained(problem);
             let value = value
                 .or_else(|| found.map(|found| pyo3::types::PyString::new(py, &found).into_any()));
-            // Without a value the key is missing, or the problem is not a value.
+            // Without a value, the key is missing or the problem does not concern a value.
             if value.is_none() && !matches!(**problem, Problem::Missing(_)) {
                 return exception(py, "InvalidDefinition", (error.to_string(),));
             }

@@ -8,7 +8,7 @@ pub(crate) enum AxisScale {
 }
 
 /// Ratio of largest to smallest value above which an axis is logarithmic: 1.5 decades.
-// Beyond it, small values on a linear axis cannot be distinguished from zero.
+// Beyond this ratio, small values on a linear axis cannot be distinguished from zero.
 const SPANS_DECADES: f64 = 30.0;
 
 /// A range of values with a label.

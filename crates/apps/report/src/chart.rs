@@ -95,7 +95,7 @@ impl<'a> ChartPanel<'a> {
     /// Draws frame, grid, ticks and title.
     pub(crate) fn frame(&self) -> Element {
         let area = &self.area;
-        // Labels of the y axis of the next panel may stand beside the title.
+        // The title may extend to the labels of the y axis of the next panel.
         let size = fitting(&self.title, 12.0, area.width + 20.0);
         let title = label(&self.title, [area.center()[0], area.top - 6.0], size, Anchor::Middle);
         Element::group("frame")

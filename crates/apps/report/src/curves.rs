@@ -53,7 +53,8 @@ const HIGHEST_LEVEL: f64 = 1.5;
 pub struct DesignCurves<'a> {
     /// The number of the design.
     pub number: String,
-    /// Its parameters. Curves are in mm and N if all designs have a thickness and a modulus.
+    /// Parameters of the design. Curves are in mm and N if all designs have a thickness and a
+    /// modulus.
     pub case: &'a Case,
     /// The path in puncture, if it was solved.
     pub puncture: Option<&'a Puncture>,

@@ -80,7 +80,7 @@ impl Designs {
         parameters.filter(|name| self.texts(name).len() > 1).collect()
     }
 
-    /// Returns the varied parameter that `column` gives in mm, by its column.
+    /// Returns the column name of the varied parameter that `column` states in mm.
     ///
     /// Any length in mm may be the axis of a figure, such as a pitch that determines the gaps.
     pub(crate) fn varied_as(&self, column: &str) -> Option<&str> {
@@ -92,13 +92,14 @@ impl Designs {
         let in_mm = self.groups(column);
         varied.into_iter().find(|varied| {
             let pairs: BTreeSet<_> = self.groups(varied).into_iter().zip(in_mm.clone()).collect();
-            // As many pairs as values of each: the columns determine each other.
+            // If there are as many pairs as values of each column, the columns determine each
+            // other.
             pairs.len() > 1
                 && [self.texts(varied).len(), self.texts(column).len()] == [pairs.len(); 2]
         })
     }
 
-    /// Returns the column of a length over the thickness in mm if the table has it, else itself.
+    /// Returns the column in mm of a length over the thickness, or `axis` itself if there is none.
     pub(crate) fn in_mm(&self, axis: &str) -> String {
         let in_mm = axis.replace("_over_t", "_mm");
         if self.are_equivalent(axis, &in_mm) { in_mm } else { axis.to_owned() }

@@ -135,7 +135,7 @@ const OFFERED: [Offered; 14] = [
 struct Shown {
     name: &'static str,
     label: &'static str,
-    /// The column in physical units that replaces it, if available.
+    /// Column in physical units that is shown instead of this measure, if available.
     physical: &'static str,
     /// A short explanation.
     words: &'static str,

@@ -39,9 +39,9 @@ pub struct Exported {
 /// A table of a search, tolerance analysis or fit, with the columns explained.
 #[derive(Clone, Debug)]
 pub struct OtherTable {
-    /// Its file name.
+    /// Name of the file.
     pub file: &'static str,
-    /// Name, unit and meaning of its columns.
+    /// Name, unit and meaning of each column.
     pub columns: Vec<(String, &'static str, &'static str)>,
 }
 

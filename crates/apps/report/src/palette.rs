@@ -55,7 +55,7 @@ impl SlantPalette {
     }
 
     fn place(&self, slant_deg: f64) -> usize {
-        // A slant of another sweep has the look of the next one.
+        // A slant outside this sweep takes the look of the next larger slant.
         self.0
             .position(slant_deg)
             .unwrap_or_else(|| self.slants().partition_point(|other| *other < slant_deg))

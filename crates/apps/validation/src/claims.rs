@@ -49,7 +49,7 @@ pub struct Claim {
 pub struct CheckedClaim {
     /// The claim.
     pub claim: Claim,
-    /// Its statements.
+    /// Statements of the claim.
     pub statements: Vec<CheckedStatement>,
     /// The verdicts with a base of `L` and of `2L`.
     pub verdicts: [Verdict; 2],

@@ -46,11 +46,11 @@ pub struct FittestDesign {
     pub weights: String,
     /// The design on the grid.
     pub on_grid: String,
-    /// Its fitness.
+    /// Fitness of the design on the grid.
     pub grid_fitness: f64,
     /// The design found by the search.
     pub found: String,
-    /// Its fitness, on the scale where the best grid value of each criterion is 1.
+    /// Fitness of this design, on the scale where the best grid value of each criterion is 1.
     pub found_fitness: f64,
 }
 

@@ -101,9 +101,9 @@ pub struct Slope {
 /// A design of the sweep.
 #[derive(Clone, Debug, Serialize)]
 pub struct Closest {
-    /// Its number.
+    /// Number of the design.
     pub design: String,
-    /// Its values on the axes, by key.
+    /// Values of the design on the axes, by key.
     pub values: Vec<(&'static str, f64)>,
 }
 

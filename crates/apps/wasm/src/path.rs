@@ -78,7 +78,7 @@ impl PuncturedRow {
         let solved = solve(if is_between { std::slice::from_ref(&place) } else { &[] }).ok()?;
         // Different steps change the last digits, so the end cannot be identified by its value.
         let state = solved.at.into_iter().flatten().next().unwrap_or(solved.end);
-        // At rest only the path is drawn.
+        // At rest the state is not drawn, only the path.
         let state = (drawn > 0.0).then_some(state);
         let Puncture { path, events, folds, .. } = solved.puncture;
         let place = |point: &PuncturePoint| [point.displacement, point.force];

@@ -139,7 +139,7 @@ impl<'a> Corners<'a> {
         // A slant turns an edge clockwise.
         let [of_left, of_right] = self.pair.scales();
         let at_rest = of_left.slant() - of_right.slant();
-        // The sine ignores full turns, beyond which rotations are counted.
+        // Rotations accumulate over full turns, so compare their sine.
         (self.turned() - at_rest).sin().abs() < PARALLEL
     }
 

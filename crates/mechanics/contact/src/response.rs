@@ -96,7 +96,7 @@ impl CornerContact {
             }
             Self::Flush(edge) => {
                 let mut response = CornerResponse::edge(edge, corners, law, forces);
-                // Always present: a tip on a side never becomes flush.
+                // `flush` always exists here: a tip on a side never becomes flush.
                 if let Some(flush) = edge.flush() {
                     response.add_force(Force::Flush, &corners.gap(flush), forces, 1.0);
                     response.conditions[Force::Flush as usize] =

@@ -151,7 +151,7 @@ proptest! {
         // The frictionless balance is continuous only in equilibrium, so compare friction alone.
         let without = at_end.at(&z).balance.map(|equation| equation.value);
         let mut expected = without;
-        // The contact may lean by now, so that another edge takes the place of its own.
+        // With the scale leaning, another edge may have replaced the edge of the contact.
         let (left, right) = (Pose::new(q[0], q[1], q[2]), Pose::new(q[3], q[4], q[5]));
         let [own, _] = Corners::new(at_end.level, &at_end.pair, [&left, &right]).together(EDGES[edge].1);
         let on_edge = Case { contact: CornerContact::Edge(own), ..case(edge, slant, Law::PRINTED, CornerContact::Edge) };

@@ -89,7 +89,7 @@ mod tests {
         fn coverage_never_exceeds_one_at_round_off(
             whole in 1_u32..9, base in 0.001_f64..0.1, gap in 1e-13_f64..1e-11, part in 0.0_f64..1.0,
         ) {
-            // The line ends just before its last scale does.
+            // The line ends just before the end of the last scale that it crosses.
             let pitch = base + gap;
             let value = coverage(f64::from(whole) * pitch - part * 1e-12, base, pitch);
             prop_assert!(value <= 1.0, "{value}");
@@ -124,7 +124,7 @@ mod tests {
             let at = [shift, base, base + gap];
             let ours = coverage_rate(at, rates);
             let off = (ours - difference(at, rates)).abs();
-            // Skip changes of the count within the difference.
+            // Skip cases in which the number of crossed scales changes within the difference.
             let places = [shift / at[2], (shift + base) / at[2]];
             let apart = places.iter().all(|place| (place - place.round()).abs() > 1e-3);
             prop_assert!(!apart || off < 1e-6 * (1.0 + ours.abs()), "{ours} {off}");

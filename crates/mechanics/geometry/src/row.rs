@@ -65,7 +65,8 @@ impl Row {
         let corner = self.scale.corner(Corner::TopRight);
         let line = [corner, Vec2::new(corner.x, body.height(corner.x))];
         let length = line[0].y - line[1].y;
-        // A neighbour of a tall slanted scale begins at most one shift away.
+        // The base of a crossed neighbour is at most about one shift of the top away; twice the
+        // shift is a safe bound.
         let farthest = (2.0 * corner.x.abs().max(1.0) / self.pitch()).ceil() as usize + 1;
         let on_body = body.scales_beside(self.pitch()).unwrap_or(farthest);
         let inside = (1..=farthest.min(on_body)).map(|k| {

@@ -110,7 +110,7 @@ impl Elastica {
     /// If the gap is not positive and finite, the half-base negative, or the offset not finite.
     pub fn over(&self, span: Span) -> Result<Self, OutOfRange> {
         check(&span)?;
-        // The rule depends only on the order and is shared.
+        // The quadrature rule depends only on the order, so both membranes share it.
         Ok(Self { span, ..self.clone() })
     }
 
@@ -143,7 +143,8 @@ impl Elastica {
         let [axial, bending] = self.stiffness();
         let mut units = DVector::from_element(self.unknowns(), bending);
         let f = self.order() - 1;
-        // Closure is measured in gaps; forces, as for elements, by the force of a displacement `t`.
+        // Closure equations are scaled by the length of the gap, force equations, as for beam
+        // elements, by the force of a displacement `t`.
         units.rows_mut(f, 2).fill(axial * self.span.gap);
         units.rows_mut(f + 2, 2).fill(axial / self.span.gap);
         units

@@ -42,7 +42,7 @@ fn slots(law: &ContactLaw) -> usize {
 
 /// Value of a condition that does not exist or cannot become active next.
 ///
-/// Any positive number does: the condition is neither violated nor solved for.
+/// Any positive number serves: the condition is never violated, and never solved for.
 pub(crate) const HOLDS: f64 = 1.0;
 
 /// State of a skin.

@@ -38,7 +38,8 @@ impl<S: System> PathLocation<S> {
     ) -> Option<Equilibrium<S::Mode>> {
         let low = (0.0, self.off(path.system(), &from.state));
         let high = (1.0, self.off(path.system(), &to.state));
-        // Check the end before the signs: round-off may give the difference either sign there.
+        // Check the end before the signs, because at the end round-off may give the difference
+        // either sign.
         if self.is_at(path.system(), &to.state) {
             return Some(to.clone());
         }

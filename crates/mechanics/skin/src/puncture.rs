@@ -241,7 +241,7 @@ pub fn solve(
 
 /// Solves the puncture of an imperfect row with the gaps and slants of `sample`.
 ///
-/// The substrate is the one of the design.
+/// The substrate is computed for the design without scatter.
 ///
 /// # Errors
 /// As [`solve`], or if no sample without overlapping scales is found.

@@ -88,7 +88,7 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
 
     /// Returns true if a contact is about to pass an end of its edge.
     ///
-    /// The model ends there.
+    /// The model has no contact beyond that end.
     fn passes_an_end(&self, at: &SkinPoint) -> bool {
         self.contacts().off_edge(&at.state) || self.contacts().passes_an_end(at)
     }
@@ -185,7 +185,7 @@ pub(crate) struct Record<S: Skin> {
     followed: Vec<(PathFunction<S>, Peak<SkinMode>)>,
     /// Equilibrium at which the first contact closes.
     pub(crate) touching: Option<SkinPoint>,
-    /// The same point as recorded.
+    /// The equilibrium of the first contact, in the form stored in the path.
     first_contact: Option<S::PathPoint>,
 }
 

@@ -176,7 +176,7 @@ impl<M> Sides<M> {
 
 /// Motion of a point on one side of a parameter value.
 struct SideMotion<M> {
-    /// The point below and above; `None` if this side has no equilibrium.
+    /// The point for the smaller and the larger parameter; `None` if this side has no equilibrium.
     moved: Option<[MovedPoint<M>; 2]>,
     /// The contact change on this side.
     change: Option<String>,
@@ -285,7 +285,7 @@ impl<S: Skin> MeasuredQuantity<S> {
         // The extreme of no values is NaN, and non-finite derivatives are dropped.
         let extreme = extreme.unwrap_or(f64::NAN);
         let size = values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
-        // Only these are evaluated again; the others are too far away to become extreme.
+        // Only contenders are evaluated again; the other values are too far from the extreme one.
         (
             extreme,
             (0..count).filter(|number| (values[*number] - extreme).abs() <= NEAR * size).collect(),

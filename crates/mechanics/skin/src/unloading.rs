@@ -13,7 +13,7 @@ use crate::sensitivity::{Curve, CurvePoint, curve_point};
 /// The unloading path from the end of a loading path.
 #[derive(Clone, Debug)]
 pub struct Unloading<P> {
-    /// Its equilibria, starting with the end of the loading path.
+    /// Equilibria of the path, starting with the end of the loading path.
     pub path: Vec<P>,
     /// Why it stopped: [`Termination::Unloaded`] at zero load.
     pub stop: Termination,

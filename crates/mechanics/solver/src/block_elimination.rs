@@ -34,7 +34,7 @@ pub const LARGEST_BLOCK: usize = 10;
 pub struct UnsafeBlock {
     /// Number of the block.
     pub block: usize,
-    /// Number of its unknowns.
+    /// Number of unknowns of the block.
     pub size: usize,
 }
 

@@ -109,9 +109,9 @@ pub struct Continuation<S: System> {
     ///
     /// For a path that is turned back, the smallest one with the opposite sign.
     farthest: f64,
-    /// Events since then.
+    /// Events since the control parameter was at `farthest`.
     returns: Returns,
-    /// Limit on its work.
+    /// Limit on the work of the path.
     budget: Budget,
     /// Sign of a load that only pushes.
     ///

@@ -116,8 +116,8 @@ impl Newton {
         rest(system, state);
         for _ in 0..=settings.max_iterations {
             let norm = self.evaluate(system, state, condition)?;
-            // The norm is the one before this step. A state within tolerance still gains from the
-            // step.
+            // `norm` is the norm before this step. A state within tolerance is still improved by
+            // the step.
             self.solver.solve(&mut self.step);
             add(&mut state.z, 1.0, &self.step);
             if condition.stand_in.is_some() {
@@ -284,7 +284,8 @@ impl Newton {
         if condition.stand_in.is_some() {
             let growth = condition.measure(&direction);
             for x in &mut direction {
-                // The unit right-hand side applied to the stand-in.
+                // `solve_unit` has applied the unit right-hand side to the stand-in row, so
+                // normalise by the actual condition.
                 *x /= growth;
             }
         }

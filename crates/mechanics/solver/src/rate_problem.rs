@@ -279,9 +279,9 @@ impl<S: System> Continuation<S> {
             valid.push(self.pivot(&mut next, change)?);
         }
         let leaving = self.direction(&mut next, arriving, valid.first().copied()).ok()?;
-        // Every change must be valid behind the event, whatever its guard. Counterexample: two
-        // corners reach the ends of their edges within round-off. If both change, stiff contacts
-        // turn this round-off into a decreasing force.
+        // Every change must be valid behind the event, even if its guard is not zero.
+        // Counterexample: two corners reach the ends of their edges within round-off. If both
+        // change, stiff contacts turn this round-off into a decreasing force.
         for &constraint in &valid {
             if guard_slope(&self.system, &next, constraint, &leaving) < -FLOOR {
                 return None;
@@ -501,7 +501,7 @@ impl<S: System> Continuation<S> {
                 violated.push((constraint, slope));
             }
         }
-        // A monotone unknown must not decrease behind a kink, whatever its value.
+        // A monotone unknown must not decrease behind a kink, even if it is not zero.
         for &constraint in self.system.monotone() {
             let rate = direction[self.system.constraints()[constraint]];
             if state.active[constraint] && rate < -FLOOR {

@@ -25,7 +25,7 @@ pub struct Neighbours<S> {
 }
 
 impl<S> Neighbours<S> {
-    /// Applies a function to both.
+    /// Applies a function to the systems below and above.
     ///
     /// # Errors
     /// Returns the error of the function.
@@ -33,7 +33,7 @@ impl<S> Neighbours<S> {
         Ok(Neighbours { below: f(&self.below)?, above: f(&self.above)?, step: self.step })
     }
 
-    /// Applies a function to both of each.
+    /// Applies a function to each pair of systems.
     ///
     /// # Errors
     /// Returns the error of the function.
@@ -50,7 +50,7 @@ impl<S> Neighbours<S> {
 pub struct MovedPoint<M> {
     /// Predicted state.
     pub state: State<M>,
-    /// Direction of the path there.
+    /// Direction of the path at this point.
     pub direction: Vec<f64>,
 }
 
@@ -259,7 +259,7 @@ impl<M: Clone> Linearisation<M> {
             )
             .ok();
         }
-        // The path tells whether a contact that has just closed sticks or slips, and in which
+        // The path determines whether a contact that has just closed sticks or slips, and in which
         // direction, and which other contacts stop slipping. The motion with the parameter does
         // not: it shifts the point of closing.
         for _ in 0..MOST_CHANGES {

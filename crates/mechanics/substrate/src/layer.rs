@@ -153,10 +153,11 @@ impl Layer {
             }
         }
         let last = FARTHEST * PER_UNIT;
-        // Two more than tabulated, for the slope of the last.
+        // Two more values than tabulated, because the slope at the last one is a central
+        // difference.
         let values: Vec<Integrals> =
             (0..=last + 2).map(|k| integrals(&points, k as f64 / PER_UNIT as f64)).collect();
-        // Below 0 the integrals continue evenly, those with J₁ oddly.
+        // Below 0 the integrals continue evenly; the integral with J₁ continues oddly.
         let value = |k: usize, steps: isize, part: usize| {
             let place = k.cast_signed() + steps;
             let sign = if place < 0 && part == 3 { -1.0 } else { 1.0 };

@@ -35,8 +35,8 @@ const PER_NEIGHBOUR: usize = 6;
 
 /// Computes the contribution of the layer to the stiffness of a row.
 ///
-/// The quadrature over the cells is the one of the footprint `near`, with almost equal numbers, so
-/// that differences do not contain a change of it.
+/// The cells have the quadrature of the footprint `near`, which is almost equal, so that
+/// differences between footprints do not contain a change of the quadrature.
 ///
 /// # Errors
 /// If the gap vanishes by rounding.
@@ -269,8 +269,8 @@ impl Quadrature {
 
 /// Returns the Gauss points of each cell of an axis.
 ///
-/// Each cell is divided into subcells no wider than `largest`. Their number is the one of the axis
-/// `near`.
+/// Each cell is divided into subcells no wider than `largest`. The axis `near` determines their
+/// number.
 fn gauss_points(axis: &GradedAxis, near: &GradedAxis, largest: f64) -> Vec<Vec<QuadraturePoint>> {
     let mut cells = Vec::with_capacity(axis.cells());
     for k in 0..axis.cells() {

@@ -67,7 +67,7 @@ static TABLE: &[u8] = include_bytes!("table.bin");
 pub(crate) struct Differentiated(pub(crate) [f64; 4]);
 
 impl Differentiated {
-    /// Applies a function, given by its value and its slope here.
+    /// Applies a function, given by its value and its slope at this number.
     fn map(self, value: f64, slope: f64) -> Self {
         let [_, by_gap, by_width, by_ratio] = self.0;
         Self([value, by_gap * slope, by_width * slope, by_ratio * slope])

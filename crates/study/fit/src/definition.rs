@@ -265,7 +265,7 @@ fn table(value: &Value) -> Option<&[KeyValue]> {
 }
 
 impl TestCurve {
-    /// Returns true for a curve of another specimen of the same design, in the same units.
+    /// Returns true if both curves are from specimens of the same design, in the same units.
     pub(crate) fn is_alike(&self, other: &Self) -> bool {
         let (one, two) = (&self.measured, &other.measured);
         one.test == two.test && one.is_physical == two.is_physical && self.case == other.case

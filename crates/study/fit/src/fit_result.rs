@@ -197,9 +197,10 @@ const TOGETHER: f64 = 0.9;
 ///
 /// Independent residuals exceed it in one of 44 curves.
 const BEYOND_CHANCE: f64 = 2.0;
-/// Difference of the fitted and the measured force before contact, over its standard error.
+/// Threshold for a rise of the fitted curve above the measured force before contact, in standard
+/// errors.
 const ABOVE_NOISE: f64 = 4.0;
-/// Least such difference, as a fraction of the largest force.
+/// Least such rise that counts, as a fraction of the largest force.
 const ABOVE_TOE: f64 = 0.01;
 /// Noise below this fraction of the size of a curve is not examined for correlation.
 const NEGLIGIBLE: f64 = 1e-4;
@@ -430,8 +431,8 @@ impl Residuals<'_> {
 
     /// Returns the events of a curve.
     ///
-    /// Where a skin is soft at first, a flat toe is no approach: it is one only if the fitted curve
-    /// rises there, or if the fitted offset is there.
+    /// A flat beginning counts as an approach only if the fitted curve rises in it, or if the
+    /// fitted offset lies in it; otherwise the skin is merely soft at first.
     fn events(
         &self,
         (number, curve): (usize, &TestCurve),
@@ -469,7 +470,7 @@ fn rises_before(points: &[[f64; 2]], model: &ModelCurve, contact: f64) -> bool {
 fn means(curves: &[TestCurve]) -> Vec<MeanCurve> {
     let mut means = Vec::new();
     for (k, first) in curves.iter().enumerate() {
-        // The first curve of a design stands for all.
+        // The first curve of a design represents all of them.
         if curves[..k].iter().any(|other| first.is_alike(other)) {
             continue;
         }

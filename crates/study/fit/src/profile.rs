@@ -46,7 +46,7 @@ pub(crate) struct Profiles<'r, 'a> {
 pub(crate) struct Interval {
     /// Lower and upper end; `None` if the interval extends to the end of the range.
     pub(crate) ends: [Option<f64>; 2],
-    /// Other unknowns that are at a bound of their range at an end of the interval.
+    /// Other unknowns that are at a bound of their range where the interval ends.
     pub(crate) rests_on: Vec<usize>,
 }
 

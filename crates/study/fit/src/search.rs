@@ -224,7 +224,8 @@ impl<'a> Residuals<'a> {
         found
     }
 
-    /// Searches for a local minimum from `start`, with one unknown `fixed` at its value there.
+    /// Searches for a local minimum from `start`, with the unknown `fixed` kept at its value in
+    /// `start`.
     pub(crate) fn minimise(
         &self,
         start: Vec<f64>,

@@ -91,7 +91,7 @@ pub enum JournalError {
         path: PathBuf,
         /// Format of the journal.
         found: u64,
-        /// Program that wrote it.
+        /// Name and version of the program that wrote the journal.
         by: String,
     },
     /// The journal has another definition, subset of designs or program.

@@ -137,7 +137,7 @@ impl<R: Records> Journal<R> {
         &self.notes
     }
 
-    /// Adds a message about the journal.
+    /// Adds a note about the journal for the user.
     pub fn note(&mut self, note: String) {
         self.notes.push(note);
     }

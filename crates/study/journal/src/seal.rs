@@ -66,7 +66,7 @@ impl Seal {
         if !framed {
             return Err("its checksum does not match".to_owned());
         }
-        // Drops the checksum from the object.
+        // Overwrite the end of the checksum with the brace that opens the object.
         content[start - 1] = b'{';
         Ok(&content[start - 1..])
     }

@@ -94,7 +94,7 @@ impl<'a> Evaluations<'a> {
     fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
         let mut unscaled = point.clone();
         for j in self.scaling_intervals() {
-            // Any fixed share would do.
+            // Any constant would do: points that differ only by scaling get the same key.
             unscaled.shares[j] = 0.0;
         }
         unscaled
@@ -192,7 +192,7 @@ impl<'a> Evaluations<'a> {
         if let Some(known) = self.ends().get(&key) {
             return known.clone();
         }
-        // A resumed search knows the result, but not the end.
+        // After a restart the journal provides the result of this point, but not its path end.
         let end = self.plain.puncture_end(&self.space.case(point));
         self.ends().insert(key, end.clone());
         end

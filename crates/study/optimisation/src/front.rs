@@ -239,7 +239,7 @@ fn improve(
     let units =
         targets.iter().map(|target| plan.evaluations() * search.evaluation_units(target)).sum();
     search.progress.begin(SearchPart::Front, targets.len() * plan.tasks(), units);
-    // Appended in the order of the targets, so that the history is the same on every machine.
+    // Collect in the order of the targets, so that the history is the same on every machine.
     let walks = targets.par_iter().map(|target| {
         let point = between_neighbours(search, front, target);
         let start = point.map(|point| search.evaluate(SearchStage::Gradient, &point, true));

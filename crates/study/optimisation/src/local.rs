@@ -289,7 +289,7 @@ impl Search<'_> {
         }
         let effort = if self.judge.samples().is_some() { effort.on_samples() } else { effort };
         let (mut reach, variables) = (effort.reach, start.point.shares.len());
-        // Full searches start where gradient searches ended, and nothing may be left to gain there.
+        // Full searches start where gradient searches ended, which may already be an optimum.
         if effort.rounds > 0 && walk.is_certain()? {
             return Ok(walk.log.take());
         }
@@ -326,7 +326,7 @@ fn gained(before: Merit, after: Merit, gain: f64) -> bool {
     match (before, after) {
         (Merit::Met(before), Merit::Met(after)) => after - before > gain * before.abs(),
         (Merit::Short(before), Merit::Short(after)) => before - after > gain * before,
-        // A change of class is always a gain.
+        // Becoming feasible, or obtaining a value at all, is always a gain.
         _ => before != after,
     }
 }

@@ -32,7 +32,7 @@ const BALANCED: f64 = 1e-3;
 /// As [`BALANCED`], for a certain optimum.
 const CERTAIN: f64 = 1e-5;
 
-/// As [`BALANCED`], for a nominal design behind a sampled optimum, which deviations keep off its
+/// As [`BALANCED`], for the nominal design of a sampled optimum: deviations keep it away from its
 /// limits.
 const ROUGHLY: f64 = 0.2;
 
@@ -235,7 +235,8 @@ impl Gradients {
     ) -> Option<Self> {
         let judge = search.judge;
         let intervals = search.space.intervals();
-        // All multipliers balance one gradient: a kink along any variable leaves all unknown.
+        // All multipliers balance the same gradient, so a kink along any variable leaves all of
+        // them unknown.
         let gradient = |slopes: &dyn Fn(&Parameter) -> Slopes| -> Option<DVector<f64>> {
             let slope = intervals
                 .iter()

@@ -144,7 +144,7 @@ impl SearchProgress {
             own.1 = own.1.min(done);
         }
         let ahead = parts.work.get(next..).unwrap_or_default();
-        // Expected restarts belong to the local searches just before them.
+        // An expected restart belongs to the local searches just before it.
         let is_own = |skipped: &usize| part != SearchPart::Restart || *skipped == 0;
         match ahead.iter().position(|of| of.0 == part).filter(is_own) {
             Some(skipped) => drop(parts.work.drain(next..next + skipped)),
@@ -204,7 +204,7 @@ mod tests {
         let task = progress.task(6);
         task.count(4);
         assert_eq!((progress.progress(), progress.share()), ((Climb, 0, 4), 16.0 / 120.0));
-        // More units than expected count as the expected ones.
+        // Units beyond the expected number are not counted.
         task.count(400);
         assert_eq!(progress.share(), 18.0 / 120.0);
         drop(task);
@@ -234,12 +234,12 @@ mod tests {
         drop(progress.task(10));
         progress.begin(Climb, 2, 40);
         drop(progress.task(20));
-        // A restart that is not needed is no work, nor is a climb that was left out.
+        // Restarts that are not needed and local searches that are skipped do not count as work.
         progress.begin(Check, 1, 20);
         assert_eq!(progress.share(), 30.0 / 50.0);
         progress.begin(Restart, 1, 30);
         assert_eq!(progress.share(), 30.0 / 60.0);
-        // Expected restarts of a later climb do not stand for an unexpected one.
+        // Expected restarts of later local searches are not used up by an unexpected restart.
         let progress = SearchProgress::default();
         progress.expect(vec![(Climb, 20), (Climb, 40), (Restart, 50)]);
         progress.begin(Climb, 1, 20);

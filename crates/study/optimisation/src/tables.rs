@@ -88,7 +88,7 @@ fn statistic_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static s
     columns
 }
 
-/// Returns the cells of these columns.
+/// Returns the cells of the columns of [`statistic_columns`].
 fn statistic_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
     let mut cells: Cells = Vec::new();
     let confirmation = best.confirmation.as_ref();

@@ -185,7 +185,8 @@ impl<'r> Ranking<'r> {
         preferences: &Preferences,
     ) -> Result<Results, InvalidResults> {
         Results::with_columns(folder, |column| {
-            // Parameters are printed, and are the conditions that decide on comparability.
+            // Parameters are always needed: they are printed, and decide which designs are
+            // comparable.
             let is_always = column == name::FOLD_FORCE || parameter_of(column).is_some();
             // A failure mode is printed beside its force.
             is_always
@@ -233,8 +234,8 @@ impl<'r> Ranking<'r> {
         let mut ranks = Vec::with_capacity(order.len());
         let mut rest = order.as_mut_slice();
         while let Some(&(best, _)) = rest.first() {
-            // Compare with the best, not with the previous design: many small steps would make all
-            // equal.
+            // Compare with the best design, not with the previous one: a chain of small differences
+            // would make all designs equal.
             let equal = rest.partition_point(|(score, _)| is_as_good(*score, best));
             let (equals, others) = rest.split_at_mut(equal);
             // Within round-off, the order is given by the numbers of the designs.
@@ -304,7 +305,7 @@ impl<'r> Ranking<'r> {
         let mut winners: Vec<_> = self.wins.iter().collect();
         // Stable sort: equal shares are ordered by number.
         winners.sort_by_key(|(_, wins)| std::cmp::Reverse(wins.cells));
-        // Rows of these tables have no rank, which 0 stands for.
+        // Rows of these tables have no rank, so it is 0.
         winners.into_iter().map(|(&winner, _)| self.ranked(winner, Weights::BALANCED, 0)).collect()
     }
 

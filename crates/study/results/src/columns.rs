@@ -74,7 +74,8 @@ pub fn measure_of(name: &str) -> Option<Measure> {
 /// Returns true if a column is not valid once the surface of the substrate folds.
 pub fn is_invalid_after_fold(name: &str) -> bool {
     about(name).is_some_and(|(value, _)| {
-        // The fold itself, and forces up to it, are valid. A fold is a failure, too.
+        // The fold force itself, and failure forces up to the fold, stay valid. A fold counts as a
+        // failure, too.
         let before_fold = [name::SOUND_FORCE, name::FAILURE_FORCE, name::FIRST_FAILURE];
         let is_about_fold = before_fold.contains(&value.name) || value.name.starts_with("fold_");
         value.measure() == Some(Measure::Puncture) && !is_about_fold

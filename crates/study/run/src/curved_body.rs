@@ -11,7 +11,7 @@ use crate::solve::evaluator::Evaluator;
 /// A force on a curved body below this fraction of the force on a flat one is reported.
 const LOWER: f64 = 0.9;
 
-/// Describes how much less a design bears on curved bodies than on a flat one.
+/// Describes how much less force a design withstands on curved bodies than on a flat one.
 ///
 /// Returns `None` if the force falls by less than a tenth, if the definition states a body or no
 /// thickness in mm, or if the design is slow to solve.
@@ -44,7 +44,7 @@ pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
     })
 }
 
-/// Describes how much less design `number` of `sweep` bears on curved bodies; see
+/// Describes how much less force design `number` of `sweep` withstands on curved bodies; see
 /// [`curved_body_warning`].
 pub fn flat_design_warning(sweep: &Sweep, number: &str) -> Option<String> {
     let grid = sweep.grid();

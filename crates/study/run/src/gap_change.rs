@@ -128,7 +128,8 @@ pub(crate) fn value(known: &[Column<DesignRow>], name: &str, row: &DesignRow) ->
 /// Returns an evaluator of the measures of `sweep` that `columns` need.
 pub(crate) fn evaluator_of(sweep: &Sweep, columns: &[&str]) -> Evaluator {
     let mut measures = sweep.plain_measures();
-    // The names of some columns, as of those at further tilts, tell no measure.
+    // Some columns, such as those at further tilts, belong to no measure by their name. They keep
+    // all measures.
     measures.retain(|measure| {
         columns.iter().any(|column| measure_of(column).is_none_or(|own| own == *measure))
     });

@@ -174,7 +174,7 @@ fn gather(
     for source in sources {
         readers.push((source, source.archive.entries()?));
     }
-    // The archive before appending; new lines belong to other designs.
+    // The archive as it was before the merge; lines appended here belong to other designs.
     let before = Archive::open(out)?;
     // A second handle reads entries at their offsets, which stay valid while the journal grows.
     let mut there = before.entries()?;

@@ -46,7 +46,7 @@ pub(crate) fn begin(
     if let Some(note) = adopted {
         journal.note(note);
     }
-    // A fresh start has discarded the lines.
+    // After a fresh start the journal has no lines to check.
     if start == Start::Fresh { Ok(journal) } else { checked(journal, folder) }
 }
 

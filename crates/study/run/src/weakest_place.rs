@@ -57,8 +57,8 @@ impl WeakestPlace {
 fn coupled_cases(case: &Case) -> Vec<Case> {
     let mut coupled = Case { coupling: Coupling::Full, ..*case };
     coupled.puncture.places = None;
-    // `puncture.places` locates no failures, so each position is a design of its own. The row across
-    // has no such positions: it is compared once, with the requested design.
+    // `puncture.places` locates no failures, so solve each position as a separate design. The row
+    // across has no such positions: it is compared once, with the requested design.
     let mut placed = Case { across: false, gap_across: None, load_inset: None, ..coupled };
     let positions = case.punctured().positions(PLACES, &case.design);
     let placed = positions.into_iter().map(|position| {

@@ -32,7 +32,7 @@ pub struct Case {
     pub judge_failure: bool,
     /// Force of the needle, over `E_s t²`, at which the pressure on the tissue is measured.
     pub needle_force: Option<f64>,
-    /// The same force in N, if it is given in N.
+    /// Force of the needle in N, if the definition gives it in N.
     pub needle_force_n: Option<f64>,
     /// Whether the row across is solved.
     pub across: bool,

@@ -240,7 +240,7 @@ impl Sweep {
     /// Omits the length of a strip if the number of gaps is given, and the critical tilt if the
     /// friction of the needle is given.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
-        // Computed once, because comparing all pairs of parameters was slow.
+        // Filter the list once: comparing all pairs of parameters was slow.
         let alone: Vec<_> = PARAMETERS.iter().filter(|other| self.gives_alone(other)).collect();
         PARAMETERS
             .iter()

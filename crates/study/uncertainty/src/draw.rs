@@ -105,7 +105,7 @@ mod tests {
         let both = drawn("length_over_t = { batch_sd = 0.1 }\ngap_over_t = { batch_sd = 0.01 }", 7);
         assert_eq!(one[0], both[1]);
         assert_ne!(one, drawn("gap_over_t = { batch_sd = 0.01 }", 8));
-        // Twice the standard deviation, same normal number.
+        // The same normal number with twice the standard deviation.
         let twice = drawn("gap_over_t = { batch_sd = 0.02 }", 7);
         assert_eq!(twice[0], one[0].map(|by| 2.0 * by));
     }

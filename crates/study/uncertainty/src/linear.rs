@@ -21,7 +21,7 @@ pub enum DeviationLevel {
 /// A source of deviations, and its contribution to the spread of a measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceShare {
-    /// Key of the source in the definition.
+    /// Each scale has a separate deviation.
     pub source: String,
     /// Scales that share a deviation.
     pub level: DeviationLevel,

@@ -63,7 +63,8 @@ impl Sampler {
     /// `None` if no deviations within the bounds of the parameters are found.
     pub fn even_case(&self, case: &Case, sample: u64) -> Option<Case> {
         let (made, _) = draw::sample(case, &self.deviations, sample)?;
-        // Derivatives are computed for even rows; scatter affects the values only.
+        // Keep the scatter of the nominal case: derivatives are computed for rows without scatter,
+        // which changes only the values.
         Some(Case { imperfection: case.imperfection, ..made })
     }
 }

@@ -27,7 +27,7 @@ impl<'a> DesignAnswer<'a> {
         Self { sweep, row, requirements, columns: design_columns(sweep) }
     }
 
-    /// Lists the required values with limit and margin, and the depth beside a force.
+    /// Lists the required values with limit and margin, and the needle depth at a required force.
     pub fn rows(&self) -> Vec<Vec<String>> {
         let mut rows: Vec<Vec<String>> = Vec::new();
         for requirement in self.requirements {
@@ -45,7 +45,8 @@ impl<'a> DesignAnswer<'a> {
         rows
     }
 
-    /// Lists the depth beside a required force, and the bare needle beside a required pressure.
+    /// Lists the needle depth at a required force, and the pressure of the bare needle if the
+    /// pressure on the tissue is required.
     pub fn further_rows(&self) -> Vec<Vec<String>> {
         let bare = self.bare_needle().map(|bare| {
             let words = format!("kPa; the skin lowers it {} times", digits(bare.reduction));

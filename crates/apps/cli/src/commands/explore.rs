@@ -57,7 +57,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     let failed = failed.map(|check| format!("The optimum fails a check: {check}"));
     requirements.extend(searched.requirements);
     requirements.extend(arguments.required.read()?);
-    // On the page they would never have a value.
+    // The page solves no samples, so requirements on samples would never have a value there.
     let of_samples = requirements.extract_if(.., |of| Statistic::named(&of.column).is_some());
     for requirement in of_samples {
         note(&format!(
@@ -137,6 +137,6 @@ fn open(page: &Path) -> bool {
     let mut command = Command::new(program);
     // Browsers would print messages to the terminal.
     command.arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    // Not waited for: the browser may run for hours.
+    // Do not wait for the browser, which may run for hours.
     command.spawn().is_ok()
 }

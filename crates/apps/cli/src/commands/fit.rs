@@ -133,7 +133,7 @@ fn write(folder: &ResultsFolder, fitted: &Fitted) -> anyhow::Result<()> {
 fn fitted_toml(fitted: &Fitted) -> String {
     let mut text = fitted.sweep.to_toml();
     let deviations: Vec<_> = fitted.scatter.iter().filter_map(deviation).collect();
-    // A definition with tolerances of its own keeps them.
+    // Tolerances in the definition take precedence.
     if !deviations.is_empty() && fitted.sweep.deviations().is_empty() {
         let _ = write!(text, "\n[tolerance]\n{}\n", deviations.join("\n"));
     }

@@ -15,7 +15,7 @@ use super::source::{Defined, defined_by, require_folder_of};
 use crate::print::{counted, print};
 
 /// Names and texts of the templates; each name is also the default name of its sweep.
-// The first is the default.
+// The first template is the default.
 const TEMPLATES: [(&str, &str); 10] = [
     ("paper", include_str!("../../sweeps/paper.toml")),
     ("smoke", include_str!("../../sweeps/smoke.toml")),

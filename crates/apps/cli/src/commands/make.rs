@@ -136,7 +136,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     if format.is_none() && !case.body().is_flat() {
         note("the finite-element deck is flat, although the design has a body");
     }
-    // Before the analysis, because a row may be too long.
+    // Build the deck before the analysis, because it rejects rows that are too long.
     let deck = match format {
         None => deck(&patch, &puncture(&case), &design.title())?,
         Some(_) => String::new(),

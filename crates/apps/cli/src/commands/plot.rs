@@ -238,7 +238,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
             limits,
         })
         .collect();
-    // `select` refuses to select none.
+    // `select` returns an error if no design is selected.
     let sweep = &designs[0].sweep;
     let mut files = FigureFiles::new(&arguments.output, || {
         folder_within(&arguments.definition, sweep, "curves")
@@ -273,7 +273,7 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
         read.extend(MeasuredCurve::read(file, arguments.measured_columns.as_deref())?);
     }
     let Some(first) = read.first() else { return Ok(None) };
-    // All are drawn in one panel with one pair of axes.
+    // All curves are drawn in one panel with one pair of axes.
     let kind = (first.test, first.is_physical);
     if let Some(other) = read.iter().find(|curve| (curve.test, curve.is_physical) != kind) {
         bail!(
@@ -321,7 +321,7 @@ const AT_THE_TILT: f64 = 1.0 - 1e-9;
 fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure, Vec<FailureLimit>)> {
     let substrate = substrate(case)?;
     let mut common = case.common;
-    // Steps that are short enough for a smooth line.
+    // Use steps that are short enough for a smooth line.
     common.solver.max_step = common.solver.max_step.min(CURVE_STEP);
     let parameters = case.punctured();
     let alone = PunctureParameters { places: None, ..parameters };

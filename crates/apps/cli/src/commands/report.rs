@@ -170,7 +170,8 @@ fn judged_modes(sweep: &Sweep) -> Vec<Fact> {
     facts.collect()
 }
 
-/// Describes how much less a leading design bears on curved bodies, if the sweep was solved flat.
+/// Describes how much less force a leading design withstands on curved bodies, if the sweep was
+/// solved flat.
 ///
 /// Returns `None` if no leading design bears less.
 fn flat_body(sweep: &Sweep, rankings: &[Ranking<'_>]) -> Option<String> {

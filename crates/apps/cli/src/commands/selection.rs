@@ -120,7 +120,9 @@ fn select_from_front(
     selection.numbers.iter().map(select).collect()
 }
 
-/// Returns the definition of one design of a goal, the basis of all others.
+/// Returns the definition of a single design of a goal.
+///
+/// Settings change its values to select other designs.
 fn nominal(goal: &DesignGoal) -> String {
     let space = goal.space.sweep();
     space.at(&space.grid().case(0)).to_toml()

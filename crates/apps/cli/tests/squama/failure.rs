@@ -110,7 +110,8 @@ fn curves_mark_the_limits_of_a_design() {
     assert!(!figure.contains("class=\"limits\""), "{figure}");
 }
 
-/// Searches like the goal for a strong skin, and checks every mode in a run of its own.
+/// Searches with the goal for a strong skin, and solves the result again to check every failure
+/// mode.
 #[test]
 fn the_advised_skin_fails_in_no_mode_below_its_failure_force() {
     let place = Place::new();
@@ -122,13 +123,15 @@ fn the_advised_skin_fails_in_no_mode_below_its_failure_force() {
 
     let solved = json(&place.prints("design found/optimum.toml --design 1 --json"));
     let force = number(&solved, "failure_force_N");
-    // The row along ends by a tilt at a larger force. Up to there no limit is reached.
+    // The puncture along the row ends at the critical tilt, at a larger force, and no strength is
+    // exceeded before that.
     assert!(number(&solved, "critical_force_N") > force);
     assert!(number(&solved, "scale_stress_max_MPa") < 50.0);
     assert!(number(&solved, "bond_stress_max_MPa") < 0.3);
     let length =
         number(&json(&place.prints("design found/optimum.toml --design 1 --json")), "length_mm");
-    // The tip deflects by less than it would at a rotation of 5°, which is 1.5 times the chord.
+    // The limit is a tip rotation of 5°. The tip of a cantilever under an end load rotates by 1.5
+    // times the angle of its chord.
     assert!(number(&solved, "scale_deflection_max_mm") < length * 5.0_f64.to_radians() / 1.5);
     assert_eq!(solved["measures"]["fold_force"], Value::Null);
 

@@ -106,7 +106,8 @@ fn matches(pattern: &Value, text: &str) -> bool {
     let pattern = pattern.as_str().expect("a pattern");
     let words = pattern.strip_prefix("^(").and_then(|rest| rest.strip_suffix(")$"));
     words.expect("a list of words").split('|').any(|word| {
-        // Each letter stands in brackets, in upper and lower case; a blank stands alone.
+        // The pattern has a pair of brackets for each letter, with its upper and lower case; a
+        // blank has no brackets.
         let letters: String =
             word.split(['[', ']']).filter_map(|class| class.chars().last()).collect();
         letters == text.to_lowercase()

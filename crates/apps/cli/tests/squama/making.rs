@@ -44,7 +44,7 @@ fn a_patch_has_at_most_the_requested_size() {
     };
     let (length, pitch) = (value("length along the rows"), value("pitch along"));
     assert!(length <= 30.0 && length + pitch > 30.0, "{text}");
-    // The first line of a width is the width of a scale.
+    // The first line that begins with "across" states the number of scales.
     assert!(value("across") * value("pitch across") <= 20.0, "{text}");
     let refusal = place.refused("make x.toml --design 1 --patch 1x1");
     assert!(refusal.contains("--patch: smaller than one scale"), "{refusal}");

@@ -159,7 +159,7 @@ fn a_rounded_design_states_its_loss() {
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
     assert_eq!(record["optimum"]["variables"]["gap_over_t"], 0.8);
     assert_eq!(record["optimum"]["rounding"]["step"], 0.1);
-    // Between a coverage of 0.5 and this mass is no multiple.
+    // No multiple of 0.1 meets both the coverage and this mass.
     let goal = GOAL.replace("'coverage >= 0.5'", "['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54']");
     let output = Place::with(&goal).squama("optimise x.toml --round 0.1").assert().code(1);
     let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
@@ -407,7 +407,7 @@ fn a_requirement_that_a_check_contradicts_fails_the_search() {
         let warnings = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
         assert!(warnings.contains(sentence), "{command}: {warnings}");
     }
-    // The pages repeat it, too.
+    // The interactive page and the report repeat the sentence, too.
     place.prints("explore results/firm --out e.html");
     let page = place.read("e.html");
     let (_, header) = page.split_once("</h1>").expect("a header");
@@ -425,7 +425,7 @@ fn a_requirement_that_a_check_contradicts_fails_the_search() {
             .contains("\"notes\":[\"The optimum of results/firm fails a check: ")
     );
     std::fs::write(place.path("x.toml"), goal).expect("writable");
-    // The search continues with a tighter limit, and no longer.
+    // With `confirm` the search tightens the limit only as far as the check requires.
     place.squama("optimise x.toml --set goal.confirm=true --out c").assert().code(0);
     let full = place.prints("design c --set substrate.coupling=full --json --out d");
     let full: serde_json::Value = serde_json::from_str(&full).expect("JSON");

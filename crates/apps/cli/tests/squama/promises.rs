@@ -47,7 +47,7 @@ fn no_command_overwrites_a_foreign_file() {
         let message = place.refused(command);
         assert!(message.starts_with(&format!("error: {file}: cannot be written")), "{message}");
         assert_eq!(place.read(&file), "mine", "{command}");
-        // Its own file may be overwritten.
+        // The command may overwrite its own file.
         fs::remove_file(place.path(&file)).expect("a file");
         for _ in 0..2 {
             let again = command.replace("--out out", "--out again").replace("--fresh", "");

@@ -52,7 +52,7 @@ fn the_best_design_without_a_fold_is_listed_beside_a_folded_winner() {
     let printed = place.prints("rank a --weights 0,1,0,0");
     let best = printed.lines().find(|line| line.contains("  0002 ")).expect("a row");
     assert!(best.contains("best without a fold"), "{printed}");
-    // It is marked wherever it is listed.
+    // The folded design is marked in every line that lists it.
     let named = printed.lines().filter(|line| line.contains("0001"));
     assert!(
         named.clone().count() > 1 && named.clone().all(|line| line.contains("0001⚠")),
@@ -211,7 +211,7 @@ fn a_ranking_prints_two_blocks() {
     let place = place();
     let printed = place.prints("rank a --require coverage>=0.1");
     let blocks: Vec<&str> = printed.trim_end().split("\n\n").collect();
-    // Also the title, and the names of the files.
+    // The other two blocks are the title and the names of the files.
     assert_eq!(blocks.len(), 4, "{printed}");
     assert!(blocks[1].starts_with("Best by") && blocks[2].starts_with("The best design: 0002"));
     assert!(blocks[1].contains("best coverage") && blocks[1].contains("pareto.csv"), "{printed}");

@@ -16,7 +16,7 @@ pub struct FailureLimit {
     /// `u*` at which the path first reaches the limit; `None` for a limit across the row, which has
     /// a force alone.
     pub displacement: Option<f64>,
-    /// `F*` there.
+    /// `F*` at the limit.
     pub force: f64,
     /// True for the first failure of the design.
     pub is_first: bool,

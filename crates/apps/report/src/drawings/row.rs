@@ -20,7 +20,7 @@ use crate::svg::{Element, Spot, arrow, circle, line, polygon, polyline, px, rect
 const LARGEST: f64 = 130.0;
 /// Maximum width of the drawn row, in units of `t`.
 const WIDEST: f64 = 44.0;
-/// Limit for scales outside the drawing: fraction of the largest displacement.
+/// Largest displacement of a scale left out of the drawing, over the largest displacement.
 const STILL: f64 = 0.01;
 /// Depth of substrate below the deepest corner, px.
 const SUBSTRATE: f64 = 26.0;

@@ -102,7 +102,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     let held = designs.at(&request.at)?;
     let mut axes = Vec::new();
     for (option, axis) in [("--x", &request.x), ("--y", &request.y)] {
-        // A length in mm stands for the length over the thickness.
+        // A length in mm selects the axis of the same length over the thickness.
         let varied = held.varied_as(axis).filter(|varied| designs.has(varied));
         axes.push(varied.ok_or_else(|| InvalidMap::NoAxis {
             option,
@@ -337,7 +337,7 @@ impl MapSubject<'_> {
         let ticks = self.scale.ticks(6).into_iter();
         ticks
             .filter_map(|tick| Some((self.scale.place(tick.value)?, tick.label?)))
-            // A contour at an end of the scale would separate nothing.
+            // A contour at an end of the scale would have all values on one side.
             .filter(|(place, _)| (0.01..0.99).contains(place))
             .collect()
     }

@@ -25,7 +25,7 @@ const BETWEEN: [f64; 2] = [12.0, 28.0];
 const HEIGHT: f64 = 190.0;
 /// Minimum width of a panel, px.
 const LEAST: f64 = 120.0;
-/// Maximum number of panels; of more gaps only some are shown.
+/// Maximum number of panels; with more gaps, only a selection of them is shown.
 const PANELS: usize = 15;
 
 /// Returns the column of the horizontal axis and the column of the panels.

@@ -18,7 +18,7 @@ const WIDTH: f64 = 1000.0;
 const LISTED: [usize; 2] = [9, 4];
 /// Height of an entry of the list, px.
 const ENTRY: f64 = 58.0;
-/// Width that has no room for a list beside the slices, px.
+/// Width of paper below which the list of winners does not fit beside the slices, px.
 const NARROW: f64 = 700.0;
 
 pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>, paper: Paper) -> String {

@@ -52,7 +52,7 @@ impl<W: Write> FigureWriter<'_, W> {
         Ok(())
     }
 
-    /// Writes the figure of a kind that has at most one.
+    /// Writes the only figure of a kind, if there is one.
     fn only(&mut self, kind: &str, choice: &str, svg: Option<String>) -> io::Result<()> {
         svg.map_or(Ok(()), |svg| self.add(kind, choice, &Map::new(), &svg))
     }

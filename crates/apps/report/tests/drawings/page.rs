@@ -138,7 +138,8 @@ fn further_axes_have_separate_figures_for_each_value() {
             "critical-force-by-gap-aspect-slant-width-over-t-0.5"
         ]
     );
-    // Each figure has half of the marks and states its value.
+    // Each value of the width has its own figure, with half of the marks and the value in its
+    // title.
     for (figure, width) in forces.iter().zip(["2", "0.5"]) {
         assert!(figure.svg.contains(&format!("x, b/t = {width}: critical force")));
     }
@@ -156,7 +157,7 @@ fn pages_are_complete_and_reproducible() {
     }
     // A hostile name must not end the script that holds the data.
     assert!(!html.contains("a </script>"));
-    // Neither may other text open a comment or a script inside it.
+    // Other text must not open a comment or a script inside the data either.
     let hostile = Page {
         name: "<!--<script>\u{202e}x".to_owned(),
         folder: "a b/<!--".to_owned(),

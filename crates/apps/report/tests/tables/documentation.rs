@@ -238,7 +238,7 @@ fn the_examples_of_the_contribution_guide_apply() {
     let guide = text("CONTRIBUTING.md");
     for example in ["column", "parameter", "command"] {
         let file = format!("docs/contributing/{example}.patch");
-        // Reversed in a tree in which somebody has followed the example.
+        // `--reverse` succeeds if the example has been applied to the working tree.
         let applies = [&["--check"][..], &["--check", "--reverse"]].iter().any(|options| {
             let mut git = Command::new("git");
             git.arg("apply").args(*options).arg(&file).current_dir(root());

@@ -45,7 +45,8 @@ pub(crate) fn change(
     state: &SkinState,
     settings: &Settings,
 ) -> Option<f64> {
-    // Solve both in the same way, so that both slopes belong to the contacts of the state.
+    // Solve on both meshes by the same method, so that both slopes are taken with the contacts of
+    // `state`.
     let ours = quantities(strip, state.clone(), settings)?;
     let theirs = quantities(finer, strip.transferred(state, finer)?, settings)?;
     largest_change(ours, theirs)

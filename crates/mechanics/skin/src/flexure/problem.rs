@@ -229,7 +229,7 @@ impl<'a> FlexureProblem<'a> {
             record.visit(&mut path, &from, &point);
             steps.push(path.system().steps(&point.state.z));
         }
-        // The path was left before it ended, so it has no stop reason of its own.
+        // The loop ended before the path did, so the path has no stop reason.
         let stop = if flush { Some(Termination::Singular) } else { path.termination() };
         let status = match Status::of(&path, stop.unwrap_or(Termination::Reached)) {
             Status::Stopped(stop) if stop.is_numerical() && (flush || locks(&record.path)) => {

@@ -192,7 +192,8 @@ impl FlexureProblem<'_> {
 
     /// Removes derivatives of the compliance if scales are about to touch at the end.
     ///
-    /// The compliance jumps at contact, which its value at rest does not show.
+    /// The compliance jumps at first contact, so the derivative without contact is valid on one
+    /// side only.
     fn mark_touching(
         &self,
         derivatives: &mut [Derivative],

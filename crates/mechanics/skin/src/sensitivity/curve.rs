@@ -54,7 +54,7 @@ pub(crate) fn curve_point<S: Skin>(
         .map(|(x, y)| {
             match (side(x.left, y.left), side(x.right, y.right)) {
                 (Some(left), Some(right)) => Some(0.5 * (left + right)),
-                // If one side has no equilibrium the other one stands for both.
+                // If one side has no equilibrium, use the rate of the other side for both.
                 (left, right) => left.or(right),
             }
         })

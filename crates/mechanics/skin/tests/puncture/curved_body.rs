@@ -193,7 +193,7 @@ struct TwoBlocks {
     half: f64,
     /// Condensed stiffness of the loaded block: vertical, rotation.
     stiffness: [f64; 2],
-    /// Displacement of the neighbour over the one of the loaded block: vertical, rotation.
+    /// Displacement of the neighbour over the displacement of the loaded block: vertical, rotation.
     follows: [f64; 2],
     /// Node of the neighbour, and the angle of its frame.
     node: [f64; 2],

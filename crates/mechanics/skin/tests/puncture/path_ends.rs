@@ -87,7 +87,7 @@ fn random_pairs(count: usize, seed: u64) -> Vec<Pair> {
 enum Outcome {
     /// The first design has no usable end.
     NoStart,
-    /// The end was not found from there.
+    /// The end of the second design was not found from the end of the first one.
     NotFound,
     Agrees,
     Differs,

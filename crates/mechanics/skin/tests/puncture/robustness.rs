@@ -124,7 +124,7 @@ fn paths_to_large_tilts_stop_for_mechanical_reasons() {
     assert!(off_edge > designs.len() / 3, "{off_edge}");
 }
 
-/// Tips slide along bases and tops, to their ends and around the corners there.
+/// Tips slide along bases and tops, and around the corners at their ends.
 #[test]
 fn scales_steeper_than_the_study_are_solved() {
     let known = Calibrations::default();

@@ -49,7 +49,7 @@ fn a_bump_within_one_step_is_not_missed() {
     assert_relative_eq!(places[1], 3.0, max_relative = 1e-10);
 }
 
-/// From any point and with a step of any length.
+/// The bump is found from any point and with steps of any length.
 #[test]
 fn a_bump_within_a_later_step_is_not_missed() {
     for (start, step) in [(0.4, 1.0), (0.9, 0.7), (0.7, 0.6)] {

@@ -169,7 +169,7 @@ impl CurveTable<'_> {
             let index = self.specimen(entry, &curves)?;
             curves = vec![curves.swap_remove(index)];
         }
-        // Messages name the file as the definition does, without the folder.
+        // Messages name the file as written in the definition, without the folder.
         for curve in &mut curves {
             curve.set_file(file);
         }

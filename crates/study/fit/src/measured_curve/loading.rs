@@ -52,11 +52,11 @@ pub enum CurveEventKind {
 pub struct CurveEvent {
     /// Kind.
     pub kind: CurveEventKind,
-    /// Line of the last point before it.
+    /// Line of the last point before the event.
     pub line: u64,
-    /// Displacement or curvature there.
+    /// Displacement or curvature at the event.
     pub at: f64,
-    /// Number of points that are left out of a fit because of it.
+    /// Number of points that the fit leaves out because of the event.
     pub left_out: usize,
 }
 

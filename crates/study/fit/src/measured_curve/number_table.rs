@@ -104,7 +104,7 @@ impl Rows {
         columns.iter().all(|column| self.number(self.all[row].cell(*column)).is_some())
     }
 
-    /// Returns true if a row has no text in columns of numbers of the row `like`.
+    /// Returns true if a row has no text in the columns that are numbers in the row `like`.
     pub(super) fn is_like(&self, row: usize, like: usize) -> bool {
         let mut cells = self.all[row].cells.iter().zip(&self.all[like].cells);
         cells.all(|(cell, other)| {

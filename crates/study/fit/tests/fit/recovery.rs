@@ -268,7 +268,7 @@ fn counted(kind: usize, number: u64, noise: [f64; 2]) -> Counts {
 
 #[test]
 fn exact_curves_recover_the_parameters() {
-    // A test of its own recovers the slow tissue.
+    // A separate test covers the tissue, which is slow.
     let step = if campaign()[0] == 0 { 2 } else { 1 };
     let kinds = KINDS.iter().enumerate().filter(|(kind, _)| *kind != 4);
     for (kind, (name, _)) in kinds.step_by(step) {

@@ -49,7 +49,7 @@ pub(crate) struct SolvedLine {
     pub result: DesignResult,
 }
 
-/// A point that cannot be solved from the end at another one.
+/// A point that cannot be solved from the path end at another point.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FarLine {
@@ -115,13 +115,13 @@ pub(crate) struct Known {
     /// Points of nominal designs in the order in which they were solved, each once.
     pub order: Vec<(SpacePoint, Arc<DesignResult>)>,
     points: HashSet<PointKey>,
-    /// Points that cannot be solved from the end at another one, with that one.
+    /// Pairs of points: the first one cannot be solved from the path end at the second one.
     far: HashSet<[PointKey; 2]>,
     pub sampled: HashMap<SamplesKey, Arc<Samples>>,
 }
 
 impl Known {
-    /// Returns true if a point is known to be too far from the end at another one.
+    /// Returns true if a point is known to be too far from the path end at another point.
     pub fn is_far(&self, key: &EvaluationKey) -> bool {
         let near = key.near.as_ref();
         near.is_some_and(|near| self.far.contains(&[key.point.clone(), near.clone()]))
@@ -151,7 +151,8 @@ impl Records for Known {
                 let result = Arc::new(result);
                 let key = EvaluationKey { differentiated, near, sample, point: of_point.clone() };
                 self.solved.insert(key, Arc::clone(&result));
-                // A point may be solved with and without derivatives, from rest and from an end.
+                // The journal may contain several results of one point: with and without
+                // derivatives, solved from rest or from a neighbouring end. List the point once.
                 if sample.is_none() && self.points.insert(of_point) {
                     self.order.push((point, result));
                 }

@@ -15,7 +15,7 @@ use crate::space::SpacePoint;
 /// Largest first-order gain of a certain optimum, relative to the objective.
 const GAIN: f64 = 1e-8;
 
-/// Negative slack before contact of the design behind the border of contact in bending.
+/// Distance of a design just beyond first contact in bending from the border of contact, as slack.
 const BEHIND: f64 = 1e-4;
 
 /// Relative shortfall up to which the design behind the border counts as feasible.
@@ -29,7 +29,8 @@ impl LocalSearch<'_> {
         if search.judge.samples().is_some() || !matches!(self.best_merit(), Merit::Met(_)) {
             return Ok(false);
         }
-        // The gradient search has evaluated its end already.
+        // The gradient search has already evaluated the design at which it ended, so this is
+        // cached.
         let (_, row) = search.evaluate(SearchStage::Gradient, &best.point, true)?;
         match first_order_gain(search, &best, &row, self.target) {
             Some((gain, is_beside_contact)) if gain <= GAIN => {
@@ -39,7 +40,8 @@ impl LocalSearch<'_> {
         }
     }
 
-    /// Returns true if designs with contact in bending are no continuation of the best design.
+    /// Returns true if designs just beyond first contact in bending are infeasible or cannot be
+    /// judged.
     ///
     /// The compliance jumps at contact. If it remains large enough there, the design behind the
     /// border may be as good.

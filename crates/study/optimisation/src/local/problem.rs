@@ -133,7 +133,8 @@ impl<'a> LocalProblem<'a> {
         if self.stays_open {
             continue_compliance(&mut row.nominal);
         }
-        // Samples are not continued.
+        // Continuing coverage or compliance smoothly beyond a border applies to nominal designs
+        // only.
         if self.walk.search.judge.samples().is_none() && (self.piece.is_some() || self.stays_open) {
             candidate.verdict = self.walk.search.judge.verdict(&row.nominal);
         }
@@ -146,11 +147,13 @@ impl<'a> LocalProblem<'a> {
     /// At a kink, gradient steps become ever smaller.
     fn end_if_stalled(&self, shares: &[f64]) -> Result<(), Halt> {
         let (last, count) = &mut *self.still.borrow_mut();
-        // Cost, gradient and limits at the same point are not steps.
+        // The solver requests cost, gradient and limits at one point one after the other. Only a
+        // change of the point is a step.
         if last.as_slice() == shares {
             return Ok(());
         }
-        // Maximum over all intervals: a search that still moves in one has not converged.
+        // Take the maximum over all intervals: a search that still moves along any of them has not
+        // converged.
         let step = last.iter().zip(shares).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         *count = if !last.is_empty() && step < STILL { *count + 1 } else { 0 };
         shares.clone_into(last);

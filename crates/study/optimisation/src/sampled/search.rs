@@ -31,8 +31,9 @@ const CONFIRMED: usize = 4;
 /// Length of such a step over the length to first order.
 const OVERSHOOT: f64 = 1.3;
 
-/// Fraction of the samples, as its inverse, with margins raised by such a step on either side of the
-/// quantile that the yield requires.
+/// Inverse of the fraction of samples with margins that such a step raises.
+///
+/// These samples lie next to the quantile that the yield requires, on either side.
 const NEAR: usize = 10;
 
 /// Number of projections on every gradient.

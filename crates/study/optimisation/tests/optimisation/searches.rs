@@ -62,8 +62,8 @@ fn a_search_does_not_confirm_an_optimum_that_derivatives_prove() {
     let best = optimum(&found);
     assert!((objectives(best)[0] - 2.141_936_6).abs() < 2e-6, "{:?}", objectives(best));
     let of_stage = |stage| found.history.iter().filter(|c| c.stage == stage).count();
-    // One of three full searches still follows a ridge for a single round; each would need 43
-    // designs.
+    // One of the three full searches still follows a ridge for one round. Each of them would
+    // otherwise need 43 evaluations.
     let confirming = of_stage(SearchStage::Ridge) + of_stage(SearchStage::Polish);
     assert!(confirming < 43, "{confirming}");
     let searched = found.history.iter().filter_map(|c| c.result.puncture);

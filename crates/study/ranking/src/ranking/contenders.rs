@@ -135,7 +135,7 @@ impl Contenders {
         for (place, value) in values.iter_mut().enumerate() {
             *value = criterion(preferences, place % count, *value);
         }
-        // Of criteria as they are: who beats whom needs neither weights nor rescaling.
+        // Dominance needs neither weights nor rescaling, so use the criteria as they are.
         let on_front = front_of(&values, count);
         let spans = spans(&values, count).into_iter().zip(is_tie).take(count);
         let spans = spans.map(|(span, is_tie)| (!is_tie).then_some(span)).collect();
@@ -154,7 +154,7 @@ impl Contenders {
 
     /// Rescales criterion `c` from 0, the worst, to 1, the best.
     pub fn rescaled(&self, c: usize, criterion: f64) -> f64 {
-        // A value equals the end of the span up to round-off and may be beyond it.
+        // Round-off may put a value slightly outside the span.
         self.spans[c].map_or(1.0, |span| rescaled(criterion, span).clamp(0.0, 1.0))
     }
 }

@@ -208,7 +208,7 @@ impl ValueColumn {
         self.quantity.is_some() || matches!(self.value.value, Value::ArealMass)
     }
 
-    /// Returns true if the designs of `sweep` have this column in `table`.
+    /// Returns true if designs of `sweep` have this column in `table`.
     ///
     /// `None` means in any table.
     pub(super) fn stands(&self, sweep: &Sweep, table: Option<&str>) -> bool {

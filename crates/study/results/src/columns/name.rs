@@ -42,7 +42,7 @@ pub const FIRST_FAILURE: &str = "first_failure";
 pub const CRITICAL_EVENT: &str = "critical_event";
 /// Depth at first contact of scales.
 pub const FIRST_CONTACT: &str = "first_contact_displacement";
-/// Tilt at which a guided needle first touches more than its face.
+/// Tilt at which a guided needle first touches a face other than the one it was set down on.
 pub const PASSING_TILT: &str = "passing_tilt_deg";
 /// Stretch of the tightest gap. Not above 0 where the surface is folded.
 pub const GAP_STRETCH_MIN: &str = "gap_stretch_min";

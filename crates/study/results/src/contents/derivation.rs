@@ -25,7 +25,7 @@ pub struct Derivation {
     /// Part of the run that the tables covered, if the run was incomplete.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub made_from: Option<String>,
-    /// SHA-256 of its files, by name in the folder, or by path for files elsewhere.
+    /// SHA-256 of the files of the product, by name in the folder, or by path for files elsewhere.
     pub files: BTreeMap<String, String>,
 }
 
@@ -80,12 +80,12 @@ impl Derivation {
         records
     }
 
-    /// Returns true if any of its files still exists.
+    /// Returns true if any file of the product still exists.
     pub fn is_there(&self, folder: &ResultsFolder) -> bool {
         self.files.keys().any(|name| folder.file(name).is_file())
     }
 
-    /// Removes its unchanged files in `folder` and returns their names.
+    /// Removes the unchanged files of the product in `folder` and returns their names.
     ///
     /// Files elsewhere and files that a user has changed are kept.
     pub(super) fn remove(&self, folder: &ResultsFolder) -> Vec<String> {

@@ -343,7 +343,7 @@ impl VerifiedFolder {
 /// If `path` is the record of a run and differs from the record that the run wrote.
 pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     let (Some(name), Some(folder)) = (path.file_name(), path.parent()) else { return Ok(()) };
-    // A copy under another name is a definition of its own, as the message advises.
+    // A copy under another name is accepted as a definition, as the message advises.
     let is_record = name == ResultsFolder::RUN_INFO && path.is_file();
     let stated = is_record.then(|| Contents::stated_in(&ResultsFolder::new(folder))).flatten();
     let expected = stated.and_then(|contents| contents.files.get(ResultsFolder::RUN_INFO).cloned());

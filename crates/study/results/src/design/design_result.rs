@@ -199,12 +199,13 @@ fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
 
 /// Returns outcome and measures.
 ///
-/// If a number is not finite: the reason, and only `few` measures.
+/// If a number is not finite, the outcome is [`Outcome::NotFinite`] unless the path stopped for
+/// another reason, and only the `few` measures are returned.
 fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
     match outcome {
         _ if finite => (outcome, measures),
         Outcome::Complete => (Outcome::NotFinite, few),
-        // The reason why the path stopped says more than `NotFinite`.
+        // Keep the reason why the path stopped: it is more specific than `NotFinite`.
         stopped => (stopped, few),
     }
 }

@@ -165,7 +165,8 @@ impl Table {
 
     /// Returns true if a cell is empty.
     pub fn is_empty(&self, row: usize, column: usize) -> bool {
-        // The text of an empty cell takes nothing to make, and whoever has a number is not empty.
+        // Test for a number first: formatting a number as text is slow, and a cell with a number is
+        // not empty.
         self.number(row, column).is_none() && self.text(row, column).is_empty()
     }
 

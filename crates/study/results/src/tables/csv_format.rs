@@ -123,7 +123,7 @@ fn is_number(cell: &str) -> bool {
 /// Returns true for a text that a spreadsheet evaluates, or that reads as a marked text.
 fn needs_mark(cell: &str) -> bool {
     let text = cell.trim_start_matches(TEXT_MARK);
-    // A sign alone is a text: `-` stands for no unit.
+    // A single sign is text, such as `-` in place of a unit.
     text.len() > 1 && text.starts_with(['=', '+', '-', '@', '\t', '\r']) && !is_number(text)
 }
 

@@ -36,7 +36,7 @@ impl Index {
         match self.offset(position) {
             None => self.done += 1,
             // The first repeated line of a design adds the known line to the list of reruns. Most
-            // designs are solved once and need no space there.
+            // designs are solved once and take no space in that list.
             Some(known) if self.lines(position).next().is_none() => {
                 self.reruns.insert((position, 0), known);
             }

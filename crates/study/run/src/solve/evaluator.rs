@@ -46,7 +46,7 @@ pub struct Evaluator {
     across: Mutex<VecDeque<(Case, AcrossForces)>>,
 }
 
-/// Forces of a row across, over its own length.
+/// Forces of a row across, in units that contain the length of the scales in that row.
 #[derive(Clone, Copy, Debug)]
 struct AcrossForces {
     outcome: Outcome,
@@ -280,7 +280,7 @@ impl Evaluator {
                 .and_then(|row| samples::punctured(&case, &substrate, &row))
         };
         let mut result = guarded(punctured)?.ok_or(Outcome::Internal)?;
-        // The row across has no scatter.
+        // Random gaps and slants apply to the row along; the row across is perfect.
         self.puncture_across(case, &mut result);
         Ok(result)
     }
@@ -605,9 +605,10 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
     is_missing(&outcome).then_some(failure)
 }
 
-/// Unwraps a solution; validation has refused cases without mechanical meaning.
+/// Returns a solution, or the outcome of a refused input.
 ///
-/// Validation of a definition cannot tell how far a tip reaches or how stiff the tissue is.
+/// Validation of a definition refuses invalid parameters. It cannot predict how many scales a tip
+/// reaches, or whether displacements in the tissue decay; any other refusal is an internal error.
 pub(super) fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, Outcome> {
     guarded(f)?.map_err(|refused| match refused.quantity {
         puncture::TIP_REACH => Outcome::RowLimit,

@@ -22,13 +22,13 @@ impl Parts {
         let [places, across, failure, between, unload, unbend] =
             [key::PLACES, key::ACROSS, key::FAILURE, key::RADIUS_TO, key::UNLOAD, key::UNBEND]
                 .map(|key| columns.iter().any(|column| needs_parameter(column, key)));
-        // The first failure may be across the row, and both directions are compared at the weakest
-        // position.
+        // The first failure may occur across the row. Both directions are compared at the weakest
+        // load position.
         let across = across || failure;
         Self { places: places || across, across, between, unloading: [unload, unbend] }
     }
 
-    /// Returns `case` without the other parts.
+    /// Returns `case` without requests for parts that are not needed.
     pub(super) fn of_case(self, case: &Case) -> Case {
         let mut case = *case;
         let [unload, unbend] = self.unloading;

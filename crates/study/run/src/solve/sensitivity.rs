@@ -122,7 +122,7 @@ fn punctured_variations(
     })
 }
 
-/// Punctures the row across the one of `case`, and differentiates its force.
+/// Punctures the row across of `case`, and differentiates its force.
 pub(super) fn across(
     case: &Case,
     wanted: Wanted<'_>,
@@ -210,7 +210,7 @@ pub(super) fn choose_direction(
             .extend(failing.map(|of| ParameterDerivative { measure: name::FAILURE_FORCE, ..of }));
     }
     let Some(least) = measures.across.any_direction else { return };
-    // Without a critical tilt across, the row along is the weaker one.
+    // If the row across reaches no critical tilt, the row along is the weaker one.
     let force_across = measures.across.force.unwrap_or(f64::INFINITY);
     let along = match measures.weakest.force {
         Some(_) => name::WEAKEST_FORCE,
@@ -222,7 +222,7 @@ pub(super) fn choose_direction(
     let weaker = if force_across < force_along { across } else { along };
     derivatives.extend(weaker.into_iter().map(|derivative| ParameterDerivative {
         measure: name::FORCE_ANY_DIRECTION,
-        // The slopes of the other direction differ.
+        // At a tie the derivatives of the two directions differ, so the measure has a kink.
         kink: derivative.kink.clone().or(is_tie.then(|| "the other direction is as weak".into())),
         left: derivative.left.filter(|_| !is_tie),
         right: derivative.right.filter(|_| !is_tie),

@@ -85,7 +85,7 @@ fn rank_correlation(one: &[OnBody], other: &[OnBody]) -> f64 {
     1.0 - 6.0 * squares / (count * (count * count - 1.0))
 }
 
-/// Returns the strongest design that covers half.
+/// Returns the strongest design with a coverage of at least one half.
 fn strongest(designs: &[OnBody]) -> OnBody {
     let covering = designs.iter().filter(|design| design.coverage >= 0.5);
     *covering.max_by(|a, b| a.force.total_cmp(&b.force)).expect("a design")

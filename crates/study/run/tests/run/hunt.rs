@@ -133,7 +133,7 @@ fn paths_pass_rare_events() {
         // A sharp tip leaves its notch while it sticks.
         (180, "unloading", Outcome::Complete),
         (1118, "unloading", Outcome::Complete),
-        // A tip slides again at a vanishing rate.
+        // A tip that stuck starts to slide again at a vanishing rate.
         (404, "unloading", Outcome::Complete),
         (889, "unloading", Outcome::Complete),
         (935, "unloading", Outcome::Complete),

@@ -161,7 +161,8 @@ fn a_column_alone_has_the_value_that_it_has_among_all() {
     assert!(compared > 100 && left_out > 500, "{compared} {left_out}");
 }
 
-/// The change with the gap of a known value is the one of a value that is solved.
+/// `GapChange::beside` returns the same changes as `GapChange::solve`, which also solves the
+/// nominal design.
 #[test]
 fn gap_changes_beside_a_known_design_are_those_of_a_solved_one() {
     for_each_skin(|sweep, index| {

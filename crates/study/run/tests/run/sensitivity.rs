@@ -70,7 +70,7 @@ fn compare_components(
 
 /// Compares the derivative of each measure along its gradient.
 ///
-/// Errors of the components do not cancel there.
+/// Errors of the components do not cancel in this direction.
 fn compare_along_gradients(
     case: &Case,
     derivatives: &[ParameterDerivative],

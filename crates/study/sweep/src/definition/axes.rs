@@ -87,7 +87,7 @@ fn read_range(
     let [from, to, step] = [decimal(from), decimal(to), decimal(step)];
     let (from, to, step) = (from.map_err(&wrong)?, to.map_err(&wrong)?, step.map_err(&wrong)?);
     let is_broken = |number: Decimal| number.to_usize().is_none();
-    // A step that is not positive has an error of its own.
+    // A step that is not positive is reported separately.
     let has_broken_step = step.to_f64() > 0.0 && is_broken(step);
     if parameter.takes_counts() && (is_broken(from) || is_broken(to) || has_broken_step) {
         return Err(wrong("has fractions, expected whole numbers".to_owned()));

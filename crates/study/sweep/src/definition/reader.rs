@@ -223,7 +223,7 @@ impl Reader {
         wrong.extend(self.lengths_without_thickness());
         wrong.extend(self.ratios_without_modulus());
         wrong.extend(self.force_without_thickness());
-        // The default in place of a refused step says nothing about the other steps.
+        // A refused step was replaced by its default, so do not compare it with the other steps.
         if self.refused.is_empty() {
             wrong.extend(self.check_steps(file).err());
         }
@@ -390,8 +390,9 @@ impl Reader {
         })
     }
 
-    /// Returns an error for every modulus or strength of the scales without the modulus that a
-    /// measure divides it by.
+    /// Returns an error for every modulus or strength of the scales without the modulus below it.
+    ///
+    /// Measures use the ratio to the modulus of the substrate or of the membrane.
     fn ratios_without_modulus(&self) -> impl Iterator<Item = InvalidDefinition> {
         let measures = self.measures.as_deref().unwrap_or(&Measure::USUAL);
         self.written().filter_map(move |(key, parameter, place)| {
@@ -441,7 +442,8 @@ impl Reader {
                 let other_key = format!("solver.{other} = {}", number::text(limit));
                 let problem =
                     Problem::StepOrder { value: number::text(smallest), other: other_key };
-                // At least one of the two is written, because the defaults are in order.
+                // At least one of the two keys is in the definition, because the defaults are in
+                // order.
                 let place = self.place("min_step").or_else(|| self.place(other)).unwrap_or(file);
                 return Err(refuse(place, "solver.min_step", problem));
             }

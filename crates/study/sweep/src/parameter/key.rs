@@ -65,13 +65,13 @@ pub const FRICTION: &str = "friction";
 
 /// Additional depth at which the force is measured.
 pub const DEPTH: &str = "depth_over_t";
-/// The same depth in mm.
+/// Additional depth at which the force is measured, in mm.
 pub const DEPTH_MM: &str = "depth_mm";
 
 /// Force of the needle at which the pressure on the tissue is measured.
 pub const NEEDLE_FORCE: &str = "force_over_substrate";
 
-/// The same force in N.
+/// Force of the needle at which the pressure on the tissue is measured, in N.
 pub const NEEDLE_FORCE_N: &str = "force_N";
 
 /// Number of load positions that are evaluated.
@@ -127,7 +127,7 @@ pub const ACROSS: &str = "across";
 
 /// Gap between neighbouring scales across the row.
 pub const GAP_ACROSS: &str = "gap_across_over_t";
-/// The same gap in mm.
+/// Gap between neighbouring scales across the row, in mm.
 pub const GAP_ACROSS_MM: &str = "gap_across_mm";
 
 /// Modulus of the membrane.

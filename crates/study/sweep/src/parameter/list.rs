@@ -182,8 +182,8 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     "contact" {
         "c1", "-", [Continuous, Made],
             number(Range::closed(1e-3, 1e3), |c| &mut c.common.law.c1), "prefactor C1 of the contact law";
-        // A flat end has an exponent of 1, a sphere of 1.5. Above 1.5, the initial contact
-        // stiffness would be zero.
+        // Hertz contact of a flat punch has an exponent of 1, of a sphere 1.5. Above 1.5, the
+        // initial contact stiffness would be zero.
         "c2", "-", [Continuous, Made],
             number(Range::closed(0.05, 1.5), |c| &mut c.common.law.c2), "exponent C2 of the contact law";
         // Rubber on a rough surface has about 2.

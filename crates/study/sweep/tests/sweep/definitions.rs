@@ -341,7 +341,7 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
         assert_eq!(again.grid().case(0), sweep.grid().case(0));
     }
     let case = sweep(&fixed).grid().case(0);
-    // Whichever parameter moves, the three stay consistent.
+    // The two ratios and the modulus of the scales stay consistent, whichever parameter changes.
     let named = |key| Parameter::named(key).expect("a parameter");
     let softer = named("substrate_modulus_MPa").moved(&case, 0.3).expect("a modulus");
     assert_eq!(ratios(&softer), [5000.0, 500.0]);
@@ -349,7 +349,7 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
     assert_eq!(ratios(&stiffer), [20_000.0, 1000.0]);
     let ratio = named("contact_modulus_over_substrate").moved(&case, 1000.0).expect("a ratio");
     assert_eq!(ratio.material.scale_modulus_mpa, Some(3300.0));
-    // A setting of one replaces the other in a file.
+    // A ratio that is set replaces the modulus in the file.
     let setting = Setting::parse("puncture.contact_modulus_over_substrate=50").expect("a setting");
     let set = Sweep::parse(&fixed, "x.toml", &[setting]).expect("a sweep");
     assert_eq!(ratios(&set.grid().case(0)), [50.0, 667.0]);

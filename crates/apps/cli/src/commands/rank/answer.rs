@@ -27,7 +27,7 @@ pub struct RankedAnswer<'a> {
 impl<'a> RankedAnswer<'a> {
     pub fn new(results: &'a Results, preferences: &'a Preferences, best: RankedDesign<'a>) -> Self {
         let sweep = results.definition();
-        // One design is worth waiting for, also on a layer.
+        // Solve the best design without a time limit, also on a layer: it is only one design.
         let solved = sweep.and_then(|sweep| {
             Some((sweep, solved_row(sweep, best.design(), Patience::Unlimited)?))
         });

@@ -9,9 +9,10 @@ use run::{CouplingChange, GapChange, MeasureChange, Patience};
 /// Changes by this factor or its inverse are printed as factors.
 const LARGE: f64 = 2.0;
 
-/// Solves the best designs with other gaps: by weights, without a fold, by each criterion.
+/// Solves the best designs again with smaller and larger gaps.
 ///
-/// Returns nothing if the results have no definition.
+/// They are the best by weights, the best without a fold, and the best by each criterion. Returns
+/// nothing if the results have no definition.
 pub fn gap_changes(
     results: &Results,
     ranking: &Ranking<'_>,
@@ -38,7 +39,9 @@ pub fn gap_changes(
         .collect()
 }
 
-/// Solves the best designs with full substrate coupling: of all, without a fold, after the checks.
+/// Solves three designs again with full substrate coupling.
+///
+/// They are the best design, the best one without a fold, and the best one that passes the checks.
 pub fn couplings(
     results: &Results,
     ranking: &Ranking<'_>,

@@ -111,7 +111,7 @@ impl RankReport<'_> {
         text
     }
 
-    /// Returns the rows of designs that are best in some sense, each with the sense in words.
+    /// Returns the rows of designs that are best by some measure, each with a note that names it.
     fn notes(&self) -> Vec<(usize, String)> {
         let criteria = &self.preferences().criteria;
         let mut notes = Vec::new();

@@ -32,7 +32,7 @@ pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<(PageFront,
     let headers = grid.designs.headers();
     let nominal = goal.nominal();
     let objectives = objectives(&nominal);
-    // Both share the axes of a figure, so the grid needs the column.
+    // Front and grid share the axes of a figure, so the grid needs the column, too.
     for objective in &objectives {
         ensure!(
             headers.iter().any(|header| *header == objective.column),
@@ -65,7 +65,7 @@ fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
     if !objectives.is_empty() {
         return objectives;
     }
-    // One is enough: the second axis comes from other requirements or the variables.
+    // One axis is enough: the second one comes from other requirements or the variables.
     nominal
         .requirements
         .iter()

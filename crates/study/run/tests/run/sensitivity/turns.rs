@@ -1,4 +1,4 @@
-//! Derivatives at turning points of load and depth, and of the forces there.
+//! Derivatives at turning points of load and depth, and of the forces at these points.
 
 use rayon::prelude::*;
 use run::Evaluator;
