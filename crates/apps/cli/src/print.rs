@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_line_up() {
+    fn columns_are_aligned() {
         let rows = [["a", "1"], ["long", "2"]].map(|row| row.map(str::to_owned));
         assert_eq!(aligned(&rows), "  a     1\n  long  2\n");
     }

@@ -29,7 +29,8 @@ pub const RESUMED: &str =
 const ENOUGH: f64 = 0.05;
 
 /// Number of advances after which the remaining time is extrapolated from a smaller fraction.
-// The work of one design varies by a factor of ten and more, so a few designs say little.
+// The work of one design varies by a factor of ten and more, so a few designs do not predict the
+// remaining time.
 const ADVANCES: usize = 30;
 
 /// Work with observable progress.
@@ -169,7 +170,7 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
     loop {
         // Waiting on the channel, unlike sleeping, returns as soon as the work ends.
         let is_done = ended.recv_timeout(PAUSE) != Err(RecvTimeoutError::Timeout);
-        // Before the end, because interrupted work may end within the pause.
+        // Check for a signal before the end of the work, because both may occur within one pause.
         if interrupt.exit_code().is_some() && !is_ending {
             is_ending = true;
             bar.suspend(|| eprintln!("{ending}"));

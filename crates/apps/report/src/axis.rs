@@ -100,7 +100,7 @@ impl ChartAxis {
         // Accept a step that is nearly wide enough: the next one may halve the number of ticks.
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * unit >= 0.9 * rough);
         let step = step.unwrap_or(10.0) * unit;
-        // A small count: the axis has few steps.
+        // The cast cannot overflow, because an axis has few steps.
         let first = (self.low / step - 1e-9).ceil() as i64;
         let last = (self.high / step + 1e-9).floor() as i64;
         let ends = self.low.abs().max(self.high.abs());

@@ -149,7 +149,7 @@ mod tests {
     use super::{digits, spread};
 
     #[test]
-    fn a_spread_has_three_values_or_fewer() {
+    fn a_spread_shows_equal_values_once() {
         assert_eq!(spread([3.0, 1.0, 2.0, 5.0, 4.0], digits), "1.000, 3.000, 5.000");
         assert_eq!(spread([2.0], digits), "2.000");
         assert_eq!(spread([], digits), "");

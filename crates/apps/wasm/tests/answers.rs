@@ -181,7 +181,7 @@ fn bare_answers_have_the_same_measures_and_margins() {
 }
 
 #[test]
-fn parameters_are_followed_to_their_limit() {
+fn following_a_parameter_stops_at_the_first_limit() {
     let follow = |to: f64, require: &[&str]| {
         let follow = json!({ "key": "gap_over_t", "to": to, "measure": "compliance" });
         ask(&json!({ "definition": DEFINITION, "require": require, "follow": follow }))["follow"]

@@ -141,7 +141,8 @@ impl MeasuredCurve {
         }
         let mut tables = rows.tables(|row| Header::known(&rows, row).is_some());
         let longest = tables.iter().find(|table| table.is_longest);
-        // Under given names, a further specimen repeats the row above the longest table.
+        // If the definition names the columns, a repetition of the row above the longest table
+        // begins another specimen.
         let repeated = longest.and_then(|table| table.above.clone().last());
         if columns.is_some() {
             let repeated = repeated.filter(|row| rows.is_text(*row));
@@ -281,10 +282,10 @@ impl MeasuredCurve {
         let [first, x] = [0, touching].map(|index| self.points[index][0]);
         let near = FARTHEST_OFFSET * loading::range(&self.points);
         if touching > 0 && first.abs() > to && near > 0.0 {
-            // The axis of the machine has another origin.
+            // If the displacement of the machine has another origin, search around its first value.
             return [first - near, x.max(first + near)];
         }
-        // The force may begin anywhere before, or rise slowly from the beginning.
+        // Contact may begin anywhere before `x`, or the force may rise slowly from the beginning.
         if x > to {
             [-to, x + 0.1 * to]
         } else if x < -to {
@@ -405,7 +406,7 @@ mod tests {
             message.starts_with("a.csv:1: its columns are displacement_ft force_oz: displacement_ft has no known unit,"),
             "{message}"
         );
-        // A row without units is no row of units.
+        // An empty row below the header is not a row of units.
         assert!(!parsed("displacement,force\n,\n1,2\n").is_physical);
     }
 

@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_of_a_front_share_its_expected_units() {
+    fn successive_parts_of_a_front_share_the_expected_units() {
         let progress = SearchProgress::default();
         progress.expect(vec![(Sample, 10), (Front, 40), (Front, 50)]);
         progress.begin(Sample, 1, 10);

@@ -54,7 +54,7 @@ pub struct MeasureChange {
     pub changed: [Option<f64>; 2],
 }
 
-/// Serializes the two values with their names.
+/// Serializes the values with the keys `gap_10_percent_smaller` and `gap_10_percent_larger`.
 fn by_side<S: Serializer>(changed: &[Option<f64>; 2], serializer: S) -> Result<S::Ok, S::Error> {
     let names = ["gap_10_percent_smaller", "gap_10_percent_larger"];
     serializer.collect_map(names.into_iter().zip(changed))

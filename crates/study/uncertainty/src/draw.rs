@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn a_deviation_does_not_depend_on_the_others() {
+    fn a_deviation_does_not_depend_on_other_deviations() {
         let one = drawn("gap_over_t = { batch_sd = 0.01 }", 7);
         let both = drawn("length_over_t = { batch_sd = 0.1 }\ngap_over_t = { batch_sd = 0.01 }", 7);
         assert_eq!(one[0], both[1]);

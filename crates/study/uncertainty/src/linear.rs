@@ -58,7 +58,7 @@ impl Gradients<'_> {
     pub(crate) fn spread(&self, column: &Column<DesignRow>) -> Option<LinearSpread> {
         let mut sources = Vec::new();
         for deviation in self.deviations {
-            // Deviations from scale to scale only are handled below.
+            // Deviations that only vary from scale to scale are handled below.
             let Some(batch) = deviation.batch() else { continue };
             let variance = moments::variance(self.slopes(column, deviation, batch)?, batch);
             let (source, deviation) = (deviation.key(), batch.standard_deviation());

@@ -66,7 +66,7 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     if arguments.sensitivity {
         design.sweep = design.sweep.with_sensitivity();
     }
-    // Solved before the claim, which removes the files of the previous call.
+    // Solve the design before the claim, because a claim removes the files of the previous call.
     let chosen = SolvedChoice::new(design, searched.requirements);
     let folder = ResultsFolder::new(chosen.folder(arguments));
     let claim = Claim::take(&folder, Maker::Design)?;

@@ -88,7 +88,7 @@ pub struct Arguments {
 }
 
 /// Default thickness of the template, mm.
-// A film, because thicker sheets leave no webs between slanted scales.
+// The default template is a film, because thicker sheets leave no webs between slanted scales.
 const TEMPLATE_MM: f64 = 0.1;
 
 /// Parses numbers of scales such as `5x4`.
@@ -194,7 +194,7 @@ fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     let row = case.design.row()?;
     let scales = match arguments.patch {
         Some(size) => {
-            // Two rows, because every second row may be shifted.
+            // Measure a patch of two rows, because every second row may be shifted.
             let two = laid(Patch::new(row, thickness, lengths, [1, 2])?, arguments.brick);
             within(&two, size)?
         }
@@ -344,7 +344,7 @@ fn tolerances(
         return Ok(String::new());
     }
     let analysis = Analysis::new(sweep, &[], 0, PROGRAM, interrupt.stop());
-    // No samples, so nothing is stored.
+    // The analysis has no samples, so the store stays empty.
     let analysed = analysis.design(0, &SampleStore::new(out))?;
     let shown = analysed.measures.iter().filter(|measure| is_for_a_maker(&measure.name));
     let moved = shown.filter_map(|measure| {

@@ -159,7 +159,7 @@ pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
 
 fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     check_sizes(&arguments.output)?;
-    // All designs; the figures thin out marks themselves.
+    // Read all designs, because figures with too many marks thin them out.
     let results = FolderContents::read(
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,

@@ -97,7 +97,7 @@ fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
 }
 
 fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
-    // Two independent points, and a mixture of them for each variable.
+    // Each sample has two independent points, and a mixture of them for each variable.
     let points = samples * (found.variables.len() + 2);
     let samples = counted(samples as u64, "sample");
     let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());

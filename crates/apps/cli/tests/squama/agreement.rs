@@ -119,7 +119,7 @@ pub fn disagreement<'t>(ours: &'t str, theirs: &'t str) -> Option<[&'t str; 2]> 
 }
 
 #[test]
-fn words_and_numbers_are_separated() {
+fn a_line_is_split_into_words_and_numbers() {
     let texts: Vec<_> = pieces("| C08 | -3.4e-5 | (0.1, 45°), M = 16820. | 2L |")
         .map(|piece| match piece {
             Piece::Words(words) => words,

@@ -3,7 +3,7 @@
 use crate::Place;
 
 #[test]
-fn a_definition_is_written_and_solves() {
+fn init_writes_a_definition_that_run_solves() {
     let place = Place::new();
     let text = place.prints("init smoke mine.toml");
     assert_eq!(text, "mine.toml: 12 designs; to solve them: squama run mine.toml\n");
@@ -43,7 +43,7 @@ fn goals_and_fits_are_templates_that_check_accepts() {
 }
 
 #[test]
-fn init_overwrites_and_misplaces_nothing() {
+fn init_overwrites_no_file_and_refuses_missing_folders() {
     let place = Place::new();
     place.prints("init");
     let before = place.read("paper.toml");
@@ -59,7 +59,7 @@ fn init_overwrites_and_misplaces_nothing() {
 }
 
 #[test]
-fn shells_complete_commands_and_options() {
+fn completions_of_every_shell_contain_commands_and_options() {
     let place = Place::new();
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let script = place.prints(&format!("completions {shell}"));

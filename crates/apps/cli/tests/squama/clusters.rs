@@ -21,7 +21,7 @@ impl Place {
 }
 
 #[test]
-fn the_scripts_make_the_tables_of_a_run_without_shards() {
+fn slurm_scripts_write_the_tables_of_an_unsharded_run() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --set contact.c1=2 --out whole").assert().code(0);
     place.prints("slurm x.toml --shards 3 --set contact.c1=2 --out r");

@@ -321,7 +321,7 @@ fn an_interrupted_ranking_is_not_exported() {
 }
 
 #[test]
-fn products_are_removed_with_their_run() {
+fn a_fresh_run_removes_products_of_the_earlier_run() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     for command in ["rank r", "plot r", "report r", "export r --xlsx r/a.xlsx"] {

@@ -239,7 +239,7 @@ fn differences_from_the_sweep_are_listed() {
 }
 
 #[test]
-fn further_axes_are_given_with_set() {
+fn set_adds_axes_to_a_definition() {
     let place = Place::with("name = 'wide'\n[designs]\nwidth_over_t = [1, 2, 4]\nslant_deg = 0");
     let design = "design x.toml --gap 0.2 --length 0.5 --slant 0";
     place.squama(design).assert().code(2);

@@ -13,7 +13,7 @@ impl Place {
 }
 
 #[test]
-fn a_design_has_all_its_values() {
+fn json_of_a_design_contains_all_values() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     let design = place.json("design x.toml --design 6 --json");

@@ -77,7 +77,7 @@ fn a_patch_lies_on_the_arc_of_a_body() {
         }
         assert_eq!(place.read(&format!("of-body.{flat}")), place.read(&format!("of-plane.{flat}")));
     }
-    // On a concave body the faces are closer than on a plane, 0.3 mm.
+    // On a concave body the faces are closer together than the 0.3 mm on a plane.
     let text = place.prints("make x.toml --design 1 --set body.radius_mm=-40 --out concave.stl");
     let line = text.lines().find(|line| line.contains("distance of the faces"));
     assert!(line.is_some_and(|line| line.contains(" 0.0944567 ")), "{text}");

@@ -64,7 +64,7 @@ fn a_gap_that_cannot_close_bends_to_any_radius() {
 
 /// The mark of a fold also begins other warnings.
 #[test]
-fn warnings_about_walls_do_not_explain_a_fold() {
+fn other_warnings_do_not_add_the_legend_of_folds() {
     let thin = MATERIAL.replace("thickness_mm = 2", "thickness_mm = 0.5");
     let place = Place::with(&format!("{FEW}{thin}"));
     place.squama("run x.toml -q --out r").assert().code(0);
@@ -85,7 +85,7 @@ fn missing_material_constants_add_no_columns() {
 }
 
 #[test]
-fn a_material_may_vary_and_is_shown() {
+fn commands_accept_a_varying_material_and_show_its_moduli() {
     let place = Place::with(FEW);
     std::fs::write(place.path("y.toml"), format!("{FEW}{MATERIAL}")).expect("writable");
     let vary = "--set designs.thickness_mm=[1,2] --set designs.gap_over_t=0.1";
@@ -127,7 +127,7 @@ fn suspicious_units_of_a_modulus_are_noted_and_the_scale_modulus_sets_contact_ra
 }
 
 #[test]
-fn strengths_add_the_columns_of_failure_and_change_no_other() {
+fn strengths_add_failure_columns_and_change_no_other_column() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out bare").assert().code(0);
     place

@@ -93,7 +93,7 @@ fn the_status_of_a_search_counts_its_designs() {
     let json: serde_json::Value =
         serde_json::from_slice(&assert.get_output().stdout).expect("JSON");
     assert_eq!((&json["designs"], &json["is_complete"]), (&10.into(), &false.into()));
-    // A changed table is a problem.
+    // `status` lists a changed table as a problem.
     std::fs::write(place.path("done/history.csv"), "design\n").expect("writable");
     let assert = place.squama("status done").assert().code(1);
     let text = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
@@ -154,7 +154,7 @@ fn a_rounded_design_states_its_loss() {
     assert!(text.contains(sentence), "{text}");
     assert!(text.contains("Before rounding, it is limited by"), "{text}");
     assert!(place.read("results/light/optimum.toml").contains("gap_over_t = [0.8]\n"));
-    // The stored goal rounds, too.
+    // The stored goal contains the rounding, too.
     let record = place.prints("optimise results/light/goal.toml --out again --json");
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
     assert_eq!(record["optimum"]["variables"]["gap_over_t"], 0.8);

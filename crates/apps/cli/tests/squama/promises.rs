@@ -331,7 +331,7 @@ fn endless_inputs_are_rejected() {
 
 #[cfg(unix)]
 #[test]
-fn pipes_and_devices_are_rejected_as_stores() {
+fn pipes_and_devices_are_rejected_as_records_and_journals() {
     use std::os::unix::fs::symlink;
 
     let pipe = |place: &Place, file: &str| {

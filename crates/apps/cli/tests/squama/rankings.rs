@@ -149,7 +149,7 @@ fn the_nearest_design_is_reported_if_none_meets_the_requirements() {
 }
 
 #[test]
-fn differences_are_printed() {
+fn compare_prints_differences() {
     let place = place();
     let other = TABLE.replace("0.5,1,60,0.5,,,0.4,no convergence", "0.5,1,75,0.4,3,1,0.4,complete");
     put(&place, "b", &other.replace(",0.3,complete,complete", ",0.30003,complete,complete"));
@@ -207,7 +207,7 @@ fn a_ranking_on_a_layer_has_an_answer_with_warnings() {
 
 /// The text has two blocks: the ranking with its legend, and the answer.
 #[test]
-fn a_ranking_prints_two_blocks() {
+fn rank_prints_the_ranking_and_the_answer() {
     let place = place();
     let printed = place.prints("rank a --require coverage>=0.1");
     let blocks: Vec<&str> = printed.trim_end().split("\n\n").collect();

@@ -113,7 +113,7 @@ fn a_design_in_mm_is_the_design_over_the_thickness() {
         table.lines().skip(1).map(|line| line[..4].to_owned()).collect()
     };
     assert_eq!(front("mm"), front("t"));
-    // Lengths in mm are axes, conditions and values by the name that they were given.
+    // Commands accept lengths in mm by their keys in mm, as axes, conditions and values.
     let map = "plot map mm --of compliance --no-title --out maps";
     place.prints(&format!("{map} --x gap_mm --y length_mm"));
     let drawn = place.read("maps/map-of-compliance-over-gap-mm-and-length-mm.svg");

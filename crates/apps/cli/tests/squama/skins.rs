@@ -32,7 +32,7 @@ fn the_best_design_is_confirmed_on_new_samples() {
 
 /// A yield alone does not show which requirement is the obstacle.
 #[test]
-fn a_refusal_names_the_requirements_that_samples_miss() {
+fn an_infeasible_search_names_the_requirements_that_samples_miss() {
     let required = "['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54', 'yield >= 0.99']";
     let place = Place::with(&GOAL.replace("['coverage >= 0.5', 'yield >= 0.9']", required));
     let output = place.squama("optimise x.toml").assert().code(1);
@@ -58,13 +58,13 @@ fn tolerance_confirms_the_yield_of_a_search() {
     let output = place.squama_with(&arguments).assert().code(0).get_output().stdout.clone();
     let told: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     let told = told["designs"][0]["yields"][0]["yield"].as_f64().expect("a yield");
-    // Two sets of 1000 samples, independent of the search: three standard deviations of their
+    // The two sets of 1000 samples are independent, so allow three standard deviations of their
     // difference.
     assert!((told - others).abs() < 0.04 && told != others, "{told} {others}");
 }
 
 #[test]
-fn tables_of_skins_do_not_depend_on_threads_or_interruptions() {
+fn tables_of_sampled_searches_do_not_depend_on_threads_or_interruptions() {
     let goal = GOAL.replace(
         "minimize = 'areal_mass_kg_m2'\n",
         "maximize = 'coverage_p05'\nminimize = 'areal_mass_kg_m2'\npoints = 3\nskins = 40\n",

@@ -66,7 +66,7 @@ fn a_torn_last_line_is_solved_again() {
 }
 
 #[test]
-fn results_are_not_overwritten_unasked() {
+fn results_are_not_overwritten_without_fresh() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     let before = place.read("results/few/designs.csv");
@@ -326,7 +326,7 @@ fn fail_fast_ends_a_run_at_the_first_failure() {
     let run = "run x.toml -q --threads 1 --set solver.max_points=3";
     place.squama(&format!("{run} --fail-fast")).assert().code(1);
     let done = place.lines("results/many/designs.csv") - 1;
-    // The designs that one thread solved before the first failure was recorded.
+    // `done` counts the designs that one thread solved before the first failure was recorded.
     assert!((1..27).contains(&done), "{done}");
     place.squama(&format!("{run} --resume")).assert().code(1);
     assert_eq!(place.lines("results/many/failures.csv"), 1 + 2 * 54);

@@ -97,7 +97,7 @@ fn constant_measures_are_named() {
 }
 
 #[test]
-fn bad_input_gives_one_line_of_error() {
+fn bad_input_gives_a_one_line_error() {
     let place = Place::with(DESIGNS);
     std::fs::write(place.path("box.toml"), BOX).expect("writable");
     let bare = BOX.replace("length_over_t = [0.5, 1]\n", "");

@@ -163,7 +163,7 @@ pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str, paper: Paper) ->
 pub(crate) fn of_failures(sweep: &str, designs: &Designs, paper: Paper) -> Figure {
     let axes = ["gap_over_t", "slant_deg"];
     let ([x, y], of) = (axes.map(|axis| designs.in_mm(axis)), name::FIRST_FAILURE);
-    // The scale of numbers is not used.
+    // A map of failure modes does not use the numeric scale.
     let scale = ChartAxis::exact("", 0.0, 1.0);
     let title = format!("{sweep}: first failure by gap, slant and aspect ratio");
     MapSubject { x: &x, y: &y, of, scale }.figure(&title, &designs.parts_by(&axes), paper)
@@ -475,7 +475,7 @@ impl Map<'_> {
         if lengths.sum::<f64>() < 2.5 * across {
             return None;
         }
-        // Middles of segments, starting at the middle of the line.
+        // Try the middles of the segments, starting at the middle of the line.
         let middle = line.len() as f64 / 2.0 - 1.0;
         let mut spots: Vec<(f64, Spot)> = line
             .windows(2)

@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn slices_run_from_face_to_corner() {
+    fn slices_cover_coverage_weights_from_zero_to_one() {
         assert_eq!(slices(20).slices(), [0, 4, 8, 12, 16, 20]);
         assert_eq!(slices(1).slices(), [0, 1]);
         assert_eq!(slices(20).dots().len(), 231 + 153 + 91 + 45 + 15 + 1);

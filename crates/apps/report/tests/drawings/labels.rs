@@ -159,7 +159,7 @@ fn a_column_of_a_journal_has_fewer_panels_with_legible_letters() {
 }
 
 #[test]
-fn chosen_panels_are_shown() {
+fn narrow_figures_show_a_selection_of_panels() {
     let designs = Designs::of(&results(false));
     let at = ["0.1", "0.50"].map(|gap| ("gap_over_t".to_owned(), gap.to_owned()));
     let chosen = designs.at(&at).expect("designs");
@@ -191,7 +191,7 @@ fn figures_of_a_material_have_axes_in_millimetres() {
 }
 
 #[test]
-fn contours_have_values() {
+fn contours_are_labelled_with_their_values() {
     let svg = &all(false, Paper::WIDE).pop().expect("a map").svg;
     let contours: Vec<&str> = svg.split("class=\"contours\"").skip(1).collect();
     assert_eq!(contours.len(), 10, "a map for each aspect ratio");
@@ -258,7 +258,7 @@ fn measured_curves_are_thin_black_lines() {
 
 /// All modes on one point of the path, and spread over it: at its start, at its end, everywhere.
 #[test]
-fn names_of_limits_are_apart() {
+fn names_of_limits_do_not_overlap() {
     let case = super::case(&super::design(60.0), "", "");
     let puncture = super::solved_puncture(&case);
     let last = puncture.path.len() - 1;

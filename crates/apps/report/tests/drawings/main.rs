@@ -108,7 +108,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
 
 /// A needle that passes has a triangle on its curve, explained in the note.
 #[test]
-fn a_needle_that_passes_is_marked_on_its_curve() {
+fn the_passage_of_a_needle_is_marked_on_its_curve() {
     let marks = |needle: &str| {
         let case = case(&design(75.0), &format!("needle = '{needle}'"), "");
         let (number, puncture) = ("1".to_owned(), solved_puncture(&case));
@@ -146,7 +146,7 @@ fn contacts_that_slip_have_rings() {
 
 /// A guided needle has the same position in all panels; the ring moves with the scale.
 #[test]
-fn a_guided_needle_stays_where_it_was_set_down() {
+fn a_guided_needle_keeps_its_horizontal_position() {
     let design = design(45.0);
     let springs: Springs =
         substrate::calibrate(&design.footprint(0.5).expect("a footprint")).expect("springs");

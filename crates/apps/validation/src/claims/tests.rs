@@ -131,7 +131,7 @@ fn curve(design: MeasuredDesign, contact: [f64; 2], slope: f64) -> PunctureCurve
 }
 
 #[test]
-fn slopes_before_and_after_contact() {
+fn curves_have_mean_slopes_before_and_after_contact() {
     let curve = curve(MeasuredDesign::default(), [0.2, 0.1], 3.0);
     assert_eq!(curve.slope_before_contact(), Some(0.5));
     assert!(curve.slope_after_contact().is_some_and(|slope| (slope - 3.0).abs() < 1e-12));
@@ -175,7 +175,7 @@ fn stiffening_claims_also_require_less_tilt() {
 }
 
 #[test]
-fn gaps_delay_contact_and_rows_without_contact_come_last() {
+fn rows_without_contact_count_as_latest_contact() {
     let by_gap = |stiffest: f64, contacts: [Option<f64>; 4]| Evidence {
         by_gap: [0.1, 0.2, 0.3, 0.4]
             .iter()
@@ -246,7 +246,7 @@ fn both_definitions_of_stiffness_are_checked() {
 }
 
 #[test]
-fn the_slant_must_matter_most_among_all_designs_too() {
+fn the_slant_must_have_the_largest_effect_among_short_scales_too() {
     let with_short_scales = |effect: f64| {
         grid(move |d| {
             let short = if d.length < 0.1 { effect } else { 1.0 };
@@ -349,7 +349,7 @@ fn the_most_flexible_slant_is_60_only_if_75_is_not_as_good() {
 }
 
 #[test]
-fn the_weights_of_the_printed_optimum_are_its_own() {
+fn the_claim_on_weights_uses_the_share_of_the_printed_design() {
     let balanced = |best: MeasuredDesign, share_of_printed| Evidence {
         balanced: Some(Balanced { best, fitness: 0.1, share: 90.0, share_of_printed }),
         ..Evidence::default()

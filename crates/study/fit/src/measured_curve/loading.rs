@@ -247,7 +247,8 @@ fn drops(points: &[[f64; 2]]) -> Vec<usize> {
     let mut next = NEIGHBOURS;
     while next + NEIGHBOURS <= points.len() {
         let lost = mean(&points[next - NEIGHBOURS..next]) - mean(&points[next..next + NEIGHBOURS]);
-        // The steepest step near this point. A gradual loss is a property of the skin.
+        // Require a single steep step near this point: a gradual loss of force is a property of the
+        // skin, not a failure.
         let near = next - NEIGHBOURS..next + NEIGHBOURS - 1;
         let falls = near.map(|last| (points[last][1] - points[last + 1][1], last));
         let (fall, last) = falls.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
@@ -353,7 +354,7 @@ mod tests {
         points.extend((20..25).map(|k| [f64::from(k), 0.1]));
         assert_eq!(events(&points), [(CurveEventKind::Fails, 20, 5)]);
         assert_eq!(found(&points).loading.len(), 20);
-        // A gradual loss is a property of the skin.
+        // A gradual loss of force is a property of the skin, not a failure.
         let points: Vec<_> = (0..21).map(|k| [f64::from(k), f64::from(k * (20 - k))]).collect();
         assert_eq!(found(&points).events, []);
     }

@@ -482,7 +482,7 @@ fn differences_replace_derivatives_while_a_contact_sticks() {
 
 /// Friction between scales makes a loop of the curve.
 #[test]
-fn both_branches_are_fitted() {
+fn loading_and_unloading_branches_are_fitted() {
     let place = Place::new();
     let shared = "name = 'loop'\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 0.8\n\
                   designs.slant_deg = 45\n";
@@ -550,7 +550,7 @@ fn a_parameter_may_differ_from_specimen_to_specimen() {
     // The standard deviation of the true moduli is 0.0793.
     let [low, high] = scatter.deviation_interval;
     assert!((scatter.deviation - 0.0793).abs() < 0.02 && low < 0.0793 && high > 0.0793);
-    // The design has the mean.
+    // The fitted definition has the mean modulus of the specimens.
     let case = fitted.sweep.grid().case(0);
     let modulus = Parameter::named("substrate_modulus_MPa").expect("a parameter").get(&case);
     assert!((modulus.number().expect("a number") - mean).abs() < 1e-12);

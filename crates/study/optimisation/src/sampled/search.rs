@@ -245,7 +245,7 @@ mod tests {
     use super::least_step;
 
     #[test]
-    fn a_step_raises_every_gradient() {
+    fn a_step_increases_every_margin_equally() {
         let gradients = [vec![1.0, 0.0], vec![-0.5, 1.0]];
         let step = least_step(&gradients, 0.1, 2);
         for gradient in &gradients {

@@ -104,7 +104,7 @@ fn an_axis_of_one_run_may_be_a_constant_of_the_other() {
 }
 
 #[test]
-fn the_tables_of_a_comparison() {
+fn tables_of_a_comparison_match_the_snapshot() {
     let (first, second) = (results(FIRST, None), results(SECOND, None));
     let comparison = compare(&first, &second, 0.0).expect("comparable");
     let folder = TempDir::new().expect("a folder");

@@ -123,7 +123,7 @@ fn invalid_tables_are_refused_with_a_reason() {
 }
 
 #[test]
-fn the_tables_of_a_ranking() {
+fn headers_of_ranking_tables_match_the_snapshot() {
     let folder = TempDir::new().expect("a folder");
     write_results(folder.path(), 4, Criteria::Independent, 0);
     let results = Results::read(folder.path()).expect("results");

@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_without_a_force_leaves_the_smallest_one_open() {
+    fn the_worst_force_is_unknown_if_a_body_has_no_force() {
         let force =
             |fraction: f64| if fraction < 0.9 { Ok(1.0) } else { Err(Outcome::Overlapping) };
         assert_eq!(worst_body(force), Err(Outcome::Overlapping));

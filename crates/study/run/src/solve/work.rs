@@ -139,7 +139,8 @@ impl Parts {
         let samples = if case.imperfection.is_none() { 0 } else { case.samples.count as u64 };
         let row = case.design.row().ok().filter(|_| bends > 0 && (is_chain || samples > 0));
         let gaps = row.map_or(1, |row| whole_gaps(&row, &case.flexure) as u64);
-        // Paths are the unit, because the meter needs fractions instead of seconds.
+        // Count the work in paths: the meter only shows fractions, so the ratio between designs
+        // matters, not the seconds.
         let ideal = 1 + punctures + bends * if is_chain { gaps } else { 1 };
         Self { ideal, row: punctures, strip: bends * gaps, samples }
     }

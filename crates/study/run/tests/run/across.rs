@@ -24,7 +24,7 @@ fn forces(result: &DesignResult) -> (Option<f64>, Option<f64>) {
 
 /// `F` over `E* t²` at 10°, for a width of `t`.
 #[test]
-fn an_isolated_scale_tilts_across_at_known_forces() {
+fn the_force_across_an_isolated_scale_matches_known_values() {
     for (length, force) in [(0.1, 0.0170), (0.2, 0.0237), (0.5, 0.0412), (1.0, 0.0682)] {
         let text = format!(
             "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 500\n\

@@ -27,7 +27,7 @@ fn solved(radius: &str) -> (Option<BareNeedle>, f64, f64) {
 }
 
 #[test]
-fn a_bare_needle_presses_as_a_sphere_or_with_its_whole_shaft() {
+fn bare_pressure_follows_hertz_up_to_the_radius_of_the_shaft() {
     // A thin needle sinks in up to its shaft, a thick one touches a part of its tip.
     // Once at the end of the path and once at a smaller force.
     let needles = [("0.1", 0.1, true), ("2", 2.0, false), ("2\nforce_N = 0.3", 2.0, false)];
@@ -44,6 +44,6 @@ fn a_bare_needle_presses_as_a_sphere_or_with_its_whole_shaft() {
 }
 
 #[test]
-fn a_sharp_needle_has_no_bare_pressure() {
+fn a_sharp_needle_has_no_bare_needle_pressure() {
     assert_eq!(solved("").0, None);
 }

@@ -17,7 +17,7 @@ fn punctured(body: &str) -> PunctureResult {
 }
 
 #[test]
-fn the_worst_body_of_a_glove_is_the_finger_in_either_order() {
+fn the_worst_body_does_not_depend_on_the_order_of_the_radii() {
     let finger = punctured("radius_over_t = 8").measures.critical_force;
     for body in [
         "radius_over_t = 8\nradius_to_over_t = 500",
@@ -34,7 +34,7 @@ fn the_worst_body_of_a_glove_is_the_finger_in_either_order() {
 }
 
 #[test]
-fn no_body_of_the_range_is_weaker_than_the_worst() {
+fn no_body_in_the_range_has_less_than_the_worst_force() {
     let between = punctured("radius_over_t = 3\nradius_to_over_t = -40");
     let worst = between.measures.between.force.expect("a force");
     for k in 0..=32 {
@@ -46,7 +46,7 @@ fn no_body_of_the_range_is_weaker_than_the_worst() {
 }
 
 #[test]
-fn a_body_on_which_scales_overlap_leaves_the_worst_force_open() {
+fn the_worst_force_is_unknown_if_scales_overlap_on_a_body() {
     let between = punctured("radius_over_t = 5\nradius_to_over_t = -1.2");
     assert_eq!(between.outcome, Outcome::Complete);
     assert_eq!(between.between, Some(Outcome::Overlapping));

@@ -204,7 +204,7 @@ fn forces_do_not_depend_on_the_step() {
 /// At most one path in a hundred ends for a numeric reason, and no design takes more than 10 s.
 #[test]
 #[ignore = "takes minutes; SQUAMA_HUNT=FROM..TO selects other seeds"]
-fn few_mixed_designs_end_numerically() {
+fn few_random_designs_stop_for_numerical_reasons() {
     let solved: Vec<(Vec<(&str, Outcome)>, Duration)> = seeds()
         .into_par_iter()
         .map(|seed| {

@@ -96,7 +96,7 @@ fn for_each_skin(mut check: impl FnMut(&Sweep, u64)) {
 
 /// Rows for the critical state omit the values along the path, and have all others.
 #[test]
-fn rows_for_the_critical_state_have_all_values_but_those_along_the_path() {
+fn critical_state_rows_omit_only_values_along_the_path() {
     let (mut compared, mut omitted) = (0, BTreeSet::new());
     for_each_skin(|sweep, index| {
         let measures = [sweep.measures(), &[Measure::Sensitivity]].concat();
@@ -123,7 +123,7 @@ fn rows_for_the_critical_state_have_all_values_but_those_along_the_path() {
 
 /// A column solved alone has the value and the derivatives that it has among all others.
 #[test]
-fn a_column_alone_has_the_value_that_it_has_among_all() {
+fn a_column_solved_alone_equals_the_column_of_a_whole_row() {
     let unloaded = "[designs]\ngap_over_t = 0.2\nlength_over_t = 0.4\nslant_deg = 60\n\
                     [contact]\nfriction = 0.2\n[flexure]\nunbend = true\n\
                     [puncture]\nplaces = 3\nunload = true\n[array]\nacross = true";
@@ -164,7 +164,7 @@ fn a_column_alone_has_the_value_that_it_has_among_all() {
 /// `GapChange::beside` returns the same changes as `GapChange::solve`, which also solves the
 /// nominal design.
 #[test]
-fn gap_changes_beside_a_known_design_are_those_of_a_solved_one() {
+fn gap_changes_reuse_the_values_of_a_known_design() {
     for_each_skin(|sweep, index| {
         let number = sweep.grid().number(index).to_string();
         let columns =
@@ -181,7 +181,7 @@ fn gap_changes_beside_a_known_design_are_those_of_a_solved_one() {
 
 /// Derivatives by some parameters are the same as among all.
 #[test]
-fn derivatives_by_some_parameters_are_those_among_all() {
+fn selected_derivatives_equal_the_derivatives_among_all() {
     let keys = ["gap_over_t", "slant_deg", "c1", "needle_friction"];
     let chosen: Vec<&Parameter> = keys.into_iter().filter_map(Parameter::named).collect();
     let mut compared = 0;

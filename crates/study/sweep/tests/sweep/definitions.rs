@@ -356,7 +356,7 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
 }
 
 #[test]
-fn a_tissue_modulus_of_another_unit_raises_a_question() {
+fn a_tissue_modulus_in_kpa_or_pa_raises_a_note() {
     let question = |modulus: &str| {
         sweep(&format!("name = 'x'\ndesigns.substrate_modulus_MPa = {modulus}")).notes().pop()
     };

@@ -143,27 +143,27 @@ fn read(text: &str) -> Result<(), TestCaseError> {
 
 proptest! {
     #[test]
-    fn definitions_of_random_words(words in vec(word(), 0..60)) {
+    fn definitions_of_random_words_never_panic(words in vec(word(), 0..60)) {
         read(&words.concat())?;
     }
 
     #[test]
-    fn definitions_of_random_bytes(bytes in vec(any::<u8>(), 0..200)) {
+    fn definitions_of_random_bytes_never_panic(bytes in vec(any::<u8>(), 0..200)) {
         read(&String::from_utf8_lossy(&bytes))?;
     }
 
     #[test]
-    fn definitions_that_are_nearly_right(text in definition()) {
+    fn nearly_valid_definitions_never_panic(text in definition()) {
         read(&text)?;
     }
 
     #[test]
-    fn definitions_that_were_damaged(bytes in damaged(paper())) {
+    fn damaged_definitions_never_panic(bytes in damaged(paper())) {
         read(&String::from_utf8_lossy(&bytes))?;
     }
 
     #[test]
-    fn settings((section, key) in parameter(), axis: bool, value in value()) {
+    fn random_settings_never_panic((section, key) in parameter(), axis: bool, value in value()) {
         let section = if axis { "designs" } else { section };
         if let Ok(setting) = Setting::parse(&format!("{section}.{key}={value}")) {
             let _ = Sweep::parse("name = 'x'", "x.toml", &[setting]);

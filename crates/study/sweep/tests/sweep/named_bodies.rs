@@ -75,7 +75,7 @@ fn the_range_of_radii_contains_bodies_of_equally_spaced_curvatures() {
 
 /// Checks that the documentation has exactly the rows of the table.
 #[test]
-fn the_documented_bodies_are_those_of_the_table() {
+fn the_documented_bodies_match_the_table() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/bodies.md");
     let page = std::fs::read_to_string(page).expect("readable");
     let rows = page.lines().filter(|line| line.starts_with("| `"));

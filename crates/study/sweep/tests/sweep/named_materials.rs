@@ -71,7 +71,7 @@ fn unknown_materials_are_refused_with_the_known_ones() {
 
 /// Checks that the documentation has exactly the rows of the table.
 #[test]
-fn the_documented_values_are_those_of_the_table() {
+fn the_documented_materials_match_the_table() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/materials.md");
     let page = std::fs::read_to_string(page).expect("readable");
     let mut documented = page.lines().filter(|line| line.starts_with("| `"));

@@ -24,7 +24,7 @@ fn all(lines: &[&str]) -> String {
 }
 
 #[test]
-fn keys() {
+fn invalid_keys_are_refused() {
     insta::assert_snapshot!(all(&[
         "contact.cc2 = 0.23",
         "contact.c3 = 0.23",
@@ -64,7 +64,7 @@ fn extreme_lengths_and_moduli_are_refused() {
 }
 
 #[test]
-fn values() {
+fn invalid_values_are_refused() {
     insta::assert_snapshot!(all(&[
         "designs.gap_over_t = -0.1",
         "designs.slant_deg = 90",
@@ -118,7 +118,7 @@ fn values() {
 }
 
 #[test]
-fn ranges() {
+fn invalid_ranges_are_refused() {
     insta::assert_snapshot!(all(&[
         "designs.slant_deg = { from = 0, to = 75, step = 0 }",
         "designs.slant_deg = { from = 0, to = 75, step = -15 }",
@@ -136,7 +136,7 @@ fn ranges() {
 }
 
 #[test]
-fn contradictions_and_excess() {
+fn contradictory_and_superfluous_keys_are_refused() {
     insta::assert_snapshot!(all(&[
         "contact.c1 = 2\ndesigns.c1 = [1, 2]",
         "designs.c1 = { from = 0.001, to = 1e6, step = 0.001 }",
@@ -148,14 +148,14 @@ fn contradictions_and_excess() {
 }
 
 #[test]
-fn names() {
+fn invalid_names_are_refused() {
     let names = ["''", "'a/b'", "'..'", "'.hidden'", "'-x'", "'a\\b'", "'x '", "3"];
     let messages = names.map(|name| refused(&format!("name = {name}"), &[]));
     insta::assert_snapshot!(messages.join("\n"));
 }
 
 #[test]
-fn files_that_are_no_toml() {
+fn invalid_toml_is_refused() {
     let texts = ["this is no toml", "name = 'x'\n[contact", "name = 'x'\nname = 'y'", "\u{0}\u{1}"];
     insta::assert_snapshot!(texts.map(|text| refused(text, &[])).join("\n"));
 }
@@ -182,7 +182,7 @@ fn all_errors_are_reported_at_once() {
 }
 
 #[test]
-fn settings() {
+fn invalid_settings_are_refused() {
     let messages = [
         "contact.c3=1",
         "contact.c2=0",
@@ -267,7 +267,7 @@ fn deep_settings_are_refused() {
 }
 
 #[test]
-fn variables() {
+fn invalid_variables_are_refused() {
     insta::assert_snapshot!(all(&[
         "variables = 3",
         "variables.gap = [1, 2]",
@@ -288,7 +288,7 @@ fn variables() {
 }
 
 #[test]
-fn deviations() {
+fn invalid_deviations_are_refused() {
     insta::assert_snapshot!(all(&[
         "tolerance = 1e-3",
         "tolerance.gap = 0.1",
@@ -320,7 +320,7 @@ fn a_definition_with_millions_of_values_is_refused_before_parsing() {
 /// Cases: no thickness, the same length in both units, all three of gap, length and pitch, out of
 /// bounds.
 #[test]
-fn the_modulus_of_the_scales() {
+fn invalid_scale_moduli_are_refused() {
     let with = |text: &str| format!("material.scale_modulus_MPa = 3000\n{text}");
     let both = "material.substrate_modulus_MPa = 0.3\nmaterial.membrane_modulus_MPa = 4.5\n";
     let texts = [
@@ -338,7 +338,7 @@ fn the_modulus_of_the_scales() {
 }
 
 #[test]
-fn lengths_in_mm() {
+fn invalid_lengths_in_mm_are_refused() {
     insta::assert_snapshot!(all(&[
         "designs.gap_mm = 0.4",
         "scale.width_mm = 0",

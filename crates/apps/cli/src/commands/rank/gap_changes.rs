@@ -77,7 +77,7 @@ pub fn words(value: f64, changed: Option<f64>) -> String {
     let Some(changed) = changed else { return "no value".to_owned() };
     let ratio = changed / value;
     match ratio {
-        // Half of the last displayed digit.
+        // Changes below half of the last displayed digit are not shown.
         _ if (ratio - 1.0).abs() < 5e-4 => "unchanged".to_owned(),
         _ if !ratio.is_finite() => format!("from {value} to {}", crate::print::rounded(changed)),
         _ if ratio >= LARGE => format!("× {ratio:.1}"),

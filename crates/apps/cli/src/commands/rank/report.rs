@@ -81,7 +81,8 @@ impl RankReport<'_> {
         text
     }
 
-    /// Lists the best designs by fitness, and others that are best in another sense.
+    /// Lists the best designs by fitness, and other designs that are best by a criterion or without
+    /// a fold.
     fn best(&self) -> String {
         let preferences = self.preferences();
         let notes = self.notes();

@@ -28,7 +28,7 @@ fn failure(case: &Case) -> FailureMeasures {
 
 /// Random designs that break, that lose a bond, and that end otherwise.
 #[test]
-fn derivatives_of_the_first_failure_are_those_of_whole_solutions() {
+fn first_failure_derivatives_match_differences_of_solutions() {
     let mut modes = Vec::new();
     for number in 0..9 {
         let mut case = random_case(number);
@@ -65,7 +65,7 @@ fn derivatives_of_the_first_failure_are_those_of_whole_solutions() {
 
 /// Slender elastic scales bend before they tilt.
 #[test]
-fn derivatives_at_the_end_of_linear_bending_are_those_of_whole_solutions() {
+fn elastic_scale_derivatives_match_differences_of_solutions() {
     for number in [0, 1] {
         let mut case = random_case(number);
         (case.design.gap, case.design.length) = (0.1 + 0.02 * number as f64, 0.12);
@@ -95,7 +95,7 @@ fn derivatives_at_the_end_of_linear_bending_are_those_of_whole_solutions() {
 
 /// With the gap across given, and with the gap along in both directions.
 #[test]
-fn derivatives_of_the_force_across_are_those_of_whole_solutions() {
+fn force_across_derivatives_match_differences_of_solutions() {
     for number in 0..4 {
         let mut case = random_case(number);
         case.judge_failure = true;

@@ -148,7 +148,7 @@ fn one_sided_derivatives_of_the_coverage_at_a_corner_match_differences() {
 ///
 /// Springs from the table do not depend on it.
 #[test]
-fn the_springs_have_no_kink() {
+fn switching_the_mesh_grading_causes_no_kink() {
     let mut case = random_case(0);
     (case.design.width, case.design.length) = (0.4, 0.4);
     let kinks = compare_sides(&case);
