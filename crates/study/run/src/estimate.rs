@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn estimates_sample_all_parts_of_a_grid() {
+    fn designs_of_all_parts_of_a_grid_are_solved() {
         let chosen: Vec<_> = spread(16_000).collect();
         assert_eq!(chosen.len(), 48);
         // Slow designs leave time for only a few, so the first ones are from different parts.
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn estimated_disk_space_is_proportional_to_the_number_of_designs() {
+    fn twice_as_many_designs_need_twice_the_space() {
         let bytes = |values: u32| {
             let text = format!(
                 "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = {{ from = 1, to = {values}, step = 1 }}"

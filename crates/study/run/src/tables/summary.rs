@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_summary_has_counts_and_best_values() {
+    fn counts_and_best_values() {
         let sweep = Sweep::parse("name = 'x'", "x.toml", &[]).expect("a valid sweep");
         let text = "name = 'x'\ndesigns.critical_tilt_deg = [5, 10]";
         let tilts = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");

@@ -229,7 +229,7 @@ mod tests {
         let tpu = case(&["material.scale=TPU"]);
         assert_ne!(tpu.material.scale_strength_mpa, Some(50.0));
         assert_eq!(tpu, case(&["material.scale=tpu"]));
-        // Values that are set explicitly take precedence over the values of the name.
+        // Values that are set, too, have precedence.
         let both = case(&["material.scale=TPU", "material.scale_strength_MPa=7"]);
         assert_eq!(both.material.scale_strength_mpa, Some(7.0));
         let both = case(&["body.radius_mm=30", "body=finger"]);
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_replace_add_or_remove_values() {
+    fn a_setting_replaces_adds_or_removes_values() {
         let set = |file: &str, settings: &[&str]| {
             let mut table = toml_source::parse(file, "x.toml").expect("TOML");
             for setting in settings {

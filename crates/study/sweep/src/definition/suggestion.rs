@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn parameter_keys_are_unique_and_sections_contiguous() {
+    fn keys_are_unique_and_sections_contiguous() {
         let mut keys: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.key).collect();
         keys.sort_unstable();
         keys.dedup();
