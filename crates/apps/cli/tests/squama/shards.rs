@@ -1,6 +1,6 @@
 //! Shards of a sweep are solved separately and merged.
 
-use crate::survival::MANY;
+use crate::interruptions::MANY;
 use crate::{FEW, Place};
 
 #[test]

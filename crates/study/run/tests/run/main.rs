@@ -2,11 +2,11 @@
 
 mod across;
 mod bare_needle;
-mod between;
 mod curved_body;
 mod fuzz;
-mod hunt;
 mod journals;
+mod mixed_designs;
 mod reference;
 mod rows;
 mod sensitivity;
+mod worst_body;

@@ -6,10 +6,10 @@ pub mod designs;
 mod differences;
 mod failure;
 mod kinks;
-mod places;
+mod load_positions;
 mod scatter;
 mod tilts;
-mod turns;
+mod turning_points;
 
 use std::time::{Duration, Instant};
 
