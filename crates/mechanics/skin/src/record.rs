@@ -179,7 +179,7 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) initial_stiffness: f64,
     /// Largest stiffness at the recorded points.
     pub(crate) stiffness: Peak<SkinMode>,
-    /// Largest stiffness including the points in between, once searched.
+    /// Largest stiffness at and between the recorded points; empty until it is searched.
     stiffness_summit: OnceCell<Option<Summit<SkinMode>>>,
     /// Further functions with a tracked maximum.
     followed: Vec<(PathFunction<S>, Peak<SkinMode>)>,

@@ -8,7 +8,8 @@ use pulp::{Arch, NullaryFnOnce};
 
 use crate::block_matrix::{BlockMatrix, FARTHEST_LINK, LINK};
 
-/// Inner-link columns of a block with reach 1, and with the largest reach.
+/// Number of columns that link a block to its inner neighbours: with reach 1 (`NARROW`), and with
+/// the largest reach (`WIDE`).
 const NARROW: usize = LINK;
 const WIDE: usize = LINK * FARTHEST_LINK;
 

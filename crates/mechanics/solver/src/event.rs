@@ -309,8 +309,8 @@ impl<S: System> Continuation<S> {
             let distance = bracket.secant();
             let candidate = self.step_to(from, distance)?;
             let rate = candidate.direction[unknown];
-            // Either criterion suffices: a flat extremum is ill-defined in place, a sharp one in
-            // rate.
+            // One criterion suffices: round-off limits the position of a flat extremum, and the
+            // rate at a sharp one.
             if bracket.width() <= CLOSE * span || rate.abs() <= CLOSE * start.abs() {
                 return Ok(candidate);
             }

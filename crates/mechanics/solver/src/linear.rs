@@ -162,7 +162,8 @@ impl Tangent for BandMatrix {
 pub struct BandLu {
     size: usize,
     half: usize,
-    /// Kept unknowns, in order; the rows and columns below are numbered among them.
+    /// Numbers of the unknowns that are not left out, in order. Rows and columns of the factors
+    /// refer to positions in this list.
     kept: Vec<usize>,
     /// Row `i` of the upper factor: columns `i − half ..= i + 2 half`.
     ///

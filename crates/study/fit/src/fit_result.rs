@@ -169,7 +169,7 @@ pub enum FitError {
         unknowns: usize,
     },
     /// The definition has no unknowns.
-    #[error("nothing is sought; add [variables] or offsets to a [[curve]]")]
+    #[error("there are no unknowns; add [variables] or offsets to a [[curve]]")]
     NothingSought,
     /// Profiles have found better minima again and again.
     #[error(
@@ -177,7 +177,7 @@ pub enum FitError {
     )]
     Unsettled,
     /// No evaluated skin within the ranges can be solved.
-    #[error("none of the skins that were tried can be solved; look at one with squama design")]
+    #[error("no evaluated skin within the ranges can be solved; examine one with squama design")]
     Unsolvable,
 }
 

@@ -77,8 +77,8 @@ pub(crate) struct Noise {
 impl Noise {
     /// Returns the deviation by which residuals are divided.
     ///
-    /// The mean of `n` correlated residuals varies as the mean of `n` over `widening` independent
-    /// ones.
+    /// It is larger than the standard deviation if residuals are correlated: `n` correlated
+    /// residuals determine their mean as accurately as `n/widening` independent ones.
     pub(crate) fn scale(&self) -> f64 {
         self.deviation * self.widening.sqrt()
     }

@@ -317,8 +317,8 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
         Front { designs: Vec::new(), same: 0, beaten: 0, empty: targets.len() - found.len() };
     let mut kept: Vec<(BestDesign, f64)> = Vec::new();
     for (k, (design, turned)) in found.into_iter().enumerate() {
-        // If two limits bind, lower bounds separate points by round-off in one objective; exact
-        // dominance would keep the worst.
+        // If two limits bind, points may differ only by round-off in one objective. Exact dominance
+        // would then keep the worse of two points.
         if values.iter().any(|other| dominates(other, &turned)) {
             front.beaten += 1;
         } else if values[..k].iter().any(|other| is_same(other, &turned)) {

@@ -11,8 +11,8 @@
 //! ```
 //!
 //! ```text
-//! DesignGoal ─► DesignSpace ─► sample ─► climb ⇄ ridge, polish ─► Found: best designs, history
-//!                                └─ Evaluations: each point once, stored in a journal ─┘
+//! DesignGoal ─► DesignSpace ─► sample ─► local search ⇄ ridge, polish ─► Found: designs, history
+//!                                     └─ Evaluations: each point once, stored in a journal ─┘
 //! ```
 //!
 //! | Type | Role |

@@ -49,12 +49,12 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         (
             "binding",
             "-",
-            "what keeps the design from being better: requirements, ends of variables, floors of other objectives",
+            "binding limits, which keep the design from being better: requirements, ends of variables, lower bounds of other objectives",
         ),
         (
             "prices",
             "-",
-            "what each of these costs, by its multiplier; empty where no multipliers balance the slopes, as on a kink",
+            "cost of each of these limits, by its multiplier; empty where no multipliers balance the slopes, as on a kink",
         ),
         (
             FAILED_CHECKS,

@@ -54,7 +54,7 @@ impl MeasuredColumns {
             return Ok(index);
         }
         let asked: Vec<_> = measures.iter().map(|measure| measure.key()).collect();
-        let hint = format!("expected one of what is measured: {}", asked.join(", "));
+        let hint = format!("expected one of the measured columns: {}", asked.join(", "));
         Err(NoSuchColumn { found: name.to_owned(), hint })
     }
 

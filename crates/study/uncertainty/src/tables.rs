@@ -78,7 +78,7 @@ pub static SOURCE_COLUMNS: &[Column<(DesignNumber, String, SourceShare)>] = &col
     (DesignNumber, String, SourceShare):
     "design", "-", |(design, ..)| design.to_string(), DESIGN;
     "measure", "-", |(_, measure, _)| measure.clone(), MEASURE;
-    "source", "-", |(.., s)| s.source.clone(), "what deviates, by its key in [tolerance]";
+    "source", "-", |(.., s)| s.source.clone(), "deviating parameter, by its key in [tolerance]";
     "level", "-",
         |(.., s)| match s.level {
             DeviationLevel::Batch => "batch",

@@ -134,7 +134,7 @@ fn question_letters(name: &str, svg: &str, width: f64) {
     if let Some(points) = smallest {
         let wide = (width * READABLE / points).ceil();
         note(&format!(
-            "{name}.svg: the smallest letters are {points:.1} pt on paper; a width of at least {wide} mm wide gives {READABLE} pt"
+            "{name}.svg: the smallest letters are {points:.1} pt on paper; a width of at least {wide} mm gives {READABLE} pt"
         ));
     }
 }

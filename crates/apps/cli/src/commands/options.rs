@@ -97,7 +97,7 @@ pub fn decimal(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "expected a number, without a unit".to_owned())
 }
 
-/// Parses an integer from `LOW` to `HIGH`; errors are clearer than those of clap.
+/// Parses an integer from `LOW` to `HIGH`; its errors are clearer than the errors of clap.
 pub fn whole<const LOW: u64, const HIGH: u64>(text: &str) -> Result<u64, String> {
     let number = text.parse().ok().filter(|number| (LOW..=HIGH).contains(number));
     number.ok_or_else(|| match HIGH {

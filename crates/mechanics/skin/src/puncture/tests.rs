@@ -467,7 +467,7 @@ fn compare_instability(path: Continuation<Chain>, compared: &mut HashSet<(usize,
 #[test]
 fn negative_eigenvalues_match_the_dense_stiffness() {
     let mut compared = HashSet::new();
-    // Each design on a finite and on an endless row, one with nearest and one with full coupling.
+    // Solve each design on a finite and on an endless row; two designs have full coupling.
     for (design, modulus, is_full) in
         [(LIVELY, 30.0, true), (FOLDING, HARD, false), (SLIDING, 300.0, true), (STEEP, HARD, false)]
     {

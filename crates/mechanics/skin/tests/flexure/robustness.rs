@@ -24,7 +24,7 @@ fn the_reference_study_completes_with_either_law() {
     }
 }
 
-/// Scales of a third of the strip rotate until a corner slides off a side's top.
+/// The three gaps rotate until a corner slides beyond the upper end of a side.
 #[test]
 fn a_contact_beyond_its_edge_fails_the_audit() {
     let parameters = FlexureParameters { gaps: Some(3), ..FlexureParameters::default() };

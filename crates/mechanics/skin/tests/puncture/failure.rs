@@ -128,7 +128,7 @@ fn failures_are_located_where_a_strength_is_reached() {
         let failed = failure(&design, &parameters(strengths));
         assert_eq!(failed.mode, Some(mode));
         assert!(failed.force < solved.critical_force, "{failed:?}");
-        // A path to the tilt of the failure has this largest stress.
+        // Up to the tilt at the failure, the largest stress equals the strength.
         let place = skin::puncture::At::Force(failed.force.unwrap());
         let springs = substrate::calibrate(&design.footprint(0.5).unwrap()).unwrap();
         let at = skin::puncture::snapshots(

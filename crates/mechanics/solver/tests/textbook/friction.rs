@@ -139,8 +139,8 @@ fn the_tangent_of_a_slipping_block_agrees_with_differences() {
     let (points, _) = follow(block(true), steps(0.05));
     for point in points {
         check_tangent(&block(true), &point.state, 1e-8).unwrap_or_else(|wrong| {
-            // The slope of an inactive slip distance belongs to its condition; once active it has
-            // its own equation.
+            // Rows of slip distances may differ: the tangent has the slope of the condition if a
+            // slip distance is inactive, and its own equation if it is active.
             assert!(wrong.row >= 2, "{wrong}");
         });
     }

@@ -98,7 +98,8 @@ fn a_wrong_derivative_is_reported() {
         }
     }
     assert_eq!(found(None, 1e-6, true), Some((1, 0)));
-    // For an inactive constraint the slope counts, not its row and column of the tangent.
+    // The solver uses only the slope of an inactive constraint, so errors in its row and column are
+    // accepted.
     assert_eq!(found(None, 1e-6, false), Some((1, 0)));
     for entry in [(1, 0), (1, 2), (0, 1)] {
         assert_eq!(found(Some(entry), 0.0, false), None);

@@ -294,8 +294,9 @@ impl CurveTable<'_> {
                 let name = format!("curve.{}", entry.key);
                 let parameter = Parameter::named(&entry.key).ok_or_else(|| {
                     let keys = KEYS.join(", ");
-                    let hint =
-                        format!("expected {keys} or what this specimen has alone, e.g. gap_over_t");
+                    let hint = format!(
+                        "expected {keys} or a parameter of this specimen alone, e.g. gap_over_t"
+                    );
                     let value = entry.value.to_string();
                     refused(&entry.place, &name, Problem::Unknown { value, hint })
                 })?;

@@ -36,7 +36,7 @@ fn keys_of_curves_are_checked() {
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\noffsets = { displacement = [1, 0] }\n"), @"test.toml:10: curve.offsets: { displacement = [1, 0] } is not accepted, expected ranges, e.g. { displacement = [-0.1, 3] }");
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"), @"test.toml:11: curve.file: a.csv is not accepted, expected each measured curve once");
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\n[[curve]]\nfile = './a.csv'\nkind = 'puncture'\n"), @"test.toml:11: curve.file: ./a.csv is not accepted, expected each measured curve once");
-    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap = 1\n"), @"test.toml:10: curve.gap: unknown key (its value is 1), expected file, kind, columns, specimen, branch, from, to, offsets or what this specimen has alone, e.g. gap_over_t");
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap = 1\n"), @"test.toml:10: curve.gap: unknown key (its value is 1), expected file, kind, columns, specimen, branch, from, to, offsets or a parameter of this specimen alone, e.g. gap_over_t");
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap_over_t = -1\n"), @"test.toml:10: curve.gap_over_t: designs.gap_over_t: -1 is out of range, expected a length of at least 0.001 and at most 1000");
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap_over_t = [0.1, 0.2]\n"), @"test.toml: designs.gap_over_t: [0.1, 0.2] is not accepted, expected one value, or gap_over_t among [variables]");
 }
@@ -80,7 +80,7 @@ fn unknowns_are_checked() {
     let place = Place::new();
     place.write("a.csv", "displacement,force\n0.1,1\n");
     let none = place.fit(&format!("{SKIN}{curve}")).expect_err("nothing sought").to_string();
-    insta::assert_snapshot!(none, @"nothing is sought; add [variables] or offsets to a [[curve]]");
+    insta::assert_snapshot!(none, @"there are no unknowns; add [variables] or offsets to a [[curve]]");
     let sought = "[variables]\nfriction = { from = 0, to = 1 }\n";
     let few = place.fit(&format!("{SKIN}{sought}{curve}")).expect_err("one point").to_string();
     insta::assert_snapshot!(few, @"too few points: 1, for 1 unknowns; expected more points than unknowns");

@@ -17,7 +17,7 @@ pub(super) fn write(
     format: CsvFormat,
 ) -> Result<Option<(String, String)>, JournalError> {
     let mut pairs = archive.entries()?.replaced().peekable();
-    // No empty table: its absence shows that no design was solved again.
+    // Write no empty table: a missing table shows that no design was solved again.
     if pairs.peek().is_none() {
         return Ok(None);
     }

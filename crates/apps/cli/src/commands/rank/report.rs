@@ -134,7 +134,7 @@ impl RankReport<'_> {
             }
             notes.push((self.ranking.winner(weights).row(), note));
         }
-        // The front of the paper's criteria is most of the designs.
+        // Most designs are on the front of the paper's criteria, so its knee means little.
         let knee = self.ranking.knee().filter(|_| !self.preferences().are_the_papers());
         notes.extend(knee.map(|knee| (knee.row(), "knee of the front".to_owned())));
         notes

@@ -113,7 +113,7 @@ impl Isolated {
             + v * v * l / self.shear
     }
 
-    /// Returns the excess of the moment of the springs.
+    /// Returns the moment of the springs minus the moment of the load.
     fn balance(&self, force: f64, phi: f64) -> f64 {
         let slope = (self.flexibility(phi + 1e-5) - self.flexibility(phi - 1e-5)) / 2e-5;
         let arm = self.arm[0] * phi.cos() - self.arm[1] * phi.sin();
