@@ -69,13 +69,13 @@ pub fn tip(load: f64) -> Tip {
 pub fn rolled_up(elements: usize, angle: f64) -> Vec<[f64; 3]> {
     let count = elements as f64;
     let mut node = [0.0; 2];
-    let place = |k: usize| {
+    let nodes = (1..=elements).map(|k| {
         // The chord of an arc has the mean direction of its ends.
         let chord = angle * (k as f64 - 0.5) / count;
         node = [node[0] + chord.cos() / count, node[1] + chord.sin() / count];
         [node[0], node[1], angle * k as f64 / count]
-    };
-    (1..=elements).map(place).collect()
+    });
+    nodes.collect()
 }
 
 /// Returns `K(k) − F(φ, k)` and `E(k) − E(φ, k)` with `sin φ = 1/(k √2)`.

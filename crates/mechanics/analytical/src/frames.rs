@@ -28,9 +28,9 @@ mod tests {
     #[test]
     fn the_limit_load_is_the_largest_of_the_path() {
         let (base, height, axial) = (1.0_f64, 0.2_f64, 1e3);
-        let load = |h: f64| axial * (1.0 / base.hypot(h) - 1.0 / base.hypot(height)) * h;
-        let largest =
-            (0..=20_000).map(|k| load(height * f64::from(k) / 20_000.0)).fold(0.0, f64::max);
+        let heights = (0..=20_000).map(|k| height * f64::from(k) / 20_000.0);
+        let loads = heights.map(|h| axial * (1.0 / base.hypot(h) - 1.0 / base.hypot(height)) * h);
+        let largest = loads.fold(0.0, f64::max);
         let limit = toggle_limit_load(base, height, axial);
         assert!(limit >= largest && limit < largest * (1.0 + 1e-8), "{limit} {largest}");
     }

@@ -68,10 +68,9 @@ mod tests {
     #[test]
     fn the_work_of_the_load_is_the_energy() {
         let (steps, end) = (2000, 0.4);
-        let at = |k: i32| end * f64::from(k) / f64::from(steps);
         let work: f64 = (0..steps)
             .map(|k| {
-                let [from, to] = [at(k), at(k + 1)];
+                let [from, to] = [k, k + 1].map(|k| end * f64::from(k) / f64::from(steps));
                 let force = 0.5 * (SCALE.force(from) + SCALE.force(to));
                 force * (SCALE.displacement(to) - SCALE.displacement(from))
             })

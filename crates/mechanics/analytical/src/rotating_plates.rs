@@ -31,10 +31,13 @@ pub struct Engagement {
 /// The plates have length `l/d` and are inclined by `angle`. `None` if they do not touch before the
 /// maximum of `ψ cos(ψ/2)`.
 pub fn engagement(length_over_pitch: f64, angle: f64, friction: f64) -> Option<Engagement> {
-    let arm = |arc: f64| length_over_pitch * arc * (0.5 * arc).cos();
-    let touch = root(|arc| arm(arc) - (angle + 0.5 * arc).sin())?;
-    let lock = root(|arc| arm(arc) - (FRAC_PI_2 - friction.atan()).sin())?;
+    let touch = root(|arc| arm(length_over_pitch, arc) - (angle + 0.5 * arc).sin())?;
+    let lock = root(|arc| arm(length_over_pitch, arc) - (FRAC_PI_2 - friction.atan()).sin())?;
     Some(Engagement { touch, lock: lock.max(touch) })
+}
+
+fn arm(length_over_pitch: f64, arc: f64) -> f64 {
+    length_over_pitch * arc * (0.5 * arc).cos()
 }
 
 /// Returns the zero of an increasing function between 0 and `ψ = 2 cot(ψ/2)`.

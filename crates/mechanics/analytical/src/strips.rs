@@ -32,20 +32,27 @@ pub struct Rocking {
 /// equations are singular.
 pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
     let centre = 2.0 + gap;
-    let point = |k: usize, n: usize| (PI * (k as f64 + 0.5) / n as f64).cos();
-    // The positive half of the middle strip, then the right strip.
-    let x = |i: usize| {
-        if i < terms { point(i, 2 * terms) } else { centre + point(i - terms, 2 * terms) }
-    };
-    let potential = |i: usize, j: usize| {
-        // The left strip mirrors the right one and carries the opposite pressure.
-        let odd = |n: usize, x: f64| log_potential(n, x - centre) - log_potential(n, -x - centre);
-        let x = x(i);
-        -2.0 / PI * if j < terms { log_potential(2 * j + 1, x) } else { odd(j - terms, x) }
-    };
     let size = 3 * terms;
-    let displacement = DVector::from_fn(size, |i, _| if i < terms { x(i) } else { 0.0 });
-    let loads = DMatrix::from_fn(size, size, potential).lu().solve(&displacement)?;
+    let mut points = vec![0.0; size];
+    for k in 0..2 * terms {
+        let point = (PI * (k as f64 + 0.5) / (2 * terms) as f64).cos();
+        // The positive half of the middle strip, then the right strip.
+        if k < terms {
+            points[k] = point;
+        }
+        points[terms + k] = centre + point;
+    }
+    let displacement = DVector::from_fn(size, |i, _| if i < terms { points[i] } else { 0.0 });
+    let potentials = DMatrix::from_fn(size, size, |i, j| {
+        let x = points[i];
+        let potential = match j.checked_sub(terms) {
+            None => log_potential(2 * j + 1, x),
+            // The left strip mirrors the right one and carries the opposite pressure.
+            Some(n) => log_potential(n, x - centre) - log_potential(n, -x - centre),
+        };
+        -2.0 / PI * potential
+    });
+    let loads = potentials.lu().solve(&displacement)?;
     // ∫ τ T₁(τ)/√(1 − τ²) = π/2.
     Some(Rocking { direct: 0.5 * PI * loads[0], coupling: -0.5 * PI * loads[terms + 1] })
 }

@@ -138,38 +138,38 @@ impl CornerContact {
         corners: &Corners,
         forces: [f64; FORCES],
     ) -> Option<Transition> {
-        let to = |contact, forces, valid| Some(Transition { contact, forces, valid });
         let [own, partner, flush] = forces;
-        match (self, force, acts) {
+        let (contact, forces, valid) = match (self, force, acts) {
             (Self::Open, Force::Own, true) => {
                 // An open contact stores no corner, so determine the one that faces an edge at
                 // closure.
-                to(Self::Edge(corners.facing()?.0), forces, Force::Own)
+                (Self::Edge(corners.facing()?.0), forces, Force::Own)
             }
             (Self::Edge(edge) | Self::Flush(edge), Force::Partner, true) => {
                 // Corner on corner replaces both contacts of the flush edges.
                 let forces = [own + flush, partner, 0.0];
-                to(Self::reached_corner(edge, corners), forces, Force::Partner)
+                (Self::reached_corner(edge, corners), forces, Force::Partner)
             }
-            (Self::Edge(edge), Force::Flush, true) => to(Self::Flush(edge), forces, Force::Flush),
-            (Self::Edge(_), Force::Own, false) => to(Self::Open, forces, Force::Own),
+            (Self::Edge(edge), Force::Flush, true) => (Self::Flush(edge), forces, Force::Flush),
+            (Self::Edge(_), Force::Own, false) => (Self::Open, forces, Force::Own),
             (Self::Corner(edge), Force::Own, false) => {
                 let [_, other] = corners.together(edge);
                 // The remaining force becomes the own force; the vanished one becomes the
                 // partner's.
-                to(Self::Edge(other), [partner, own, flush], Force::Partner)
+                (Self::Edge(other), [partner, own, flush], Force::Partner)
             }
             (Self::Corner(edge), Force::Partner, false) => {
                 let [edge, _] = corners.together(edge);
-                to(Self::Edge(edge), forces, Force::Partner)
+                (Self::Edge(edge), forces, Force::Partner)
             }
             (Self::Flush(edge), Force::Own, false) => {
-                to(Self::Edge(edge.flush()?), [flush, partner, own], Force::Flush)
+                (Self::Edge(edge.flush()?), [flush, partner, own], Force::Flush)
             }
-            (Self::Flush(edge), Force::Flush, false) => to(Self::Edge(edge), forces, Force::Flush),
-            (_, force, false) => to(self, forces, force),
-            _ => None,
-        }
+            (Self::Flush(edge), Force::Flush, false) => (Self::Edge(edge), forces, Force::Flush),
+            (_, force, false) => (self, forces, force),
+            _ => return None,
+        };
+        Some(Transition { contact, forces, valid })
     }
 
     /// Returns the state of a corner that has reached the end of its edge.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use geometry::Corner;
+use geometry::{Corner, Vec2};
 
 use crate::gap::{CornerEdge, Gap, Meeting, Pair, Pose};
 
@@ -115,6 +115,11 @@ impl<'a> Corners<'a> {
     pub(crate) fn gap(&self, edge: CornerEdge) -> Gap {
         let [left, right] = self.poses;
         self.pair.gap(edge, left, right)
+    }
+
+    /// Returns the normal of an edge of this level, in the poses.
+    pub(crate) fn normal(&self, edge: CornerEdge) -> Vec2 {
+        edge.normal(self.pair, self.poses).0
     }
 
     /// Computes the tangential displacement between a corner and an edge of this level.

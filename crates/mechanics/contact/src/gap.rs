@@ -191,13 +191,13 @@ impl Pair {
     /// Creates a pair of a left and a right scale; `offset` leads from the left to the right node
     /// (over `t`).
     pub fn between(scales: [Parallelogram; 2], offset: Vec2) -> Self {
-        let meeting = |corner_edge: CornerEdge| {
+        let meetings = CornerEdge::ALL.map(|corner_edge| {
             let [left, right] = &scales;
             let (a, b) = if corner_edge.corner_is_left() { (left, right) } else { (right, left) };
             let (_, corner, edge) = corner_edge.parts();
             (a.corner(corner), edge(b))
-        };
-        Self { scales, offset, meetings: CornerEdge::ALL.map(meeting) }
+        });
+        Self { scales, offset, meetings }
     }
 
     /// Returns the shapes of the left and the right scale.

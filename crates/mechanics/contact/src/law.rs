@@ -189,10 +189,10 @@ mod tests {
     fn energy_is_the_work_of_the_force() {
         for (_, contact) in laws() {
             let n = 20_000;
-            let force = |i: i32| 50.0 * (f64::from(i) / f64::from(n)).powi(3);
             let work: f64 = (0..n)
                 .map(|i| {
-                    let (low, high) = (force(i), force(i + 1));
+                    let [low, high] =
+                        [i, i + 1].map(|i| 50.0 * (f64::from(i) / f64::from(n)).powi(3));
                     let step = contact.approach(high).value - contact.approach(low).value;
                     0.5 * (low + high) * step
                 })

@@ -85,27 +85,22 @@ impl Extents {
 ///
 /// `offset` is the distance between the nodes of the scales at rest.
 pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &Pose) -> Vec<Vec2> {
-    let points = |pose, at| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
+    let [first, second] = [(left, Vec2::zeros()), (right, Vec2::new(offset, 0.0))]
+        .map(|(pose, at)| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y)));
     let mut polygon = Vec::new();
     // For drawings only: this function is unreliable for edges that lie on each other.
-    convex_polygons_intersection_points(
-        &points(left, Vec2::zeros()),
-        &points(right, Vec2::new(offset, 0.0)),
-        &mut polygon,
-    );
+    convex_polygons_intersection_points(&first, &second, &mut polygon);
     polygon.iter().map(|v| Vec2::new(v.x, v.y)).collect()
 }
 
 fn depth(scales: [&Parallelogram; 2], offset: Vec2, poses: [&Pose; 2]) -> Option<f64> {
-    let polygon = |scale, pose, at| {
-        let points = corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
+    let [first, second] = [(0, Vec2::zeros()), (1, offset)].map(|(i, at)| {
+        let points = corners(scales[i], poses[i], at).map(|v| Vector::new(v.x, v.y));
         ConvexPolygon::from_convex_polyline_unmodified(points.to_vec())
-    };
-    let first = polygon(scales[0], poses[0], Vec2::zeros())?;
-    let second = polygon(scales[1], poses[1], offset)?;
+    });
     // The corners are already in place.
     let here = Placement::IDENTITY;
-    let contact = query::contact(&here, &first, &here, &second, 0.0).ok()??;
+    let contact = query::contact(&here, &first?, &here, &second?, 0.0).ok()??;
     (contact.dist < 0.0).then_some(-contact.dist)
 }
 
@@ -184,8 +179,7 @@ mod tests {
                 std::array::from_fn(|i| Parallelogram::leaning(half_bases[i], slants[i]).unwrap());
             let poses: [_; 3] =
                 std::array::from_fn(|i| Pose::new(q[3 * i], q[3 * i + 1], q[3 * i + 2]));
-            let standing = |i: usize| (scales[i], Vec2::new(1.5 * i as f64, 0.0));
-            let found = overlaps(standing, &poses);
+            let found = overlaps(|i| (scales[i], Vec2::new(1.5 * i as f64, 0.0)), &poses);
             let placed: [_; 3] =
                 std::array::from_fn(|i| corners(&scales[i], &poses[i], Vec2::new(1.5 * i as f64, 0.0)));
             for (left, right) in [(0, 1), (0, 2), (1, 2)] {

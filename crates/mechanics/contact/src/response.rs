@@ -112,17 +112,16 @@ impl CornerContact {
     /// The forces on the right scale are opposite.
     pub fn forces_on_left(self, corners: &Corners, forces: [f64; FORCES]) -> [Vec2; 2] {
         let [own, partner, flush] = forces;
-        let along = |edge: CornerEdge| edge.normal(corners.pair, corners.poses).0;
         match self {
             Self::Open => [Vec2::zeros(); 2],
-            Self::Edge(edge) => [own * along(edge), Vec2::zeros()],
+            Self::Edge(edge) => [own * corners.normal(edge), Vec2::zeros()],
             Self::Corner(edge) => {
-                let [first, second] = corners.together(edge);
-                [own * along(first) + partner * along(second), Vec2::zeros()]
+                let [first, second] = corners.together(edge).map(|edge| corners.normal(edge));
+                [own * first + partner * second, Vec2::zeros()]
             }
             Self::Flush(edge) => {
-                let beside = edge.flush().map_or(Vec2::zeros(), along);
-                [own * along(edge), flush * beside]
+                let beside = edge.flush().map_or(Vec2::zeros(), |edge| corners.normal(edge));
+                [own * corners.normal(edge), flush * beside]
             }
         }
     }
@@ -185,7 +184,7 @@ fn flush_condition(corners: &Corners, flush: CornerEdge) -> Equation {
 
 impl CornerEdge {
     /// Returns the force direction on the left scale and the rotation that turns it.
-    fn normal(self, pair: &Pair, [left, right]: [&Pose; 2]) -> (Vec2, usize) {
+    pub(crate) fn normal(self, pair: &Pair, [left, right]: [&Pose; 2]) -> (Vec2, usize) {
         let (normal, [with_left, with_right]) = (pair.normal(self), ROTATIONS);
         // The corner is pushed along the outward normal of the edge; the other scale in the
         // opposite direction.
@@ -233,6 +232,11 @@ impl Together {
         v.dot(&self.beyond)
     }
 
+    /// Returns the components of a vector along the edge's normal, and short of the edge's end.
+    fn distances(&self, v: Vec2) -> [f64; 2] {
+        [v.dot(&self.normals[0]), -self.overrun(v)]
+    }
+
     /// Evaluates the second condition of (C6), `v = D`, while the partner's force is 0.
     fn short_of_the_end(&self) -> Equation {
         let mut condition = Equation { value: -self.overrun(self.apart), ..Equation::default() };
@@ -260,18 +264,16 @@ impl Together {
         f: Vec2,
         turning: &[Vec2; COORDINATES],
     ) -> [Equation; 2] {
-        let Secant { compliance, growth } = Secant::new(law, f);
-        let v = self.apart + compliance * f;
-        let along = |df: Vec2| compliance * df + growth * f.dot(&df) * f;
-        let slopes = |dv: Vec2| [dv.dot(&self.normals[0]), -self.overrun(dv)];
+        let secant = Secant::new(law, f);
+        let v = self.apart + secant.compliance * f;
         let [mut closed, mut at_end] =
-            slopes(v).map(|value| Equation { value, ..Equation::default() });
+            self.distances(v).map(|value| Equation { value, ..Equation::default() });
         for (i, &df) in turning.iter().enumerate() {
-            let dv = along(df) + self.apart_slope(i);
-            [closed.by_coordinate[i], at_end.by_coordinate[i]] = slopes(dv);
+            let dv = secant.slope(f, df) + self.apart_slope(i);
+            [closed.by_coordinate[i], at_end.by_coordinate[i]] = self.distances(dv);
         }
         for (k, &normal) in self.normals.iter().enumerate() {
-            [closed.by_force[k], at_end.by_force[k]] = slopes(along(normal));
+            [closed.by_force[k], at_end.by_force[k]] = self.distances(secant.slope(f, normal));
         }
         closed.by_coordinate[self.turns[0]] += v.dot(&quarter(self.normals[0]));
         at_end.by_coordinate[self.turns[0]] -= v.dot(&quarter(self.beyond));
@@ -348,5 +350,10 @@ impl Secant {
         let approach = law.approach(force);
         let compliance = approach.value / force;
         Self { compliance, growth: (approach.slope - compliance) / (force * force) }
+    }
+
+    /// Returns the change of `h f` under a change `df` of the force.
+    fn slope(&self, f: Vec2, df: Vec2) -> Vec2 {
+        self.compliance * df + self.growth * f.dot(&df) * f
     }
 }

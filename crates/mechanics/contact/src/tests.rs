@@ -40,6 +40,12 @@ impl Case {
         self.with_friction(z, 0.0)
     }
 
+    /// Returns the corner that faces an edge, with its edge.
+    fn facing(&self, z: &[f64; COUPLED]) -> Option<CornerEdge> {
+        let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
+        Corners::new(self.level, &self.pair, [&left, &right]).facing().map(|(edge, _)| edge)
+    }
+
     /// Evaluates the response with a friction coefficient for corner on corner.
     fn with_friction(&self, z: &[f64; COUPLED], held: f64) -> CornerResponse {
         let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
@@ -192,21 +198,18 @@ proptest! {
     ) {
         let case = case(edge, slant, Law::PRINTED, |_| CornerContact::Open);
         let z = with(q, [0.0; FORCES]);
-        let facing = |z: &[f64; COUPLED]| {
-            let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
-            Corners::new(case.level, &case.pair, [&left, &right]).facing().map(|(edge, _)| edge)
-        };
+        let facing = case.facing(&z);
         for j in 0..COORDINATES {
             let moved = [-1e-6, 1e-6].map(|h| {
                 let mut z = z;
                 z[j] += h;
                 z
             });
-            prop_assume!(moved.iter().all(|moved| facing(moved) == facing(&z)));
+            prop_assume!(moved.iter().all(|moved| case.facing(moved) == facing));
             let [low, high] = moved.map(|z| case.at(&z).conditions);
             let ours = case.at(&z).conditions;
             prop_assert_eq!([ours[1], ours[2]], [None; 2]);
-            prop_assert_eq!(ours[0].is_some(), facing(&z).is_some());
+            prop_assert_eq!(ours[0].is_some(), facing.is_some());
             if let (Some(ours), Some(low), Some(high)) = (ours[0], low[0], high[0]) {
                 let difference = (high.value - low.value) / 2e-6;
                 assert_relative_eq!(ours.by_coordinate[j], difference, epsilon = 1e-6, max_relative = 1e-6);
@@ -249,12 +252,11 @@ fn with(q: [f64; COORDINATES], forces: [f64; FORCES]) -> [f64; COUPLED] {
 /// Tops become bases, so the nodes are the midpoints of the former tops.
 fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
     let top = Vec2::new(slant.to_radians().tan(), 1.0);
-    let node = |scale: usize| {
-        let q = &q[3 * scale..];
-        let moved = Vec2::new(q[0], q[1]) + Pose::new(0.0, 0.0, q[2]).turn(top) - top;
-        [-moved.x, -moved.y, q[2]]
-    };
-    let ([a, b, c], [d, e, f]) = (node(1), node(0));
+    let [[a, b, c], [d, e, f]] = [3, 0].map(|first| {
+        let [x, y, rotation] = [0, 1, 2].map(|k| q[first + k]);
+        let moved = Vec2::new(x, y) + Pose::new(0.0, 0.0, rotation).turn(top) - top;
+        [-moved.x, -moved.y, rotation]
+    });
     [a, b, c, d, e, f]
 }
 
@@ -272,20 +274,18 @@ fn edge_and_corner_states_agree_at_their_transition() {
         (4, 20.0, alike),
         (5, 20.0, alike),
     ] {
-        let case = |closed: Closed| case(k, slant, Law::EXCHANGED, closed);
-        let force = 0.7;
+        let [edge, corner] = [CornerContact::Edge as Closed, CornerContact::Corner]
+            .map(|closed| case(k, slant, Law::EXCHANGED, closed));
         // Place the left scale so that D = −δ m, which puts the foot at the end of the edge.
-        let edge = case(CornerContact::Edge);
-        let at = |x: f64, y: f64| [x, y, phi[0], 0.0, 0.0, phi[1], force, 0.0, 0.0];
-        let (mut x, mut y) = (0.0, 0.0);
+        let mut z = [0.0, 0.0, phi[0], 0.0, 0.0, phi[1], 0.7, 0.0, 0.0];
         for _ in 0..30 {
-            let [a, b] = [0, 1].map(|k| edge.at(&at(x, y)).conditions[k].unwrap());
+            let [a, b] = [0, 1].map(|k| edge.at(&z).conditions[k].unwrap());
             let (s, t) = (a.by_coordinate, b.by_coordinate);
             let determinant = s[0] * t[1] - s[1] * t[0];
-            x -= (a.value * t[1] - b.value * s[1]) / determinant;
-            y -= (b.value * s[0] - a.value * t[0]) / determinant;
+            z[0] -= (a.value * t[1] - b.value * s[1]) / determinant;
+            z[1] -= (b.value * s[0] - a.value * t[0]) / determinant;
         }
-        let (edge, corner) = (edge.at(&at(x, y)), case(CornerContact::Corner).at(&at(x, y)));
+        let (edge, corner) = (edge.at(&z), corner.at(&z));
         for (edge, corner) in edge.balance.iter().zip(&corner.balance) {
             assert_relative_eq!(edge.value, corner.value, epsilon = 1e-12);
         }
@@ -305,13 +305,12 @@ fn a_corner_short_of_the_end_of_its_edge_keeps_its_partner_at_rest() {
     let (left, right) = (Pose::new(0.2, -0.1, 0.0), Pose::new(0.0, 0.0, 0.0));
     for level in [Level::Upper, Level::Lower] {
         let corners = Corners::new(level, &pair, [&left, &right]);
-        let short = |edge: CornerEdge| {
+        let (edge, _) = corners.facing().unwrap();
+        let [own, partner] = [edge, corners.together(edge)[1]].map(|edge| {
             let response = CornerContact::Edge(edge).response(&corners, &law, [0.1, 0.0, 0.0]);
             response.conditions[Force::Partner as usize].unwrap().value
-        };
-        let (edge, _) = corners.facing().unwrap();
-        assert!(short(edge) > 0.0, "{level:?}");
-        assert!(short(corners.together(edge)[1]) < 0.0, "{level:?}");
+        });
+        assert!(own > 0.0 && partner < 0.0, "{level:?} {own} {partner}");
     }
 }
 
@@ -320,14 +319,22 @@ fn sides_are_parallel_where_their_directions_agree() {
     let scales = [50.0, 30.0].map(|slant| Parallelogram::new(0.4, slant).unwrap());
     let pair = Pair::between(scales, Vec2::new(1.0, 0.0));
     // The left scale leans by 20° more, and turns back by the same angle.
-    let parallel = |left: f64, right: f64| {
-        let poses = [left, right].map(|degrees| Pose::new(0.3, 0.1, degrees.to_radians()));
-        Corners::new(Level::Upper, &pair, poses.each_ref()).are_sides_parallel()
-    };
-    assert!(parallel(20.0, 0.0) && parallel(25.0, 5.0) && parallel(0.0, -20.0));
-    assert!(parallel(20.0 + 4e-5, 0.0) && parallel(20.0 - 4e-5, 0.0));
-    assert!(!parallel(20.0 + 8e-5, 0.0) && !parallel(20.0 - 8e-5, 0.0));
-    assert!(!parallel(0.0, 0.0) && !parallel(-20.0, 0.0) && !parallel(0.0, 20.0));
+    for (left, right, expected) in [
+        (20.0, 0.0, true),
+        (25.0, 5.0, true),
+        (0.0, -20.0, true),
+        (20.0 + 4e-5, 0.0, true),
+        (20.0 - 4e-5, 0.0, true),
+        (20.0 + 8e-5, 0.0, false),
+        (20.0 - 8e-5, 0.0, false),
+        (0.0, 0.0, false),
+        (-20.0, 0.0, false),
+        (0.0, 20.0, false),
+    ] {
+        let poses = [left, right].map(|degrees: f64| Pose::new(0.3, 0.1, degrees.to_radians()));
+        let corners = Corners::new(Level::Upper, &pair, poses.each_ref());
+        assert_eq!(corners.are_sides_parallel(), expected, "{left} {right}");
+    }
 }
 
 /// Returns the edges faced by the corners of both levels at the given positions.

@@ -1,6 +1,6 @@
 //! Cylindrical body on which a row of scales lies.
 
-use crate::Vec2;
+use crate::{Parallelogram, Vec2, polygon_distance};
 
 /// Largest angle (radians) between the normals of the punctured scale and of any other scale.
 ///
@@ -42,6 +42,15 @@ impl Body {
         } else {
             -self.curvature.recip()
         }
+    }
+
+    /// Returns the distance between the faces of two neighbours with nodes a pitch apart, over `t`.
+    ///
+    /// It has no meaning if they overlap.
+    pub fn distance(&self, left: &Parallelogram, right: &Parallelogram, pitch: f64) -> f64 {
+        let frame = self.frame(pitch);
+        let neighbour = right.corners().map(|corner| frame.origin + frame.outward(corner));
+        polygon_distance(&left.corners(), &neighbour)
     }
 
     /// Counts the scales on each side of the punctured one before the body turns away; `None`

@@ -1,6 +1,6 @@
 //! Rows of identical scales at a constant gap.
 
-use crate::{Body, Corner, OutOfRange, Parallelogram, Vec2, coverage, polygon_distance};
+use crate::{Body, Corner, OutOfRange, Parallelogram, Vec2, coverage};
 
 /// Row of identical scales with the gap `d` at the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,9 +51,7 @@ impl Row {
         if body.is_flat() {
             return self.gap * self.scale.slant().cos();
         }
-        let (corners, frame) = (self.scale.corners(), body.frame(self.pitch()));
-        let neighbour = corners.map(|corner| frame.origin + frame.outward(corner));
-        polygon_distance(&corners, &neighbour)
+        body.distance(&self.scale, &self.scale, self.pitch())
     }
 
     /// Returns the coverage of the row on a curved body.

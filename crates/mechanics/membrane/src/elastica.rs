@@ -222,8 +222,11 @@ impl Elastica {
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn largest_strain(&self, z: &[f64]) -> f64 {
         let curvatures = self.curvatures(z);
-        let bent = |i: usize| 0.5 * self.section.thickness() * curvatures[i].abs();
-        self.sections(z).map(|(i, section)| section.strain.abs() + bent(i)).fold(0.0, f64::max)
+        let half = 0.5 * self.section.thickness();
+        let sections = self.sections(z);
+        sections.fold(0.0, |max, (i, section)| {
+            max.max(section.strain.abs() + half * curvatures[i].abs())
+        })
     }
 
     /// Computes the deformed axis from base to base, in `intervals ≥ 1` intervals.
@@ -235,22 +238,18 @@ impl Elastica {
     pub fn axis(&self, z: &[f64], intervals: usize) -> Vec<Vec2> {
         let angles = self.angles(z);
         let force = ElasticaState::new(z).force;
-        let tangent = |xi: f64| {
-            let section = Direction::new(self.rule.interpolate(&angles, xi), force);
-            (1.0 + section.strain) * section.along
-        };
         let width = 1.0 / intervals as f64;
-        let interval = |k: usize| {
+        let mut axis = vec![self.arms()[0].lever(0.0)];
+        for k in 0..intervals {
             // The cosine of a polynomial is not a polynomial, so each interval uses the whole rule.
-            let within = self.rule.points.iter().zip(&self.rule.weights);
-            within.map(|(xi, w)| *w * width * tangent((k as f64 + xi) * width)).sum::<Vec2>()
-        };
-        let start = self.arms()[0].lever(0.0);
-        let steps = (0..intervals).scan(start, |point, k| {
-            *point += self.span.gap * interval(k);
-            Some(*point)
-        });
-        std::iter::once(start).chain(steps).collect()
+            let points = self.rule.points.iter().zip(&self.rule.weights).map(|(xi, weight)| {
+                let angle = self.rule.interpolate(&angles, (k as f64 + xi) * width);
+                let section = Direction::new(angle, force);
+                *weight * width * ((1.0 + section.strain) * section.along)
+            });
+            axis.push(axis[k] + self.span.gap * points.sum::<Vec2>());
+        }
+        axis
     }
 
     /// Transfers the state `z` to another order by interpolating its direction.

@@ -149,9 +149,8 @@ impl GapMembrane {
     pub fn units(&self) -> DVector<f64> {
         let axial = self.section.axial_stiffness() / self.beam.length();
         let bending = self.section.bending_stiffness() / self.beam.length();
-        let unit = |k: usize| if k % 3 == 2 { bending } else { axial };
         // The left scale is the frame and has no equations.
-        DVector::from_iterator(3 * self.elements, (0..3 * self.elements).map(unit))
+        DVector::from_fn(3 * self.elements, |k, _| if k % 3 == 2 { bending } else { axial })
     }
 
     /// Returns the energies of the gap.
@@ -171,13 +170,13 @@ impl GapMembrane {
     /// If `u` is shorter than [`Self::unknowns`].
     pub fn largest_strain(&self, u: &DVector<f64>) -> f64 {
         let half_thickness = 0.5 * self.section.thickness();
-        let strain = |local: Local| {
+        let strains = self.local(u).into_iter().map(|local| {
             // Moments are linear along an element, so the maximum is at an end.
             let curvature = local.moments[0].abs().max(local.moments[1].abs())
                 / self.section.bending_stiffness();
             local.axial_force.abs() / self.section.axial_stiffness() + half_thickness * curvature
-        };
-        self.local(u).into_iter().map(strain).fold(0.0, f64::max)
+        });
+        strains.fold(0.0, f64::max)
     }
 
     /// Returns deformations and forces of all elements, in the frames of their chords.
@@ -185,8 +184,7 @@ impl GapMembrane {
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
     pub fn local(&self, u: &DVector<f64>) -> Vec<Local> {
-        let local = |k| self.element(k).local(&self.bodies(k, &entries(u, k)));
-        (0..self.elements).map(local).collect()
+        (0..self.elements).map(|k| self.element(k).local(&self.bodies(k, &entries(u, k)))).collect()
     }
 
     /// Returns the deformed axis from base to base.
@@ -197,17 +195,17 @@ impl GapMembrane {
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
     pub fn axis(&self, u: &DVector<f64>, intervals: usize) -> Vec<Vec2> {
-        let point = |k: usize, xi: f64| {
+        let mut axis = Vec::new();
+        for k in 0..self.elements {
             let displacements = entries(u, k);
             let first = self.rest_position(k) + Vec2::new(displacements[0], displacements[1]);
-            first + self.element(k).axis_point(&self.bodies(k, &displacements), xi)
-        };
-        // Skip the first point of each element, which is the last one of the element before.
-        let within = move |k| (1..=intervals).map(move |i| (k, i as f64 / intervals as f64));
-        std::iter::once((0, 0.0))
-            .chain((0..self.elements).flat_map(within))
-            .map(|(k, xi)| point(k, xi))
-            .collect()
+            let (element, bodies) = (self.element(k), self.bodies(k, &displacements));
+            // The first point of an element is the last one of the element before.
+            for i in usize::from(k > 0)..=intervals {
+                axis.push(first + element.axis_point(&bodies, i as f64 / intervals as f64));
+            }
+        }
+        axis
     }
 
     /// Returns the rest position of the `i`-th pose, relative to the left node.

@@ -1,9 +1,7 @@
 //! The scales of a row at rest.
 
 use contact::Pair;
-use geometry::{
-    Body, Frame, OutOfRange, Parallelogram, Row, UnevenRow, clearance, polygon_distance,
-};
+use geometry::{Body, Frame, OutOfRange, Parallelogram, Row, UnevenRow, clearance};
 
 /// Equal scales at a constant gap, or scales with individual slants and gaps.
 #[derive(Clone, Debug)]
@@ -57,9 +55,7 @@ impl Arrangement {
     pub(crate) fn clearance(&self, i: usize, body: Body) -> f64 {
         let [left, right] = [self.scale(i), self.scale(i + 1)];
         if !body.is_flat() {
-            let frame = body.frame(self.pitch(i));
-            let corners = right.corners().map(|corner| frame.origin + frame.outward(corner));
-            return polygon_distance(&left.corners(), &corners);
+            return body.distance(&left, &right, self.pitch(i));
         }
         // The distance along the row times the cosine of a side is the distance across it; the
         // steeper side gives the lower bound. Single scales may lean to the left.
@@ -96,17 +92,16 @@ impl Arrangement {
                 .collect(),
             Self::Uneven(row) => {
                 let last = row.gaps().len();
-                let pair = |left: usize, right: usize| {
+                let pairs =
+                    (0..last).flat_map(|left| (1..=reach).map(move |pitches| (left, pitches)));
+                let pairs = pairs.map(|(left, pitches)| {
+                    // Pairs that reach beyond the end get the last scale as a placeholder. They are
+                    // never evaluated.
+                    let right = last.min(left + pitches);
                     let distance = (left..right).map(|i| row.pitch(i)).sum();
                     pair_on(body, [row.scales()[left], row.scales()[right]], distance)
-                };
-                // Pairs that reach beyond the end get the last scale as a placeholder. They are
-                // never evaluated.
-                (0..last)
-                    .flat_map(|left| {
-                        (1..=reach).map(move |pitches| pair(left, last.min(left + pitches)))
-                    })
-                    .collect()
+                });
+                pairs.collect()
             }
         }
     }

@@ -4,6 +4,7 @@ mod assembly;
 mod audit;
 mod change;
 mod closed;
+mod dissipation;
 mod friction;
 mod mode;
 mod pair_unknowns;
@@ -13,8 +14,8 @@ mod touching;
 
 pub use change::ContactChange;
 pub use closed::Contact;
+pub(crate) use dissipation::{Dissipation, product_integral};
 pub(crate) use friction::TipFriction;
-pub(crate) use friction::{Dissipation, product_integral};
 use friction::{FrictionState, SLIP_DISTANCE};
 pub(crate) use mode::SkinMode;
 pub(crate) use touching::{PairCoordinate, TouchingEdge};
@@ -220,17 +221,18 @@ impl Contacts {
     /// Iterates over the touching pairs, from the left.
     fn touching(mode: &SkinMode) -> impl Iterator<Item = usize> {
         let pairs = mode.contacts.chunks_exact(LEVELS.len()).enumerate();
-        let closed = |contacts: &[CornerContact]| {
-            contacts.iter().any(|contact| *contact != CornerContact::Open)
-        };
-        pairs.filter(move |(_, contacts)| closed(contacts)).map(|(pair, _)| pair)
+        pairs
+            .filter(|(_, contacts)| contacts.iter().any(|contact| *contact != CornerContact::Open))
+            .map(|(pair, _)| pair)
     }
 
     /// Returns whether the first and the last scale touch another scale.
     pub(crate) fn touching_at_ends(&self, state: &SkinState) -> [bool; 2] {
         let last = self.scales.len() - 1;
-        let ends = || Self::touching(&state.mode).map(|pair| self.ends(pair));
-        [ends().any(|[left, _]| left == 0), ends().any(|[_, right]| right == last)]
+        let pairs = Self::touching(&state.mode).map(|pair| self.ends(pair));
+        pairs.fold([false; 2], |[first_touches, last_touches], [left, right]| {
+            [first_touches || left == 0, last_touches || right == last]
+        })
     }
 
     /// Returns true if any contact is flush.

@@ -92,16 +92,16 @@ impl Imperfection {
 
 /// Derives the random key of a sample, for one design or for all.
 fn key(design: Option<&Design>, seed: u64, number: u64) -> [u8; 32] {
-    // `L` and `2L` are different designs with separate samples.
-    let base = |design: &Design| match design.base {
-        Base::L => 1.0,
-        Base::TwoL => 2.0,
-    };
-    let numbers =
-        |design: &Design| [design.gap, design.length, design.slant_deg, base(design), design.width];
+    let numbers = design.into_iter().flat_map(|design| {
+        // `L` and `2L` are different designs with separate samples.
+        let base = match design.base {
+            Base::L => 1.0,
+            Base::TwoL => 2.0,
+        };
+        [design.gap, design.length, design.slant_deg, base, design.width]
+    });
     // Adding zero below turns −0 into +0, which has other bits; the same design would get other
     // samples.
-    let numbers = design.into_iter().flat_map(numbers);
     let mut digest = Sha256::new();
     for word in [seed, number].into_iter().chain(numbers.map(|x| (x + 0.0).to_bits())) {
         // Fix the byte order, so that a sample is the same on every machine.

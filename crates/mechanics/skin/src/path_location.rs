@@ -77,9 +77,10 @@ impl<S: System> PointLocator<S> {
         let locations: Vec<_> = locations.into_iter().collect();
         let start = path.point();
         // A location at the very start, such as zero load, has no segment before it.
-        let is_start = |location: &PathLocation<S>| location.is_at(path.system(), &start.state);
-        let points =
-            locations.iter().map(|location| is_start(location).then(|| start.clone())).collect();
+        let points = locations
+            .iter()
+            .map(|location| location.is_at(path.system(), &start.state).then(|| start.clone()))
+            .collect();
         Self { locations, points }
     }
 

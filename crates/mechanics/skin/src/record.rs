@@ -279,14 +279,16 @@ impl<S: Skin> Record<S> {
             // Needle events are not contact events.
             return None;
         }
-        let corner_edge = |mode| contacts.corner_edge(mode, change.constraint);
+        // An opened contact has its corner and edge only in the previous state.
+        let corner_edge = [after, before]
+            .into_iter()
+            .find_map(|state| contacts.corner_edge(&state.mode, change.constraint))?;
         let [left, right] = contacts.scales_of(change.constraint);
         Some(ContactEvent {
             point,
             left_scale: skin.number(left),
             right_scale: skin.number(right),
-            // An opened contact has its corner and edge only in the previous state.
-            corner_edge: corner_edge(&after.mode).or_else(|| corner_edge(&before.mode))?,
+            corner_edge,
             change: ContactChange::classify(contacts, after, change),
         })
     }

@@ -85,6 +85,15 @@ pub(crate) struct MeasuredPoint<S: Skin> {
     pub(crate) quantities: Vec<MeasuredQuantity<S>>,
 }
 
+impl<S: Skin> MeasuredPoint<S> {
+    pub(crate) fn new(
+        place: Option<AnchoredPoint<S::Mode>>,
+        quantities: impl Into<Vec<MeasuredQuantity<S>>>,
+    ) -> Self {
+        Self { place, quantities: quantities.into() }
+    }
+}
+
 /// Relative difference of one-sided derivatives below which a measure is smooth.
 const SMOOTH: f64 = 1e-9;
 
@@ -123,9 +132,10 @@ pub(crate) fn derivatives<S: Skin>(
             derivatives.extend(sides.iter().zip(variations).enumerate().map(
                 |(parameter, (sides, variation))| {
                     let rates = quantity.rates(variation, sides, &contenders);
-                    let kink = || sides.change().unwrap_or("another scale takes over").to_owned();
                     let of = (quantity.measure, parameter);
-                    Derivative::sided(of, rates, value, variation.step, kink)
+                    Derivative::sided(of, rates, value, variation.step, || {
+                        sides.change().unwrap_or("another scale takes over").to_owned()
+                    })
                 },
             ));
         }
@@ -229,8 +239,10 @@ impl<S: Skin> Linearised<'_, S> {
             return "the needle moves otherwise".to_owned();
         }
         let contacts = self.system.contacts();
-        let edge = |state: &SkinState| contacts.corner_edge(&state.mode, change.constraint);
-        let edge = edge(after).or_else(|| edge(before)).map_or("contact", |edge| edge.name());
+        let edge = [after, before]
+            .into_iter()
+            .find_map(|state| contacts.corner_edge(&state.mode, change.constraint))
+            .map_or("contact", |edge| edge.name());
         let [left_index, right_index] = contacts.scales_of(change.constraint);
         let scales = match (self.system.number(left_index), self.system.number(right_index)) {
             // Neighbours are named by the left scale; distant scales need both numbers.
@@ -279,8 +291,9 @@ impl<S: Skin> MeasuredQuantity<S> {
     /// They become extreme next to the point.
     fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> (f64, Vec<usize>) {
         let count = self.extreme.map_or(1, |_| system.contacts().scales.len());
-        let value = |number| (self.value)(system, &place.state, &place.direction, number);
-        let values: Vec<f64> = (0..count).map(value).collect();
+        let values: Vec<f64> = (0..count)
+            .map(|number| (self.value)(system, &place.state, &place.direction, number))
+            .collect();
         let extreme = values.iter().copied().reduce(|one, other| self.outer(one, other));
         // The extreme of no values is NaN, and non-finite derivatives are dropped.
         let extreme = extreme.unwrap_or(f64::NAN);
@@ -325,12 +338,11 @@ impl<S: Skin> MeasuredQuantity<S> {
         contenders: &[usize],
     ) -> Option<f64> {
         let moved = motion.moved.as_ref()?;
-        let systems = [&neighbours.below, &neighbours.above];
-        let value = |side: usize, number: usize| {
-            let MovedPoint { state, direction } = &moved[side];
-            (self.value)(systems[side], state, direction, number)
-        };
-        let on_side = contenders.iter().map(|&number| (number, value(side, number)));
+        let sides = [(&neighbours.below, &moved[0]), (&neighbours.above, &moved[1])];
+        let (system, MovedPoint { state, direction }) = sides[side];
+        let on_side = contenders
+            .iter()
+            .map(|&number| (number, (self.value)(system, state, direction, number)));
         let (number, here) = on_side.reduce(|one, other| {
             // `min` and `max` ignore NaN, so a contender with NaN never counts.
             let counts = self.outer(one.1, other.1).total_cmp(&other.1).is_eq();
@@ -338,7 +350,8 @@ impl<S: Skin> MeasuredQuantity<S> {
         })?;
         // Use the same contender on both sides: another one may be extreme there, and the
         // difference of the two would be the derivative of neither.
-        let there = value(1 - side, number);
+        let (system, MovedPoint { state, direction }) = sides[1 - side];
+        let there = (self.value)(system, state, direction, number);
         let rise = if side == 1 { here - there } else { there - here };
         Some(rise / (2.0 * neighbours.step))
     }

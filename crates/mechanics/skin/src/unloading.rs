@@ -60,10 +60,12 @@ impl<P> Unloading<P> {
         }
         let stop = path.termination().unwrap_or(Termination::Reached);
         let (skin, end) = (path.system(), path.point());
-        // The stored energy covers the whole strip, the dissipation only the solved gaps.
-        let loop_work = || skin.stored(&end.state) + skin.repeats() * work.taken();
         // At a nonzero load the loop is not closed, and its area is meaningless.
-        Self { path: points, stop, loop_work: (stop == Termination::Unloaded).then(loop_work) }
+        let loop_work = (stop == Termination::Unloaded).then(|| {
+            // The stored energy covers the whole strip, the dissipation only the solved gaps.
+            skin.stored(&end.state) + skin.repeats() * work.taken()
+        });
+        Self { path: points, stop, loop_work }
     }
 
     fn noted<S: Skin<PathPoint = P>>(skin: &S, point: &SkinPoint, work: &Work) -> P {

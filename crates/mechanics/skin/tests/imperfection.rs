@@ -43,18 +43,16 @@ fn gaps_and_slants_have_the_requested_scatter() {
     let wide = Design { gap: 3.0, slant_deg: 30.0, ..STEEP };
     let imperfection = Imperfection { gap_cv: 0.1, slant_sd_deg: 2.0 };
     let row = imperfection.sample(&wide, 3, 5).unwrap().row(10_000, 10_000).unwrap();
-    let moments = |values: &[f64]| {
+    let slants: Vec<_> = row.scales().iter().map(|scale| scale.slant().to_degrees()).collect();
+    let [gaps, (mean, deviation)] = [row.gaps(), &slants].map(|values| {
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let variance = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count;
         (mean, variance.sqrt())
-    };
+    });
     // Four standard errors: 0.1/√20000 and 0.1/√40000 relative.
-    let (mean, deviation) = moments(row.gaps());
-    assert_relative_eq!(mean, 3.0, max_relative = 0.003);
-    assert_relative_eq!(deviation / mean, 0.1, max_relative = 0.025);
-    let slants: Vec<_> = row.scales().iter().map(|scale| scale.slant().to_degrees()).collect();
-    let (mean, deviation) = moments(&slants);
+    assert_relative_eq!(gaps.0, 3.0, max_relative = 0.003);
+    assert_relative_eq!(gaps.1 / gaps.0, 0.1, max_relative = 0.025);
     assert_relative_eq!(mean, 30.0, epsilon = 0.057);
     assert_relative_eq!(deviation, 2.0, max_relative = 0.02);
 }
@@ -85,16 +83,14 @@ fn scales_never_overlap_at_rest() {
 
 #[test]
 fn samples_are_reproducible_and_differ() {
-    let compliance = |seed, number| bent(&sample(0.1, 0.5, seed, number)).measures.compliance;
-    assert_eq!(compliance(1, 1), compliance(1, 1));
-    assert_ne!(compliance(1, 1), compliance(1, 2));
-    assert_ne!(compliance(1, 1), compliance(2, 1));
-    let narrower = Design { gap: 0.05, ..STEEP };
-    let relative = |design: &Design| {
-        let sample = Imperfection { gap_cv: 0.1, slant_sd_deg: 0.0 }.sample(design, 1, 1).unwrap();
+    let [first, repeated, other_number, other_seed] = [(1, 1), (1, 1), (1, 2), (2, 1)]
+        .map(|(seed, number)| bent(&sample(0.1, 0.5, seed, number)).measures.compliance);
+    assert!(first == repeated && first != other_number && first != other_seed);
+    let [wide, narrow] = [STEEP, Design { gap: 0.05, ..STEEP }].map(|design| {
+        let sample = Imperfection { gap_cv: 0.1, slant_sd_deg: 0.0 }.sample(&design, 1, 1).unwrap();
         sample.row(0, 1).unwrap().gaps()[0] / design.gap
-    };
-    assert_ne!(relative(&STEEP), relative(&narrower));
+    });
+    assert_ne!(wide, narrow);
 }
 
 /// Inverts (I1): the normal deviates of a sample do not depend on the scatter.
@@ -177,30 +173,29 @@ fn a_perfect_strip_stiffens_abruptly_and_an_imperfect_one_gradually() {
     let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();
     let imperfect = bent(&sample(0.05, 0.4, 1, 1));
     // Range of curvatures between twice and ten times the initial slope.
-    let width = |strip: &Flexure| {
-        let at_rest = strip.path[0].stiffness;
-        let at = |factor: f64| {
-            let steep = |point: &&flexure::FlexurePoint| point.stiffness > factor * at_rest;
-            strip.path.iter().find(steep).unwrap().curvature
-        };
-        at(10.0) - at(2.0)
-    };
-    assert!(width(&perfect) == 0.0);
-    assert!(width(&imperfect) > 0.05 * perfect.measures.first_contact_curvature.unwrap());
+    let [of_perfect, of_imperfect] = [&perfect, &imperfect].map(|strip| {
+        let [low, high] = [2.0, 10.0].map(|factor| {
+            let limit = factor * strip.path[0].stiffness;
+            strip.path.iter().find(|point| point.stiffness > limit).unwrap().curvature
+        });
+        high - low
+    });
+    assert!(of_perfect == 0.0);
+    assert!(of_imperfect > 0.05 * perfect.measures.first_contact_curvature.unwrap());
 }
 
 #[test]
 fn common_samples_have_the_same_random_numbers_in_all_designs() {
     let imperfection = Imperfection { gap_cv: 0.1, slant_sd_deg: 0.0 };
     let wide = Design { gap: 2.0 * STEEP.gap, ..STEEP };
-    let gaps = |design: &Design, number| {
-        let sample = imperfection.common_sample(design, 1, number).unwrap();
+    let [narrow, wide, next] = [(STEEP, 5), (wide, 5), (STEEP, 6)].map(|(design, number)| {
+        let sample = imperfection.common_sample(&design, 1, number).unwrap();
         sample.row(3, 3).unwrap().gaps().to_vec()
-    };
-    for (one, other) in gaps(&STEEP, 5).into_iter().zip(gaps(&wide, 5)) {
+    });
+    for (one, other) in narrow.iter().zip(wide) {
         assert!((other / one - 2.0).abs() < 1e-12, "{one} {other}");
     }
-    assert_ne!(gaps(&STEEP, 5), gaps(&STEEP, 6));
+    assert_ne!(narrow, next);
 }
 
 /// First contact occurs in the gap that closes first.

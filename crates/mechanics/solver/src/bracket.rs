@@ -60,13 +60,13 @@ mod tests {
     fn both_rules_find_the_root_of_a_cubic() {
         for bracket in [Bracket::new, Bracket::patient] {
             let mut bracket = bracket((0.0, -2.0), (2.0, 6.0));
-            let mut value = |_| {
+            let values = (0..60).map(|_| {
                 let x = bracket.secant();
                 let value = x * x * x - 2.0;
                 bracket.narrow(x, value);
                 value
-            };
-            let rounds = (0..60).map(&mut value).take_while(|value| value.abs() > 1e-14).count();
+            });
+            let rounds = values.take_while(|value| value.abs() > 1e-14).count();
             assert!(rounds < 60, "{rounds}");
         }
     }

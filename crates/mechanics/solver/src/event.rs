@@ -376,14 +376,13 @@ mod tests {
 
     /// Finds the minimum of the Hermite cubic by sampling: fraction and value.
     fn lowest(ends: [f64; 2], slopes: [f64; 2]) -> (f64, f64) {
-        let cubic = |x: f64| {
+        let values = (0..=1000).map(|i| f64::from(i) / 1000.0).map(|x| {
             // Hermite basis.
             let [a, b] = [(1.0 + 2.0 * x) * (1.0 - x).powi(2), x * x * (3.0 - 2.0 * x)];
             let [c, d] = [x * (1.0 - x).powi(2), x * x * (x - 1.0)];
-            ends[0] * a + ends[1] * b + slopes[0] * c + slopes[1] * d
-        };
-        let places = (0..=1000).map(|i| f64::from(i) / 1000.0);
-        places.map(|x| (x, cubic(x))).min_by(|a, b| a.1.total_cmp(&b.1)).unwrap()
+            (x, ends[0] * a + ends[1] * b + slopes[0] * c + slopes[1] * d)
+        });
+        values.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap()
     }
 
     proptest! {

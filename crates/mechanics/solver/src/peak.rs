@@ -74,13 +74,14 @@ impl<M> Peak<M> {
         S: System<Mode = M>,
     {
         let here = Arc::clone(&path.point);
-        let at = |direction: &[f64]| f(&path.system, &here.state, direction);
+        let [arriving, leaving] = [&here.arriving, &here.leaving]
+            .map(|direction| f(&path.system, &here.state, direction));
         // At a kink, use the larger value: a stiffness is largest just before a contact opens or
         // just after one closes.
-        let value = at(&here.arriving).max(at(&here.leaving));
+        let value = arriving.max(leaving);
         let kink = from.filter(|from| from.event.is_some() || here.event.is_some());
         if let Some(from) = kink.map(Arc::clone) {
-            let value = at(&here.arriving).max(f(&path.system, &from.state, &from.leaving));
+            let value = arriving.max(f(&path.system, &from.state, &from.leaving));
             self.kinks.push(KinkSegment { from, to: Arc::clone(&here), value });
         }
         self.compare(value, from, &here);
@@ -335,8 +336,8 @@ where
     ///
     /// It starts from the nearest solved point.
     fn inside(&mut self, place: f64) -> Option<SegmentSample> {
-        let away = |known: &&(f64, Equilibrium<S::Mode>)| (known.0 - place).abs();
-        let nearest = self.known.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let distances = self.known.iter().map(|(other, point)| ((other - place).abs(), point));
+        let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
         let near = nearest.map_or(self.from, |(_, point)| point);
         let point = self.path.between_from(self.from, self.to, place, near);
         // A near point makes Newton's method quick, but a point next to a kink may lead it to the

@@ -395,8 +395,10 @@ impl<S: System> Continuation<S> {
         // A friction change at another contact is a consequence of the event and must not orient
         // the path: keep the constraint of the event itself.
         let coupled = self.system.coupled(change.constraint);
-        let is_elsewhere = |orienting: &usize| coupled.len() > 1 && !coupled.contains(orienting);
-        next.orienting = next.orienting.filter(is_elsewhere).or(Some(valid));
+        next.orienting = next
+            .orienting
+            .filter(|orienting| coupled.len() > 1 && !coupled.contains(orienting))
+            .or(Some(valid));
         Ok(next)
     }
 

@@ -137,14 +137,14 @@ impl<M: Clone> Linearisation<M> {
         let states = [-step, step].map(|step| self.place.state.moved(step, unknowns));
         let direction = &self.place.direction;
         let turning = turns.then(|| turning(&mut self.newton, sides, &states, direction, step));
-        let direction = |step: f64| match &turning {
-            Some(turning) => moved(&self.place.direction, step, turning),
-            None => self.place.direction.clone(),
-        };
-        let [below, above] = states;
+        let [below, above] = [-step, step].map(|step| match &turning {
+            Some(turning) => moved(direction, step, turning),
+            None => direction.clone(),
+        });
+        let [lower, upper] = states;
         [
-            MovedPoint { state: below, direction: direction(-step) },
-            MovedPoint { state: above, direction: direction(step) },
+            MovedPoint { state: lower, direction: below },
+            MovedPoint { state: upper, direction: above },
         ]
     }
 
@@ -207,8 +207,10 @@ impl<M: Clone> Linearisation<M> {
         ];
         let change = (rates[1] - rates[0]) / (2.0 * step);
         let AnchoredPoint { state, direction, .. } = &self.place;
-        let rate = |system: &S, state: &State<M>, v: &[f64]| system.rate(state, v, number);
-        -change / slope_along(system, &mut self.newton, state, direction, &rate)
+        let slope = slope_along(system, &mut self.newton, state, direction, &|system, state, v| {
+            system.rate(state, v, number)
+        });
+        -change / slope
     }
 
     /// Returns the most violated constraint in the `moved` state, with its change.
@@ -220,12 +222,13 @@ impl<M: Clone> Linearisation<M> {
         moved: &MovedPoint<M>,
     ) -> Option<Change> {
         let active = &self.place.state.active;
-        // The anchor's own guard is zero by definition, and round-off would violate it.
-        let held = |constraint: usize| self.place.anchor == PathAnchor::Guard(constraint);
         // A slip distance is counted from a point of the path and does not respond to the
         // parameter.
         let loaded = (0..active.len()).filter(|c| active[*c] && !system.monotone().contains(c));
-        let candidates = loaded.chain(self.near.iter().copied()).filter(|&c| !held(c));
+        // The anchor's own guard is zero by definition, and round-off would violate it.
+        let candidates = loaded
+            .chain(self.near.iter().copied())
+            .filter(|&c| self.place.anchor != PathAnchor::Guard(c));
         let guards = candidates.map(|c| (c, guard(system, &moved.state, c)));
         let violated = guards.filter(|(_, guard)| *guard < -FLOOR);
         let (constraint, _) = violated.min_by(|a, b| a.1.total_cmp(&b.1))?;

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{env, fs, thread};
 
-use substrate::boundary_element::{RowReactions, Unresolved, row_reactions_at};
+use substrate::boundary_element::{Unresolved, row_reactions_at};
 use substrate::table::{GAPS, NEAREST, RATIOS, ROW, WIDTHS, poisson_ratio};
 use substrate::{Footprint, NEIGHBOURS};
 
@@ -38,44 +38,56 @@ type Solve<'a> = &'a (dyn Fn(&Footprint) -> Result<Vec<f64>, Unresolved> + Sync)
 ///
 /// They are ordered by polynomial.
 fn coefficients(nodes: usize, solve: Solve<'_>) -> Result<Vec<f64>, Unresolved> {
-    let place = |number: usize| {
-        let [gap, width] = [(number / nodes, GAPS), (number % nodes, WIDTHS)];
-        let at = |(k, [low, high]): (usize, [f64; 2])| {
-            low * (high / low).powf(0.5 + 0.5 * node(k, nodes))
-        };
-        Footprint::new(at(gap), at(width), 0.5).expect("lengths are positive")
-    };
     let next = AtomicUsize::new(0);
-    let work = || -> Result<Vec<(usize, Vec<f64>)>, Unresolved> {
-        let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|k| *k < nodes * nodes);
-        std::iter::from_fn(take).map(|number| Ok((number, solve(&place(number))?))).collect()
-    };
     let workers = thread::available_parallelism().map_or(1, usize::from);
     let mut solved = thread::scope(|scope| {
-        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        let threads: Vec<_> =
+            (0..workers).map(|_| scope.spawn(|| solve_nodes(&next, nodes, solve))).collect();
         let found = threads.into_iter().map(|thread| thread.join().expect("no panic"));
         found.collect::<Result<Vec<_>, _>>().map(|parts| parts.concat())
     })?;
     solved.sort_by_key(|(number, _)| *number);
-    let functions = solved[0].1.len();
-    let of = |function: usize| {
+    let mut coefficients = Vec::new();
+    for function in 0..solved[0].1.len() {
         let values: Vec<f64> = solved.iter().map(|(_, values)| values[function]).collect();
-        transposed(&transform(&transposed(&transform(&values, nodes), nodes), nodes), nodes)
-    };
-    Ok((0..functions).flat_map(of).collect())
+        let by_gap = transposed(&transform(&values, nodes), nodes);
+        coefficients.extend(transposed(&transform(&by_gap, nodes), nodes));
+    }
+    Ok(coefficients)
+}
+
+/// Solves points until none is left, and returns their numbers with the values.
+fn solve_nodes(
+    next: &AtomicUsize,
+    nodes: usize,
+    solve: Solve<'_>,
+) -> Result<Vec<(usize, Vec<f64>)>, Unresolved> {
+    let mut solved = Vec::new();
+    loop {
+        let number = next.fetch_add(1, Ordering::Relaxed);
+        if number >= nodes * nodes {
+            return Ok(solved);
+        }
+        let [gap, width] = [(number / nodes, GAPS), (number % nodes, WIDTHS)]
+            .map(|(k, [low, high])| low * (high / low).powf(0.5 + 0.5 * node(k, nodes)));
+        let footprint = Footprint::new(gap, width, 0.5).expect("lengths are positive");
+        solved.push((number, solve(&footprint)?));
+    }
 }
 
 /// Transforms values in the rows of a square to coefficients of their polynomials.
 fn transform(values: &[f64], nodes: usize) -> Vec<f64> {
-    let of_row = |row: &[f64]| -> Vec<f64> {
-        let coefficient = |order: usize| {
-            let waves = |k: usize| (order as f64 * (k as f64 + 0.5) * PI / nodes as f64).cos();
-            let sum: f64 = row.iter().enumerate().map(|(k, value)| value * waves(k)).sum();
-            sum * if order == 0 { 1.0 } else { 2.0 } / nodes as f64
-        };
-        (0..nodes).map(coefficient).collect()
-    };
-    values.chunks(nodes).flat_map(of_row).collect()
+    let mut coefficients = Vec::with_capacity(values.len());
+    for row in values.chunks(nodes) {
+        for order in 0..nodes {
+            let terms = row.iter().enumerate().map(|(k, value)| {
+                value * (order as f64 * (k as f64 + 0.5) * PI / nodes as f64).cos()
+            });
+            let factor = if order == 0 { 1.0 } else { 2.0 };
+            coefficients.push(terms.sum::<f64>() * factor / nodes as f64);
+        }
+    }
+    coefficients
 }
 
 fn transposed(values: &[f64], nodes: usize) -> Vec<f64> {
@@ -108,27 +120,33 @@ fn nearest(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
 fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     let long = extrapolated(footprint, NEIGHBOURS, COARSE)?;
     let short = extrapolated(footprint, 1, COARSE)?;
-    // For the scale itself, or for a neighbour.
-    let number = |row: &[f64], scale: usize, direction: usize| match scale {
-        0 => row[direction],
-        _ => row.get(3 + 5 * (scale - 1) + direction).copied().unwrap_or(0.0),
-    };
-    let more = |ratio: usize, scale: usize, direction: usize| {
-        let (long, short) = (&long[ratio], &short[ratio]);
-        (number(long, scale, direction) - number(short, scale, direction)) / short[direction]
-    };
+    let mut numbers = Vec::new();
+    for direction in [1, 2] {
+        numbers.extend((0..=NEIGHBOURS).map(|scale| added(&long[0], &short[0], scale, direction)));
+    }
     let size = (short[0][1] * short[0][2]).sqrt();
-    let cross =
-        |scale| f64::midpoint(number(&long[0], scale, 3), number(&long[0], scale, 4)) / size;
-    let scales = 0..=NEIGHBOURS;
-    let normal = [1, 2].into_iter().flat_map(|k| scales.clone().map(move |scale| (scale, k)));
-    let mut numbers: Vec<f64> = normal.map(|(scale, k)| more(0, scale, k)).collect();
-    numbers.extend((1..=NEIGHBOURS).map(cross));
-    for scale in scales {
-        let by_ratio: Vec<f64> = (0..RATIOS).map(|ratio| more(ratio, scale, 0)).collect();
+    numbers.extend((1..=NEIGHBOURS).map(|scale| {
+        f64::midpoint(reaction(&long[0], scale, 3), reaction(&long[0], scale, 4)) / size
+    }));
+    for scale in 0..=NEIGHBOURS {
+        let by_ratio: Vec<f64> =
+            long.iter().zip(&short).map(|(long, short)| added(long, short, scale, 0)).collect();
         numbers.extend(transform(&by_ratio, RATIOS));
     }
     Ok(numbers)
+}
+
+/// Returns the additional value of a long row over a short one, over `α`.
+fn added(long: &[f64], short: &[f64], scale: usize, direction: usize) -> f64 {
+    (reaction(long, scale, direction) - reaction(short, scale, direction)) / short[direction]
+}
+
+/// Returns a reaction on the scale itself, number 0, or on a neighbour; 0 beyond the row.
+fn reaction(row: &[f64], scale: usize, direction: usize) -> f64 {
+    match scale {
+        0 => row[direction],
+        _ => row.get(3 + 5 * (scale - 1) + direction).copied().unwrap_or(0.0),
+    }
 }
 
 /// Computes row values for the table's Poisson's ratios, from three meshes.
@@ -141,17 +159,19 @@ fn extrapolated(
     cells: [usize; 3],
 ) -> Result<Vec<Vec<f64>>, Unresolved> {
     let ratios: Vec<f64> = (0..RATIOS).map(|k| poisson_ratio(node(k, RATIOS))).collect();
-    let on = |n| row_reactions_at(footprint, &ratios, neighbours, n);
-    let [coarse, medium, fine] = [on(cells[0])?, on(cells[1])?, on(cells[2])?];
-    let limit = |from: &[f64], to: &[f64], finer: [usize; 2], order: i32| -> Vec<f64> {
-        let share = 1.0 / ((finer[1] as f64 / finer[0] as f64).powi(order) - 1.0);
-        from.iter().zip(to).map(|(from, to)| to + (to - from) * share).collect()
-    };
-    let of_ratio = |k: usize| {
-        let [coarse, medium, fine] = [&coarse[k], &medium[k], &fine[k]].map(RowReactions::numbers);
-        let check = limit(&coarse, &medium, [cells[0], cells[1]], 3);
-        let best = limit(&medium, &fine, [cells[1], cells[2]], 3);
-        limit(&check, &best, [cells[1], cells[2]], 4)
-    };
-    Ok((0..RATIOS).map(of_ratio).collect())
+    let [coarse, medium, fine] = cells.map(|n| row_reactions_at(footprint, &ratios, neighbours, n));
+    let meshes = coarse?.into_iter().zip(medium?).zip(fine?);
+    let rows = meshes.map(|((coarse, medium), fine)| {
+        let [coarse, medium, fine] = [coarse, medium, fine].map(|mesh| mesh.numbers());
+        let check = limit([&coarse, &medium], [cells[0], cells[1]], 3);
+        let best = limit([&medium, &fine], [cells[1], cells[2]], 3);
+        limit([&check, &best], [cells[1], cells[2]], 4)
+    });
+    Ok(rows.collect())
+}
+
+/// Extrapolates from two meshes with an error of the given order in the number of cells.
+fn limit([coarse, fine]: [&[f64]; 2], cells: [usize; 2], order: i32) -> Vec<f64> {
+    let share = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(order) - 1.0);
+    coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
 }

@@ -101,10 +101,9 @@ pub fn row_reactions_at(
     // Check the mesh first: if round-off collapses cells or gaps, the solution is meaningless.
     let reactions = mesh.is_resolved().then(|| mesh.reactions(footprint, poisson_ratios));
     // A singular matrix gives non-finite results instead of an error.
-    let are_finite = |reactions: &Vec<RowReactions>| {
-        reactions.iter().flat_map(RowReactions::numbers).all(f64::is_finite)
-    };
-    reactions.filter(are_finite).ok_or(Unresolved { footprint: *footprint, cells: n })
+    reactions
+        .filter(|rows| rows.iter().flat_map(RowReactions::numbers).all(f64::is_finite))
+        .ok_or(Unresolved { footprint: *footprint, cells: n })
 }
 
 impl RowReactions {
@@ -113,12 +112,10 @@ impl RowReactions {
     /// First come the reactions of the middle rectangle, then for each neighbour its three
     /// reactions and two cross terms.
     pub fn numbers(&self) -> Vec<f64> {
-        let of_neighbour = |(direct, cross): (&[f64; 3], &CrossTerms)| {
-            let [x, y, turn] = *direct;
-            [x, y, turn, cross.force, cross.moment]
-        };
-        let neighbours = self.neighbours.iter().zip(&self.cross).flat_map(of_neighbour);
-        self.direct.iter().copied().chain(neighbours).collect()
+        let neighbours = self.neighbours.iter().zip(&self.cross);
+        let neighbours =
+            neighbours.flat_map(|(&[x, y, turn], cross)| [x, y, turn, cross.force, cross.moment]);
+        self.direct.into_iter().chain(neighbours).collect()
     }
 }
 
@@ -159,11 +156,8 @@ impl Mesh {
         let loads: Vec<_> = [turn].into_iter().chain(opposed).collect();
         let normal = equations.normal.partial_piv_lu().solve(&push);
         let odd = equations.rotation.partial_piv_lu().solve(self.imposed(&loads));
-        let sums = |shear: Mat<f64>| {
-            let shear = shear.partial_piv_lu().solve(&push);
-            self.sums(footprint, shear.col(0), normal.col(0), &odd)
-        };
-        equations.shear.into_iter().map(sums).collect()
+        let shears = equations.shear.iter().map(|shear| shear.partial_piv_lu().solve(&push));
+        shears.map(|shear| self.sums(footprint, shear.col(0), normal.col(0), &odd)).collect()
     }
 
     /// Sums the tractions to reactions.
@@ -176,29 +170,24 @@ impl Mesh {
         normal: ColRef<'_, f64>,
         odd: &Mat<f64>,
     ) -> RowReactions {
-        let count = self.neighbours.len();
         let rotation = odd.col(0);
-        let neighbour = |k: usize| {
+        let (mut neighbours, mut cross) = (Vec::new(), Vec::new());
+        for k in 0..self.neighbours.len() {
             let centre = (k + 1) as f64 * footprint.pitch_over_a();
-            [
+            neighbours.push([
                 self.neighbour_sum(k, shear, ONE),
                 self.neighbour_sum(k, normal, ONE),
                 self.neighbour_sum(k, rotation, |x| x - centre),
-            ]
-        };
-        let cross = |k: usize| {
+            ]);
             let moment = 0.5 * self.middle_sum(odd.col(k + 1), ARM);
-            CrossTerms { force: self.neighbour_sum(k, rotation, ONE), moment }
-        };
-        RowReactions {
-            direct: [
-                self.middle_sum(shear, ONE),
-                self.middle_sum(normal, ONE),
-                self.middle_sum(rotation, ARM),
-            ],
-            neighbours: (0..count).map(neighbour).collect(),
-            cross: (0..count).map(cross).collect(),
+            cross.push(CrossTerms { force: self.neighbour_sum(k, rotation, ONE), moment });
         }
+        let direct = [
+            self.middle_sum(shear, ONE),
+            self.middle_sum(normal, ONE),
+            self.middle_sum(rotation, ARM),
+        ];
+        RowReactions { direct, neighbours, cross }
     }
 
     /// Returns axes along `x` in the order of unknowns, by column, `z` fastest.
@@ -254,11 +243,12 @@ impl Mesh {
         tractions: ColRef<'_, f64>,
         arm: impl Fn(f64) -> f64,
     ) -> f64 {
-        let depth = self.depth.cells();
-        let column = |i: usize| -> f64 {
-            (0..depth).map(|k| tractions[first + i * depth + k] * self.depth.width(k)).sum()
-        };
-        (0..axis.cells()).map(|i| column(i) * axis.width(i) * arm(axis.middle(i))).sum()
+        let (depth, mut sum) = (self.depth.cells(), 0.0);
+        for i in 0..axis.cells() {
+            let column = (0..depth).map(|k| tractions[first + i * depth + k] * self.depth.width(k));
+            sum += column.sum::<f64>() * axis.width(i) * arm(axis.middle(i));
+        }
+        sum
     }
 }
 
@@ -349,10 +339,9 @@ impl CellColumns {
 /// Each cell includes its mirror image in `z`.
 fn append_cells(last: &[Influence], next: &[Influence], into: &mut Vec<Influence>) {
     let half = last.len() / 2;
-    let strip = |j: usize| next[j] - last[j];
     into.extend((0..half).map(|k| {
-        let cell = strip(half + k + 1) - strip(half + k);
-        let image = strip(half - k) - strip(half - k - 1);
+        let [cell, image] = [[half + k, half + k + 1], [half - k - 1, half - k]]
+            .map(|[low, high]| (next[high] - last[high]) - (next[low] - last[low]));
         cell + image
     }));
 }

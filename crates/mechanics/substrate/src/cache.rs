@@ -88,11 +88,11 @@ mod tests {
         }
 
         fn get(&self, footprint: &Footprint) -> f64 {
-            let solve = || {
+            let gap = self.cache.get_or_solve(footprint, || {
                 self.solved.fetch_add(1, Ordering::Relaxed);
                 Ok(footprint.gap_over_a())
-            };
-            self.cache.get_or_solve(footprint, solve).unwrap()
+            });
+            gap.unwrap()
         }
 
         fn solved(&self) -> usize {
@@ -108,14 +108,14 @@ mod tests {
     #[test]
     fn each_footprint_is_solved_once() {
         let (shared, asked) = (Counted::with_capacity(100), footprints(5));
-        let ask_from = |start: usize| {
-            for footprint in asked.iter().cycle().skip(start).take(asked.len()) {
-                assert_eq!(shared.get(footprint), footprint.gap_over_a());
-            }
-        };
         thread::scope(|scope| {
             for start in 0..8 {
-                scope.spawn(move || ask_from(start));
+                let (shared, asked) = (&shared, asked.iter().cycle().skip(start).take(asked.len()));
+                scope.spawn(move || {
+                    for footprint in asked {
+                        assert_eq!(shared.get(footprint), footprint.gap_over_a());
+                    }
+                });
             }
         });
         assert_eq!((shared.solved(), shared.held()), (5, 5));

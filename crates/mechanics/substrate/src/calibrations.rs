@@ -53,8 +53,8 @@ impl Calibrations {
         footprint: &Footprint,
         coupling: Coupling,
     ) -> Result<Arc<RowStiffness>, Unresolved> {
-        let solve = || RowStiffness::compute(footprint, coupling).map(Arc::new);
-        self.rows[coupling as usize].get_or_solve(footprint, solve)
+        self.rows[coupling as usize]
+            .get_or_solve(footprint, || RowStiffness::compute(footprint, coupling).map(Arc::new))
     }
 
     /// Returns the stiffness of a row with its derivatives, solving them if necessary.
@@ -66,8 +66,8 @@ impl Calibrations {
         footprint: &Footprint,
         coupling: Coupling,
     ) -> Result<Arc<StiffnessSlopes>, Unresolved> {
-        let solve = || StiffnessSlopes::compute(footprint, coupling).map(Arc::new);
-        self.slopes[coupling as usize].get_or_solve(footprint, solve)
+        self.slopes[coupling as usize]
+            .get_or_solve(footprint, || StiffnessSlopes::compute(footprint, coupling).map(Arc::new))
     }
 }
 

@@ -81,9 +81,10 @@ impl FarField {
 /// Returns `u_k/u_0` of (S13), or of (S16) if the row ends after `scales` more.
 fn decayed(r: f64, scales: Option<usize>, k: usize) -> f64 {
     // A row is always shorter than the range of `i32`.
-    let power = |n: usize| r.powi(n as i32);
-    let free = |n: usize| (1.0 - power(2 * (n + 1 - k))) / (1.0 - power(2 * (n + 1)));
-    power(k) * scales.map_or(1.0, free)
+    let decay = r.powi(k as i32);
+    let Some(n) = scales else { return decay };
+    let [of_distance, of_length] = [n + 1 - k, n + 1].map(|n| 1.0 - r.powi(2 * n as i32));
+    decay * (of_distance / of_length)
 }
 
 impl RowStiffness {

@@ -64,23 +64,6 @@ impl Sub for Influence {
     }
 }
 
-/// Returns the corner functions (S3) at the offset `(x, z)`.
-///
-/// Both vanish with their factor.
-pub fn corner(x: f64, z: f64) -> Influence {
-    let half = |s: f64, t: f64| {
-        if s == 0.0 { 0.0 } else { s * (t / s.abs()).asinh() }
-    };
-    Influence { across: half(x, z), along: half(z, x) }
-}
-
-/// Returns the influence of a cell at the field point `(0, 0)` (S3).
-///
-/// The cell is `x[0] < x < x[1]`, `z[0] < z < z[1]`.
-pub fn cell(x: [f64; 2], z: [f64; 2]) -> Influence {
-    corner(x[1], z[1]) - corner(x[0], z[1]) - corner(x[1], z[0]) + corner(x[0], z[0])
-}
-
 /// Line of corners parallel to `z`, seen from one field point.
 ///
 /// Cells between two such lines share their corners, and the logarithm of `|Z|` serves every line.
@@ -95,8 +78,8 @@ pub struct CornerLine {
 impl CornerLine {
     /// Creates a line of corners at the depths `edges`, seen from the depth `field`.
     pub fn new(edges: impl IntoIterator<Item = f64>, field: f64) -> Self {
-        let corner = |edge| [edge - field, ln_or_zero(edge - field)];
-        Self { corners: edges.into_iter().map(corner).collect() }
+        let offsets = edges.into_iter().map(|edge| edge - field);
+        Self { corners: offsets.map(|z| [z, ln_or_zero(z)]).collect() }
     }
 
     /// Returns the number of corners.

@@ -157,18 +157,17 @@ impl Layer {
         // difference.
         let values: Vec<Integrals> =
             (0..=last + 2).map(|k| integrals(&points, k as f64 / PER_UNIT as f64)).collect();
-        // Below 0 the integrals continue evenly; the integral with J₁ continues oddly.
-        let value = |k: usize, steps: isize, part: usize| {
-            let place = k.cast_signed() + steps;
-            let sign = if place < 0 && part == 3 { -1.0 } else { 1.0 };
-            sign * values[place.unsigned_abs()][part]
-        };
-        let slope = |k: usize, part: usize| {
-            let difference = |steps: isize| value(k, steps, part) - value(k, -steps, part);
-            (8.0 * difference(1) - difference(2)) / 12.0
-        };
-        let node = |k: usize| std::array::from_fn(|part| [values[k][part], slope(k, part)]);
-        Self { poisson_ratio, nodes: (0..=last).map(node).collect() }
+        let nodes = (0..=last).map(|k| {
+            std::array::from_fn(|part| {
+                let [near, far] = [1, 2].map(|steps| {
+                    // Below 0 the integrals continue evenly; the integral with J₁ continues oddly.
+                    let sign = if k < steps && part == 3 { -1.0 } else { 1.0 };
+                    values[k + steps][part] - sign * values[k.abs_diff(steps)][part]
+                });
+                [values[k][part], (8.0 * near - far) / 12.0]
+            })
+        });
+        Self { poisson_ratio, nodes: nodes.collect() }
     }
 
     /// Returns the displacements of unit loads at the offset `(x, z)`.
@@ -197,12 +196,11 @@ impl Layer {
         };
         let t = steps - k as f64;
         let (s, last) = (1.0 - t, &self.nodes[k]);
-        let cubic = |part: usize| {
+        std::array::from_fn(|part| {
             let ([from, from_slope], [to, to_slope]) = (last[part], next[part]);
             s * s * ((1.0 + 2.0 * t) * from + t * from_slope)
                 + t * t * ((1.0 + 2.0 * s) * to - s * to_slope)
-        };
-        std::array::from_fn(cubic)
+        })
     }
 }
 

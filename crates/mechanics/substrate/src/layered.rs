@@ -56,18 +56,18 @@ pub(crate) fn addition(
         [x, y, turn, cross].into_iter().chain([x, y, turn, cross, x, cross].into_iter().cycle());
     let steps = best.iter().zip(&fine.numbers).zip(sizes);
     let error = steps.map(|((best, fine), size)| CAUTION * ((best - fine) / size).abs());
-    let neighbour = |n: &[f64; PER_NEIGHBOUR]| Neighbour {
+    let neighbours = best[OWN..].as_chunks::<PER_NEIGHBOUR>().0.iter().map(|n| Neighbour {
         direct: [n[0], n[1], n[2]],
         // Eq. (1) has no force from rotation, so drop it here too.
         cross: if coupling == Coupling::Full { n[3] } else { 0.0 },
         lift: n[4],
         roll: n[5],
-    };
+    });
     Ok(RowStiffness {
         direct: [best[0], best[1], best[2]],
         roll: best[3],
         error: error.fold(0.0, f64::max),
-        neighbours: best[OWN..].as_chunks().0.iter().map(neighbour).collect(),
+        neighbours: neighbours.collect(),
         ..RowStiffness::default()
     })
 }
@@ -81,8 +81,9 @@ pub(crate) fn slope(
     parameter: FootprintParameter,
 ) -> Result<RowStiffness, Unresolved> {
     let step = footprint.step(parameter, STEP);
-    let at = |step: f64| addition(&footprint.moved(parameter as usize, step), footprint, coupling);
-    Ok(at(step)? * (0.5 / step) + at(-step)? * (-0.5 / step))
+    let [high, low] = [step, -step]
+        .map(|step| addition(&footprint.moved(parameter as usize, step), footprint, coupling));
+    Ok(high? * (0.5 / step) + low? * (-0.5 / step))
 }
 
 /// Reactions on one mesh, minus the half-space reactions.

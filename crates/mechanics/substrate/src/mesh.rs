@@ -48,11 +48,11 @@ impl GradedAxis {
     /// lattices. At the middle in length, the error would be ten times as large and only of second
     /// order.
     fn between(grading: &Grading, start: f64, cells: usize) -> Self {
-        let at = |k: f64| grading.at(start + (1.0 - start) * k / cells as f64);
-        Self {
-            edges: (0..=cells).map(|k| at(k as f64)).collect(),
-            points: (0..cells).map(|k| at(k as f64 + 0.5)).collect(),
-        }
+        let [edges, points] = [(0.0, cells + 1), (0.5, cells)].map(|(shift, count)| {
+            let places = (0..count).map(|k| (1.0 - start) * (k as f64 + shift) / cells as f64);
+            places.map(|place| grading.at(start + place)).collect()
+        });
+        Self { edges, points }
     }
 
     /// Returns the edges of the cells, ascending, one more than cells.
@@ -111,29 +111,25 @@ impl Mesh {
         // The layer of a free edge extends to the distance of the far edge.
         let free = width.min(2.0);
         let facing = gap.min(free);
-        let neighbour = |k: usize| {
+        let neighbours = (1..=neighbours).map(|k| {
             let before = (k - 1) as f64 * footprint.pitch_over_a();
             // The last neighbour has a free edge.
             let outer = if k == neighbours { free } else { facing };
             GradedAxis::graded([1.0 + gap + before, 3.0 + gap + before], [facing, outer], n)
-        };
+        });
         Self {
             middle: GradedAxis::upper_half(1.0, facing, n),
-            neighbours: (1..=neighbours).map(neighbour).collect(),
+            neighbours: neighbours.collect(),
             depth: GradedAxis::upper_half(0.5 * width, free, n),
         }
     }
 
     /// Returns true if the gap and every cell have a positive width after rounding.
     pub fn is_resolved(&self) -> bool {
-        let open = |axis: &GradedAxis| axis.edges.windows(2).all(|pair| pair[0] < pair[1]);
-        let mut last = self.middle.edges[self.middle.cells()];
-        let mut apart = |axis: &GradedAxis| {
-            let before = std::mem::replace(&mut last, axis.edges[axis.cells()]);
-            axis.edges[0] > before
-        };
-        self.neighbours.iter().all(&mut apart)
-            && [&self.middle, &self.depth].into_iter().chain(&self.neighbours).all(open)
+        let along: Vec<f64> = self.across().flat_map(GradedAxis::edges).copied().collect();
+        [along.as_slice(), &self.depth.edges]
+            .into_iter()
+            .all(|edges| edges.is_sorted_by(|a, b| a < b))
     }
 }
 

@@ -149,16 +149,18 @@ impl RowStiffness {
     /// # Errors
     /// If the gap vanishes by rounding.
     pub fn solve(footprint: &Footprint, neighbours: usize) -> Result<Self, Unresolved> {
-        let on =
-            |n: usize| row_reactions(footprint, neighbours, n).map(|reactions| reactions.numbers());
-        let [coarse, medium, fine] = [on(CELLS[0])?, on(CELLS[1])?, on(CELLS[2])?];
+        let [coarse, medium, fine] = CELLS.map(|n| row_reactions(footprint, neighbours, n));
+        let [coarse, medium, fine] = [coarse?.numbers(), medium?.numbers(), fine?.numbers()];
         // The difference of two extrapolations estimates the error of the better one.
         let check = extrapolation([CELLS[0], CELLS[1]], [&coarse, &medium]);
         let best = extrapolation([CELLS[1], CELLS[2]], [&medium, &fine]);
         let sizes = sizes(&best);
-        let estimate = |i: usize| (best[i] - check[i]).abs() + CAUTION * (best[i] - fine[i]).abs();
         // A row has one error: the largest of all values.
-        let mut error = (0..best.len()).map(|i| estimate(i) / sizes[i]).fold(0.0, f64::max);
+        let mut error = 0.0_f64;
+        for (i, size) in sizes.iter().enumerate() {
+            let estimate = (best[i] - check[i]).abs() + CAUTION * (best[i] - fine[i]).abs();
+            error = error.max(estimate / size);
+        }
         let mut row = Self { direct: [best[0], best[1], best[2]], ..Self::default() };
         for n in best[3..].chunks(PER_NEIGHBOUR) {
             error = error.max((n[3] - n[4]).abs() / sizes[6]);
@@ -182,16 +184,11 @@ impl RowStiffness {
     pub(crate) fn from_table(row: &[Differentiated], part: usize) -> Self {
         let numbers: Vec<f64> = row.iter().map(|number| number.0[part]).collect();
         let (direct, neighbours) = numbers.split_at(3);
-        let neighbour = |&[x, y, turn, cross]: &[f64; 4]| Neighbour {
-            direct: [x, y, turn],
-            cross,
-            ..Neighbour::default()
-        };
-        Self {
-            direct: [direct[0], direct[1], direct[2]],
-            neighbours: neighbours.as_chunks().0.iter().map(neighbour).collect(),
-            ..Self::default()
+        let mut row = Self { direct: [direct[0], direct[1], direct[2]], ..Self::default() };
+        for &[x, y, turn, cross] in neighbours.as_chunks().0 {
+            row.neighbours.push(Neighbour { direct: [x, y, turn], cross, ..Neighbour::default() });
         }
+        row
     }
 
     /// Converts to a length unit in which the half-width of a base is `half_base`.
@@ -199,20 +196,17 @@ impl RowStiffness {
     /// Forces are then in `E* t²` instead of `E* a²`.
     #[must_use]
     pub fn with_lengths_over(&self, half_base: f64) -> Self {
-        let a = half_base;
-        let scaled = |[x, y, turn]: [f64; 3]| [a * x, a * y, a.powi(3) * turn];
-        let neighbour = |n: &Neighbour| Neighbour {
-            direct: scaled(n.direct),
-            cross: a * a * n.cross,
-            lift: a * n.lift,
-            roll: a * a * n.roll,
-        };
-        Self {
-            direct: scaled(self.direct),
-            roll: a * a * self.roll,
-            neighbours: self.neighbours.iter().map(neighbour).collect(),
-            ..*self
+        let (mut scaled, a) = (self.clone(), half_base);
+        let square = a * a;
+        scaled.roll *= square;
+        for n in &mut scaled.neighbours {
+            (n.cross, n.lift, n.roll) = (square * n.cross, a * n.lift, square * n.roll);
         }
+        let direct = scaled.neighbours.iter_mut().map(|n| &mut n.direct);
+        for [x, y, turn] in direct.chain([&mut scaled.direct]) {
+            (*x, *y, *turn) = (a * *x, a * *y, a.powi(3) * *turn);
+        }
+        scaled
     }
 
     /// Returns all values of the stiffness.

@@ -55,9 +55,8 @@ impl From<&RowStiffness> for Springs {
 /// # Errors
 /// As [`calibrate`].
 pub fn extrapolated(footprint: &Footprint, cells: [usize; 2]) -> Result<[f64; 6], Unresolved> {
-    let on = |n| row_reactions(footprint, 1, n).map(|reactions| reactions.numbers());
-    let [coarse, fine] = [on(cells[0])?, on(cells[1])?];
-    let numbers = extrapolation(cells, [&coarse, &fine]);
+    let [coarse, fine] = cells.map(|n| row_reactions(footprint, 1, n));
+    let numbers = extrapolation(cells, [&coarse?.numbers(), &fine?.numbers()]);
     // `β` is the negative reaction on the neighbour (S6).
     Ok(std::array::from_fn(|i| if i < 3 { numbers[i] } else { -numbers[i] }))
 }

@@ -132,10 +132,11 @@ fn difference(
 ) -> Result<RowStiffness, Unresolved> {
     let step = footprint.step(parameter, STEP);
     // Solve points within the table too: mixing both would difference their errors.
-    let at = |steps: f64| {
-        RowStiffness::solved(&footprint.moved(parameter as usize, steps * step), coupling)
-    };
     let [near, far] = [8.0 / (12.0 * step), -1.0 / (12.0 * step)];
-    let slope = at(1.0)? * near + at(-1.0)? * -near;
-    Ok(slope + at(2.0)? * far + at(-2.0)? * -far)
+    let terms = [(1.0, near), (-1.0, -near), (2.0, far), (-2.0, -far)];
+    let [first, second, third, fourth] = terms.map(|(steps, factor)| {
+        let footprint = footprint.moved(parameter as usize, steps * step);
+        RowStiffness::solved(&footprint, coupling).map(|row| row * factor)
+    });
+    Ok(first? + second? + third? + fourth?)
 }

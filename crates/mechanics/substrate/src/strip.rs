@@ -34,8 +34,8 @@ impl SurfaceStrip {
     /// Computes the stretch `g` of the strip between two poses `(x, y, φ)`.
     pub fn stretch(&self, left: [f64; 3], right: [f64; 3]) -> f64 {
         // 1 − cos φ without cancellation.
-        let shortened = |rotation: f64| 2.0 * (0.5 * rotation).sin().powi(2);
-        self.stretch_by(right[0] - left[0], shortened(left[2]) + shortened(right[2]))
+        let [one, other] = [left[2], right[2]].map(|rotation| 2.0 * (0.5 * rotation).sin().powi(2));
+        self.stretch_by(right[0] - left[0], one + other)
     }
 
     /// Computes the stretch `g` from relative displacement and base shortening.
@@ -95,9 +95,9 @@ mod tests {
             let step = 1e-5 * stretch;
             let [low, high] = [stretch - step, stretch + step].map(neo_hookean);
             let [_, force, stiffness] = neo_hookean(stretch);
-            let slope = |k: usize| (high[k] - low[k]) / (2.0 * step);
-            assert_relative_eq!(slope(0), force, epsilon = 1e-9, max_relative = 1e-8);
-            assert_relative_eq!(slope(1), stiffness, max_relative = 1e-8);
+            let slopes = [0, 1].map(|k| (high[k] - low[k]) / (2.0 * step));
+            assert_relative_eq!(slopes[0], force, epsilon = 1e-9, max_relative = 1e-8);
+            assert_relative_eq!(slopes[1], stiffness, max_relative = 1e-8);
         }
     }
 
@@ -117,12 +117,13 @@ mod tests {
         let length = corner - (left[0] + 0.5 * left[2].cos());
         assert_relative_eq!(STRIP.stretch(left, right), length / 0.2, max_relative = 1e-14);
         let rates = [[0.2, 9.0, 0.3], [-0.1, 9.0, 0.5]];
-        let at = |step: f64| {
-            let moved =
-                |pose: [f64; 3], rate: [f64; 3]| std::array::from_fn(|k| pose[k] + step * rate[k]);
-            STRIP.stretch(moved(left, rates[0]), moved(right, rates[1]))
-        };
-        let slope = (at(1e-6) - at(-1e-6)) / 2e-6;
+        let [high, low] = [1e-6, -1e-6].map(|step| {
+            let [left, right] = [0, 1].map(|scale| {
+                std::array::from_fn(|k| [left, right][scale][k] + step * rates[scale][k])
+            });
+            STRIP.stretch(left, right)
+        });
+        let slope = (high - low) / 2e-6;
         assert_relative_eq!(STRIP.stretch_rate([left, right], rates), slope, max_relative = 1e-8);
     }
 }

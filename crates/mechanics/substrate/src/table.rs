@@ -145,18 +145,19 @@ struct Reader {
 
 impl Reader {
     fn at(footprint: &Footprint) -> Option<Self> {
-        let on_log = |value: f64, [low, high]: [f64; 2]| {
+        let lengths = [(footprint.gap_over_a(), GAPS), (footprint.width_over_a(), WIDTHS)];
+        let [gap, width] = lengths.map(|(value, [low, high])| {
             let slope = 2.0 / (high / low).ln();
             // Rounding may put an end of the range slightly beyond ±1, where polynomials are still
             // accurate.
             let place = (value / low).ln() * slope - 1.0;
             (low..=high).contains(&value).then(|| chebyshev(place, slope / value, NEAREST))
-        };
+        });
         // The ratio always lies in its range, 0 to ½; only the lengths may leave theirs.
         let left = 1.0 - footprint.poisson_ratio();
         Some(Self {
-            gap: on_log(footprint.gap_over_a(), GAPS)?,
-            width: on_log(footprint.width_over_a(), WIDTHS)?,
+            gap: gap?,
+            width: width?,
             ratio: chebyshev(-1.0 - 2.0 * left.log2(), 2.0 / (LN_2 * left), RATIOS),
             coefficients: TABLE.as_chunks().0.iter(),
         })
@@ -185,10 +186,9 @@ impl Reader {
     fn solid(&mut self, orders: usize) -> Differentiated {
         let parts: Vec<_> = (0..RATIOS).map(|_| self.surface(orders)).collect();
         let terms = self.ratio.iter().zip(parts);
-        let term = |([t, t_slope], part): (&[f64; 2], Differentiated)| {
-            part * Differentiated([*t, 0.0, 0.0, *t_slope])
-        };
-        terms.map(term).fold(Differentiated::default(), Add::add)
+        let terms =
+            terms.map(|([t, t_slope], part)| part * Differentiated([*t, 0.0, 0.0, *t_slope]));
+        terms.fold(Differentiated::default(), Add::add)
     }
 }
 

@@ -105,9 +105,9 @@ impl FromStr for Criterion {
 
     fn from_str(text: &str) -> Result<Self, InvalidCriterion> {
         let text = text.trim();
-        let read = |goal: Goal| Some((text.strip_prefix(goal.key())?.strip_prefix(':')?, goal));
-        let found = read(Goal::Maximize)
-            .or_else(|| read(Goal::Minimize))
+        let found = [Goal::Maximize, Goal::Minimize]
+            .into_iter()
+            .find_map(|goal| Some((text.strip_prefix(goal.key())?.strip_prefix(':')?, goal)))
             .or_else(|| Some((text, plain_goal(text)?)));
         let found = found.map(|(column, goal)| (column.trim(), goal));
         match found {

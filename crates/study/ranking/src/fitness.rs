@@ -67,9 +67,12 @@ impl FitnessGoal {
         // Criteria without weight are ignored (R3), even if they have no ends or no value.
         weighted.filter(|(_, weight)| **weight > 0.0).map(|(criterion, &weight)| {
             let goal = criterion.goal;
-            let made = |value| Scale::Paper.criterion(goal, value);
             let ends = ends.iter().find(|ends| ends.column == criterion.column);
-            let ends = ends.and_then(|ends| Some((made(ends.worst)?, made(ends.best)?)));
+            let ends = ends.and_then(|ends| {
+                let [worst, best] =
+                    [ends.worst, ends.best].map(|end| Scale::Paper.criterion(goal, end));
+                Some((worst?, best?))
+            });
             (criterion, RescaledCriterion { goal, weight, ends })
         })
     }

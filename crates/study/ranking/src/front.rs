@@ -17,8 +17,8 @@ pub(crate) fn front_of(criteria: &[f64], count: usize) -> Vec<bool> {
         return sifted(&points.collect::<Vec<_>>());
     }
     // Missing criteria are 0 for all points, which does not change dominance.
-    let four = |point: &[f64]| std::array::from_fn(|c| point.get(c).copied().unwrap_or(0.0));
-    pareto_front(&points.map(four).collect::<Vec<_>>())
+    let points = points.map(|point| std::array::from_fn(|c| point.get(c).copied().unwrap_or(0.0)));
+    pareto_front(&points.collect::<Vec<_>>())
 }
 
 /// Marks the points on the Pareto front, in any dimension.
@@ -54,11 +54,11 @@ pub fn pareto_front(points: &[Quadruple]) -> Vec<bool> {
     let groups: Vec<&[usize]> = order.chunk_by(|&a, &b| points[a] == points[b]).collect();
     let thirds =
         descending_ranks(&groups.iter().map(|group| points[group[0]][2]).collect::<Vec<_>>());
-    let candidate = |(group, members): (usize, &&[usize])| {
+    let candidates = groups.iter().enumerate().map(|(group, members)| {
         let [_, second, _, fourth] = points[members[0]];
         Point { group, second, third: thirds[group], fourth, beaten: false }
-    };
-    let mut candidates: Vec<_> = groups.iter().enumerate().map(candidate).collect();
+    });
+    let mut candidates: Vec<_> = candidates.collect();
     let mut best = PrefixMaxima { values: vec![f64::NEG_INFINITY; groups.len() + 1] };
     divide(&mut candidates, &mut best);
     let mut front = vec![false; points.len()];
@@ -206,10 +206,11 @@ mod tests {
             count in 5_usize..9,
         ) {
             let points = points.iter().flat_map(|p| p.map(f64::from)[..count].to_vec());
-            let points: Vec<f64> = points.collect();
-            let points = || points.chunks_exact(count);
-            let expected: Vec<bool> = points().map(|q| !points().any(|p| dominates(p, q))).collect();
-            prop_assert_eq!(front_of(&points().collect::<Vec<_>>().concat(), count), expected);
+            let numbers: Vec<f64> = points.collect();
+            let points: Vec<&[f64]> = numbers.chunks_exact(count).collect();
+            let expected: Vec<bool> =
+                points.iter().map(|q| !points.iter().any(|p| dominates(p, q))).collect();
+            prop_assert_eq!(front_of(&numbers, count), expected);
         }
     }
 }

@@ -83,19 +83,14 @@ pub fn comparable_groups(
 ) -> Result<Vec<Preferences>, InvalidResults> {
     let mut groups = vec![preferences.clone()];
     for Incomparable { parameter, values, .. } in differing(results, preferences)? {
-        let at = |group: &Preferences, limit: f64| {
-            let mut group = group.clone();
-            let column = parameter.clone();
-            group.requirements.push(Requirement { column, relation: Relation::Equal, limit });
-            group
-        };
         // Includes combinations without designs; their rankings are empty.
-        groups = groups
-            .iter()
-            .flat_map(|group| -> Vec<Preferences> {
-                values.iter().map(|value| at(group, *value)).collect()
-            })
-            .collect();
+        for group in std::mem::take(&mut groups) {
+            for &limit in &values {
+                let (mut group, column) = (group.clone(), parameter.clone());
+                group.requirements.push(Requirement { column, relation: Relation::Equal, limit });
+                groups.push(group);
+            }
+        }
     }
     Ok(groups)
 }

@@ -177,15 +177,13 @@ impl Preferences {
 
     /// Returns the preferences in TOML, which [`Self::parse`] reads back.
     pub fn to_toml(&self) -> String {
-        let texts = |texts: Vec<String>| {
-            texts.iter().map(|text| quoted(text)).collect::<Vec<_>>().join(", ")
-        };
-        let requirements = self.requirements.iter().map(ToString::to_string).collect();
-        let criteria = self.criteria.iter().map(ToString::to_string).collect();
+        let requirements = self.requirements.iter().map(|one| quoted(&one.to_string()));
+        let criteria = self.criteria.iter().map(|one| quoted(&one.to_string()));
+        let [requirements, criteria]: [Vec<_>; 2] = [requirements.collect(), criteria.collect()];
         let mut text = "# What the designs are ranked by: written by squama rank.\n".to_owned();
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "requirements = [{}]", texts(requirements));
-        let _ = writeln!(text, "criteria = [{}]", texts(criteria));
+        let _ = writeln!(text, "requirements = [{}]", requirements.join(", "));
+        let _ = writeln!(text, "criteria = [{}]", criteria.join(", "));
         let _ = writeln!(text, "weights = [{}]", self.weights);
         let _ = writeln!(text, "scale = {}", quoted(self.scale.name()));
         text

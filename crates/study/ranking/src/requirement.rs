@@ -202,20 +202,26 @@ mod tests {
 
     #[test]
     fn each_relation_accepts_the_right_values() {
-        let met = |text: &str| [1.0, 2.0, 3.0].map(|value| requirement(text).is_met(value));
-        assert_eq!(met("a >= 2"), [false, true, true]);
-        assert_eq!(met("a <= 2"), [true, true, false]);
-        assert_eq!(met("a == 2"), [false, true, false]);
-        assert_eq!(met("a > 2"), [false, false, true]);
-        assert_eq!(met("a < 2"), [true, false, false]);
+        for (text, met) in [
+            ("a >= 2", [false, true, true]),
+            ("a <= 2", [true, true, false]),
+            ("a == 2", [false, true, false]),
+            ("a > 2", [false, false, true]),
+            ("a < 2", [true, false, false]),
+        ] {
+            assert_eq!([1.0, 2.0, 3.0].map(|value| requirement(text).is_met(value)), met);
+        }
     }
 
     #[test]
     fn margins_are_negative_for_missed_requirements() {
-        let margins = |text: &str| [1.0, 2.0, 3.0].map(|value| requirement(text).margin(value));
-        assert_eq!(margins("a >= 2"), [-0.5, 0.0, 0.5]);
-        assert_eq!(margins("a <= 2"), [0.5, 0.0, -0.5]);
-        assert_eq!(margins("a == 2"), [-0.5, 0.0, -0.5]);
+        for (text, margins) in [
+            ("a >= 2", [-0.5, 0.0, 0.5]),
+            ("a <= 2", [0.5, 0.0, -0.5]),
+            ("a == 2", [-0.5, 0.0, -0.5]),
+        ] {
+            assert_eq!([1.0, 2.0, 3.0].map(|value| requirement(text).margin(value)), margins);
+        }
     }
 
     #[test]

@@ -88,9 +88,11 @@ mod tests {
     #[test]
     fn larger_criteria_are_better_on_every_scale() {
         for scale in Scale::ALL {
-            let criterion = |goal, value| scale.criterion(goal, value).expect("it exists");
-            assert!(criterion(Goal::Maximize, 2.0) > criterion(Goal::Maximize, 1.0));
-            assert!(criterion(Goal::Minimize, 1.0) > criterion(Goal::Minimize, 2.0));
+            for (goal, better, worse) in [(Goal::Maximize, 2.0, 1.0), (Goal::Minimize, 1.0, 2.0)] {
+                let [better, worse] =
+                    [better, worse].map(|value| scale.criterion(goal, value).expect("it exists"));
+                assert!(better > worse, "{scale:?}");
+            }
             assert_eq!(scale.name().parse(), Ok(scale));
         }
         assert_eq!(Scale::Paper.criterion(Goal::Minimize, 0.0), None);

@@ -75,24 +75,24 @@ impl Unmet {
         let all: Vec<_> = values
             .iter()
             .map(|row| -> Vec<f64> {
-                let one = |(k, value): (usize, &Option<f64>)| {
+                let shortfalls = row.iter().enumerate().map(|(k, value)| {
                     // A design without a required value is never the nearest.
                     value.map_or(f64::INFINITY, |value| requirements[k].shortfall(value, sizes[k]))
-                };
-                row.iter().enumerate().map(one).collect()
+                });
+                shortfalls.collect()
             })
             .collect();
         let nearest = nearest(&all);
-        let report = |(k, requirement): (usize, &Requirement)| UnmetRequirement {
-            requirement: requirement.clone(),
-            // Exactly 0: missing only the strictness of a bound is a positive shortfall.
-            met: all.iter().filter(|row| row[k] == 0.0).count(),
-            met_without: all.iter().filter(|row| meets_others(row, k)).count(),
-            nearest: nearest.and_then(|row| values[row][k]),
-            shortfall: nearest.map_or(f64::INFINITY, |row| all[row][k]),
-        };
-        let requirements = requirements.iter().enumerate().map(report).collect();
-        Self { requirements, nearest }
+        let requirements =
+            requirements.iter().enumerate().map(|(k, requirement)| UnmetRequirement {
+                requirement: requirement.clone(),
+                // Exactly 0: missing only the strictness of a bound is a positive shortfall.
+                met: all.iter().filter(|row| row[k] == 0.0).count(),
+                met_without: all.iter().filter(|row| meets_others(row, k)).count(),
+                nearest: nearest.and_then(|row| values[row][k]),
+                shortfall: nearest.map_or(f64::INFINITY, |row| all[row][k]),
+            });
+        Self { requirements: requirements.collect(), nearest }
     }
 }
 
@@ -103,10 +103,12 @@ fn meets_others(shortfalls: &[f64], one: usize) -> bool {
 
 /// Returns the unit of shortfalls: the limit, or the largest value if it is 0.
 fn size(values: &[Vec<Option<f64>>], k: usize, requirement: &Requirement) -> f64 {
-    let found = values.iter().filter_map(|row| row[k]);
     // Shortfalls of different columns are only comparable relative to a size, which 0 cannot be.
-    let largest = || found.fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    let size = if requirement.limit == 0.0 { largest() } else { requirement.limit.abs() };
+    let size = if requirement.limit == 0.0 {
+        values.iter().filter_map(|row| row[k]).fold(0.0, |size: f64, value| size.max(value.abs()))
+    } else {
+        requirement.limit.abs()
+    };
     if size > 0.0 { size } else { 1.0 }
 }
 
@@ -114,8 +116,10 @@ fn size(values: &[Vec<Option<f64>>], k: usize, requirement: &Requirement) -> f64
 ///
 /// The first of several equal rows counts.
 fn nearest(shortfalls: &[Vec<f64>]) -> Option<usize> {
-    let distance = |row: &[f64]| (row.iter().copied().fold(0.0, f64::max), row.iter().sum::<f64>());
-    let rows = shortfalls.iter().enumerate().map(|(k, row)| (distance(row), k));
+    let rows = shortfalls
+        .iter()
+        .enumerate()
+        .map(|(k, row)| ((row.iter().copied().fold(0.0, f64::max), row.iter().sum::<f64>()), k));
     let finite = rows.filter(|((largest, _), _)| largest.is_finite());
     let first = finite.min_by(|((a, b), _), ((c, d), _)| a.total_cmp(c).then(b.total_cmp(d)));
     first.map(|(_, row)| row)

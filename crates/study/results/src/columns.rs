@@ -181,32 +181,31 @@ fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
         Some(table) => column.name == table,
         None => column.leads(),
     });
-    let made = |columns: Vec<&'static ValueColumn>| columns.into_iter().map(ValueColumn::column);
-    let mut columns = vec![number_column()];
-    if sweep.gives(key::THICKNESS) {
+    let has_thickness = sweep.gives(key::THICKNESS);
+    let (leading, after_axes, last) = if has_thickness {
         let (replaced, leading): (Vec<_>, Vec<_>) =
             leading.into_iter().partition(|column| column.has_physical_unit());
-        if table.is_none() {
-            columns.extend(columns_in_mm(sweep));
-        }
-        columns.extend(geometry_columns());
-        columns.extend(axis_columns(sweep));
-        columns.extend(made(leading));
-        columns.extend(made(physical));
-        columns.extend(made(replaced));
-        columns.extend(made(others));
-        columns.extend(tilt_columns(sweep, table));
-        if table.is_none() {
-            columns.extend(width_column(sweep));
-        }
-        return columns;
+        (Vec::new(), [leading, physical, replaced].concat(), Vec::new())
+    } else {
+        (leading, Vec::new(), physical)
+    };
+    let [leading, after_axes, others, last] = [leading, after_axes, others, last]
+        .map(|columns| columns.into_iter().map(ValueColumn::column));
+    let has_lengths_in_mm = has_thickness && table.is_none();
+    let mut columns = vec![number_column()];
+    if has_lengths_in_mm {
+        columns.extend(columns_in_mm(sweep));
     }
     columns.extend(geometry_columns());
-    columns.extend(made(leading));
+    columns.extend(leading);
     columns.extend(axis_columns(sweep));
-    columns.extend(made(others));
+    columns.extend(after_axes);
+    columns.extend(others);
     columns.extend(tilt_columns(sweep, table));
-    columns.extend(made(physical));
+    columns.extend(last);
+    if has_lengths_in_mm {
+        columns.extend(width_column(sweep));
+    }
     columns
 }
 

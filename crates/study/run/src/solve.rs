@@ -1,5 +1,6 @@
 //! Solves designs, one by one or in parallel.
 
+mod across;
 mod between;
 pub mod curve;
 pub mod evaluator;

@@ -159,9 +159,10 @@ pub(crate) fn range(
 ///
 /// They are closest together, relative to their size, at the two ends.
 fn tells_apart(numbers: &[Decimal]) -> bool {
-    let differ = |pair: &[Decimal]| !text::number::same(pair[0].to_f64(), pair[1].to_f64());
     let mut pairs = numbers.windows(2);
-    pairs.clone().next().is_none_or(differ) && pairs.next_back().is_none_or(differ)
+    let ends = [pairs.clone().next(), pairs.next_back()].into_iter().flatten();
+    ends.map(|pair| [pair[0], pair[1]].map(Decimal::to_f64))
+        .all(|[one, next]| !text::number::same(one, next))
 }
 
 #[cfg(test)]
@@ -171,8 +172,8 @@ mod tests {
     use super::*;
 
     fn range(from: &str, to: &str, step: &str) -> Result<Vec<Decimal>, InvalidRange> {
-        let decimal = |text: &str| text.parse().expect("a decimal");
-        super::range(decimal(from), decimal(to), decimal(step))
+        let [from, to, step] = [from, to, step].map(|text| text.parse().expect("a decimal"));
+        super::range(from, to, step)
     }
 
     #[test]
@@ -207,10 +208,10 @@ mod tests {
 
         #[test]
         fn a_range_contains_every_step_and_both_ends(first in -1000_i64..1000, stride in 1_i64..500, count in 1_i64..400, exponent in -6_i32..3) {
-            let text = |i: i64| format!("{}e{exponent}", first + stride * i);
+            let texts: Vec<_> = (0..count).map(|i| format!("{}e{exponent}", first + stride * i)).collect();
             let step = format!("{stride}e{exponent}");
-            let range = range(&text(0), &text(count - 1), &step).expect("valid");
-            let expected = (0..count).map(|i| text(i).parse::<f64>().expect("a number"));
+            let range = range(&texts[0], &texts[texts.len() - 1], &step).expect("valid");
+            let expected = texts.iter().map(|text| text.parse::<f64>().expect("a number"));
             prop_assert!(range.into_iter().map(Decimal::to_f64).eq(expected));
         }
 

@@ -151,10 +151,9 @@ impl Sweep {
     /// Returns true if the designs have a value for the parameter `key`, also in mm.
     pub fn gives(&self, key: &str) -> bool {
         Parameter::named(key).is_some_and(|parameter| {
-            let is_said = |key| self.grid.axis(key).is_some();
-            let in_mm =
-                || parameter.in_mm().any(|p| is_said(p.key) || p.is_given(self.grid.base()));
-            is_said(parameter.key) || parameter.is_given(self.grid.base()) || in_mm()
+            std::iter::once(parameter)
+                .chain(parameter.in_mm())
+                .any(|p| self.grid.axis(p.key).is_some() || p.is_given(self.grid.base()))
         })
     }
 
@@ -210,14 +209,12 @@ impl Sweep {
 
     /// Returns a question about a substrate modulus that seems in another unit.
     fn question(&self) -> Option<String> {
-        let written = |parameter: &Parameter| {
-            // Check the largest value: one design with a wrong unit is enough.
-            let axis = self.grid.axis(parameter.key).map(|axis| axis.span().1);
-            let variable = self.variables.iter().find(|v| v.parameter() == parameter);
-            let variable = variable.and_then(|variable| variable.at(1.0).number());
-            variable.or(axis).or_else(|| parameter.get(self.grid.base()).number())
-        };
-        let modulus = written(Parameter::named(key::SUBSTRATE_MODULUS)?)?;
+        let parameter = Parameter::named(key::SUBSTRATE_MODULUS)?;
+        // Check the largest value: one design with a wrong unit is enough.
+        let axis = self.grid.axis(parameter.key).map(|axis| axis.span().1);
+        let variable = self.variables.iter().find(|v| v.parameter() == parameter);
+        let variable = variable.and_then(|variable| variable.at(1.0).number());
+        let modulus = variable.or(axis).or_else(|| parameter.get(self.grid.base()).number())?;
         (modulus > STIFFEST_TISSUE).then(|| {
             format!(
                 "material.{} is {} MPa, {} GPa: soft tissue has 0.001 to 10 MPa; check that the unit is MPa, not kPa or Pa",

@@ -155,8 +155,9 @@ impl Grid {
 
     /// Returns the grid of one design, with the values of `case` on every axis.
     pub(crate) fn at(&self, case: &Case) -> Self {
-        let fix = |axis: &Axis| Axis::list(axis.parameter, vec![axis.parameter.get(case)]);
-        Self { axes: self.axes.iter().map(fix).collect(), base: self.base, count: 1 }
+        let parameters = self.axes.iter().map(|axis| axis.parameter);
+        let axes = parameters.map(|parameter| Axis::list(parameter, vec![parameter.get(case)]));
+        Self { axes: axes.collect(), base: self.base, count: 1 }
     }
 
     /// Parses the number of a design and returns its index. Leading zeros are optional.
@@ -183,8 +184,8 @@ impl Grid {
             return self.parse_number(text).map(|index| index..=index);
         };
         let range = self.parse_number(first.trim())?..=self.parse_number(last.trim())?;
-        let error = || NoSuchDesign { found: text.to_owned(), count: self.count };
-        if range.is_empty() { Err(error()) } else { Ok(range) }
+        let error = NoSuchDesign { found: text.to_owned(), count: self.count };
+        if range.is_empty() { Err(error) } else { Ok(range) }
     }
 
     /// Returns the number of design `index`.

@@ -86,8 +86,8 @@ impl MeasureTolerance {
 
     /// Returns true if the prediction is off by more than two standard errors.
     pub fn is_off(&self) -> bool {
-        let error = |sampled: &SampledSpread| 2.0 * sampled.spread_error / sampled.spread;
-        let error = self.sampled.as_ref().map(error);
+        let sampled = self.sampled.as_ref();
+        let error = sampled.map(|sampled| 2.0 * sampled.spread_error / sampled.spread);
         self.discrepancy().zip(error).is_some_and(|(off, error)| off.abs() > error)
     }
 }
@@ -134,13 +134,15 @@ impl<'a> Analysis<'a> {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
         // Imperfections only matter for samples; the nominal design is solved without them.
         let straight = Case { imperfection: Imperfection::default(), ..case };
-        let solve = || self.differentiating.row(number, &straight);
-        let row = uninterrupted(|| store.work().track(&format!("design {number}"), solve));
+        let row = uninterrupted(|| {
+            let name = format!("design {number}");
+            store.work().track(&name, || self.differentiating.row(number, &straight))
+        });
         let row = row.ok_or_else(|| self.stopped())?;
         let measured = MeasuredColumns::of(self.sweep, &row);
         let asked = self.sweep.measures();
-        let place = |r: &Requirement| measured.required(&r.column, &row, asked);
-        let required = self.requirements.iter().map(place).collect::<Result<_, _>>()?;
+        let required = self.requirements.iter().map(|r| measured.required(&r.column, &row, asked));
+        let required = required.collect::<Result<_, _>>()?;
         Ok(Nominal { index, case, row, measured, required })
     }
 
@@ -233,13 +235,13 @@ impl<'a> Analysis<'a> {
         measures: &[MeasureTolerance],
         samples: &[SolvedSample],
     ) -> Vec<RequirementYield> {
-        let predicted = |requirement: &Requirement| {
+        let predicted = self.requirements.iter().map(|requirement| {
             let measure = measures.iter().find(|measure| measure.name == requirement.column)?;
             Some((measure.value?, measure.linear.as_ref()?.spread))
-        };
-        let predicted: Vec<_> = self.requirements.iter().map(predicted).collect();
+        });
         let values = nominal.required.iter().map(|&column| self.values(column, samples));
-        yields(self.requirements, &values.collect::<Vec<_>>(), &predicted)
+        let (values, predicted): (Vec<_>, Vec<_>) = (values.collect(), predicted.collect());
+        yields(self.requirements, &values, &predicted)
     }
 }
 

@@ -140,15 +140,15 @@ fn indices(
     columns: usize,
     samples: &[SolvedSample],
 ) -> Option<MeasureIndices> {
-    let evaluation = |sample: &SolvedSample| {
+    let evaluations = samples.iter().filter_map(|sample| {
         let values: Option<Vec<f64>> =
             sample.values.chunks(columns).map(|point| point[k]).collect();
         // Exclude samples with a missing point: an index compares the points of a sample.
         let values = values?;
         let [first, second, mixed @ ..] = values.as_slice() else { return None };
         Some(Evaluation { first: *first, second: *second, mixed: mixed.to_vec() })
-    };
-    let whole: Vec<Evaluation> = samples.iter().filter_map(evaluation).collect();
+    });
+    let whole: Vec<Evaluation> = evaluations.collect();
     let indices = sobol_indices(&whole)?;
     let both: Vec<f64> = whole.iter().flat_map(|e| [e.first, e.second]).collect();
     let spread = SampledSpread::of(&both)?.spread;

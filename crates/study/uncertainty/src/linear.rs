@@ -85,8 +85,9 @@ impl Gradients<'_> {
         let value =
             |to: &Case| column.cell(&self.design.extrapolated(to, SlopeSide::Ahead)).number();
         let here = value(case)?;
-        let slope = |by: f64| Some((value(&deviation.moved(case, by)?)? - here) / by);
-        Some([slope(-step)?, slope(step)?])
+        let [below, above] =
+            [-step, step].map(|by| Some((value(&deviation.moved(case, by)?)? - here) / by));
+        Some([below?, above?])
     }
 
     /// Returns the parameters with scatter, and their standard deviations.
@@ -106,10 +107,11 @@ impl Gradients<'_> {
         let mut derivatives = self.design.result.sensitivity.iter();
         // Parameters and the mass have no such derivatives, and scatter does not change them.
         let Some(known) = derivatives.find(|d| d.measure == measure) else { return Some(0.0) };
-        let at = |value: f64| column.cell(&self.design.with_value(measure, value)?).number();
         let step = STEP * known.value.abs().max(f64::MIN_POSITIVE);
         // Columns in physical units are functions of the measure, so take their slope numerically.
-        let factor = (at(known.value + step)? - at(known.value)?) / step;
+        let [here, above] = [known.value, known.value + step]
+            .map(|value| column.cell(&self.design.with_value(measure, value)?).number());
+        let factor = (above? - here?) / step;
         let single = self.single.iter();
         let of_measure = single.filter(|d| d.measure == measure && d.parameter == key);
         of_measure
@@ -130,11 +132,11 @@ impl Gradients<'_> {
 impl LinearSpread {
     fn of(sources: Vec<(String, DeviationLevel, f64, f64)>) -> Self {
         let sum: f64 = sources.iter().map(|(.., variance)| variance).sum();
-        let share = |variance: f64| if sum > 0.0 { variance / sum } else { 0.0 };
         let mut sources: Vec<_> = sources
             .into_iter()
             .map(|(source, level, deviation, variance)| {
-                let (spread, share) = (variance.sqrt(), share(variance));
+                let share = if sum > 0.0 { variance / sum } else { 0.0 };
+                let spread = variance.sqrt();
                 SourceShare { source, level, deviation, spread, share }
             })
             .collect();

@@ -21,8 +21,9 @@ pub(crate) struct MeasuredColumns(Vec<Column<DesignRow>>);
 impl MeasuredColumns {
     /// Returns the columns of `sweep` without text in `row`.
     pub(crate) fn of(sweep: &Sweep, row: &DesignRow) -> Self {
-        let holds_text = |column: &Column<_>| matches!(column.cell(row), Cell::Text(_));
-        Self(design_columns(sweep).into_iter().filter(|column| !holds_text(column)).collect())
+        let mut columns = design_columns(sweep);
+        columns.retain(|column| !matches!(column.cell(row), Cell::Text(_)));
+        Self(columns)
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Column<DesignRow>> {

@@ -25,9 +25,9 @@ impl SampledQuantile {
     pub fn of(mut values: Vec<f64>, share: f64) -> Self {
         values.sort_by(f64::total_cmp);
         let value = quantile(&values, share);
-        let at = |place: Option<usize>| values.get(place?).copied().filter(|x| x.is_finite());
-        let [low, high] = places(values.len(), share);
-        Self { value, interval: [at(low), at(high)] }
+        let interval = places(values.len(), share)
+            .map(|place| values.get(place?).copied().filter(|value| value.is_finite()));
+        Self { value, interval }
     }
 }
 

@@ -167,14 +167,13 @@ impl SampleStore {
         kept: &BTreeMap<u64, Vec<Option<f64>>>,
     ) -> Vec<u64> {
         let Some(table) = WrittenTable::open(&self.folder, name) else { return Vec::new() };
-        let number = |cell: &str| cell.parse::<u64>().ok();
         let changed = table.changed(columns, |record| {
-            let number = number(&record[0]);
+            let number = record[0].parse().ok();
             let values = number.and_then(|number| kept.get(&number)).cloned();
             let sample = number.zip(values).map(|(number, values)| SolvedSample { number, values });
             Ok::<_, Infallible>(sample)
         });
-        changed.into_iter().flatten().filter_map(|cell| number(&cell)).collect()
+        changed.into_iter().flatten().filter_map(|cell| cell.parse().ok()).collect()
     }
 }
 

@@ -24,12 +24,11 @@ impl SampledSpread {
         let count = values.len();
         let statistics = Statistics::from_values(values.to_vec()).filter(|_| count > 1)?;
         let n = count as f64;
-        let moment = |power: i32| {
-            let sum: f64 = values.iter().map(|value| (value - statistics.mean).powi(power)).sum();
-            sum / n
-        };
-        let variance = moment(2) * n / (n - 1.0);
-        let of_variance = (moment(4) - variance.powi(2) * (n - 3.0) / (n - 1.0)).max(0.0) / n;
+        let [second, fourth] = [2, 4].map(|power| {
+            values.iter().map(|value| (value - statistics.mean).powi(power)).sum::<f64>() / n
+        });
+        let variance = second * n / (n - 1.0);
+        let of_variance = (fourth - variance.powi(2) * (n - 3.0) / (n - 1.0)).max(0.0) / n;
         let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
         // A measure that depends on no deviation still differs by round-off along its path.
         let is_round_off = variance.sqrt() <= ROUND_OFF * size;

@@ -58,10 +58,9 @@ pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
     let n = evaluations.len() as f64;
     let mean = evaluations.iter().map(|e| e.first + e.second).sum::<f64>() / (2.0 * n);
     // Subtract the mean: if it is large compared to the spread, it dominates the errors.
-    let centred = |value: f64| value - mean;
     let squares: Vec<f64> = evaluations
         .iter()
-        .map(|e| 0.5 * (centred(e.first).powi(2) + centred(e.second).powi(2)))
+        .map(|e| 0.5 * ((e.first - mean).powi(2) + (e.second - mean).powi(2)))
         .collect();
     let variance = squares.iter().sum::<f64>() / n;
     // This form of the condition also refuses NaN.
@@ -77,11 +76,11 @@ pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
             terms.iter().zip(&squares).map(|(u, v)| ((u - value * v) / variance).powi(2));
         IndexEstimate { value, error: (influences.sum::<f64>() / (n * (n - 1.0))).sqrt() }
     };
-    let indices = |i: usize| SobolIndices {
-        first: ratio(&|e| centred(e.second) * (e.mixed[i] - e.first)),
+    let indices = (0..evaluations[0].mixed.len()).map(|i| SobolIndices {
+        first: ratio(&|e| (e.second - mean) * (e.mixed[i] - e.first)),
         total: ratio(&|e| 0.5 * (e.first - e.mixed[i]).powi(2)),
-    };
-    Some((0..evaluations[0].mixed.len()).map(indices).collect())
+    });
+    Some(indices.collect())
 }
 
 #[cfg(test)]
@@ -114,15 +113,14 @@ mod tests {
 
     fn indices(seed: u64, samples: usize) -> Vec<SobolIndices> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut point = || -> [f64; 3] {
-            std::array::from_fn(|_| {
-                let share: f64 = StandardUniform.sample(&mut random);
-                PI * (2.0 * share - 1.0)
-            })
-        };
         let evaluations: Vec<_> = (0..samples)
             .map(|_| {
-                let (a, b) = (point(), point());
+                let [a, b]: [[f64; 3]; 2] = [(); 2].map(|()| {
+                    [(); 3].map(|()| {
+                        let share: f64 = StandardUniform.sample(&mut random);
+                        PI * (2.0 * share - 1.0)
+                    })
+                });
                 Evaluation {
                     first: ishigami(a),
                     second: ishigami(b),

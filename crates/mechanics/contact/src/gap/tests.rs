@@ -74,11 +74,10 @@ proptest! {
         let (start, end) = (scales[b].corner(start), scales[b].corner(end));
         let along = end - start;
         let target = start + place * along + outward * off * quarter(along.normalize());
-        let turned = |i: usize| Pose::new(0.0, 0.0, rotations[i]);
+        let mut poses = rotations.map(|rotation| Pose::new(0.0, 0.0, rotation));
         let at = [0.0, 7.0];
-        let corner = turned(a).turn(scales[a].corner(corner_edge.corner()));
-        let shift = turned(b).turn(target) - corner + Vec2::new(at[b] - at[a], 0.0);
-        let mut poses = [turned(0), turned(1)];
+        let corner = poses[a].turn(scales[a].corner(corner_edge.corner()));
+        let shift = poses[b].turn(target) - corner + Vec2::new(at[b] - at[a], 0.0);
         poses[a] = Pose::new(shift.x, shift.y, rotations[a]);
         let gap = pair.gap(corner_edge, &poses[0], &poses[1]);
         assert_relative_eq!(gap.foot, place, epsilon = 1e-11);

@@ -25,9 +25,9 @@ pub(super) fn under_the_base(turned: f64, inside: f64, below: f64) -> (Pair, [Po
 
 /// Builds the same pair rotated by 180°, so that tops and bases exchange roles.
 fn above_the_top(turned: f64, inside: f64, above: f64) -> (Pair, [Pose; 2]) {
-    let (pair, [left, right]) = under_the_base(turned, inside, above);
-    let coordinates = |pose: &Pose| [pose.displacement.x, pose.displacement.y, pose.rotation];
-    let ([a, b, c], [d, e, f]) = (coordinates(&left), coordinates(&right));
+    let (pair, poses) = under_the_base(turned, inside, above);
+    let [[a, b, c], [d, e, f]] =
+        poses.map(|pose| [pose.displacement.x, pose.displacement.y, pose.rotation]);
     let [a, b, c, d, e, f] = half_turn(75.0, &[a, b, c, d, e, f]);
     (pair, [Pose::new(a, b, c), Pose::new(d, e, f)])
 }
@@ -75,8 +75,8 @@ fn the_inclination_of_a_side_selects_the_faced_edge() {
         (16.0, 2.1, None),
     ] {
         let any = CornerEdge::BottomLeftOnBase;
-        let facing = |corners: &Corners, _| corners.facing();
-        let [lower, upper] = at_both_levels(turned, inside, 0.1, any, facing);
+        let [lower, upper] =
+            at_both_levels(turned, inside, 0.1, any, |corners, _| corners.facing());
         assert_eq!(lower.map(|(edge, _)| edge), expected);
         assert_eq!(upper.map(|(edge, _)| edge), expected.map(across));
         if let (Some((edge, at_base)), Some((_, at_top))) = (lower, upper) {
@@ -91,11 +91,10 @@ fn the_inclination_of_a_side_selects_the_faced_edge() {
 
 /// Returns the angle to level, short or beyond, of a closed contact.
 fn to_level(edge: CornerEdge, closed: Closed, turned: f64, inside: f64) -> Option<f64> {
-    let angle = |corners: &Corners, edge| {
+    let [lower, upper] = at_both_levels(turned, inside, 0.1, edge, |corners, edge| {
         let response = closed(edge).response(corners, &soft(), [0.0; FORCES]);
         response.conditions[Force::Flush as usize].map(|condition| condition.value)
-    };
-    let [lower, upper] = at_both_levels(turned, inside, 0.1, edge, angle);
+    });
     assert_eq!(lower.is_some(), upper.is_some());
     assert_relative_eq!(lower.unwrap_or(0.0), upper.unwrap_or(0.0), epsilon = 1e-12);
     lower
@@ -106,9 +105,10 @@ fn the_flush_contact_acts_only_at_a_level_side() {
     let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
     for turned in [5.0, 14.0, 17.0] {
         let short = (15.0_f64 - turned).to_radians();
-        let angle = |edge| to_level(edge, CornerContact::Edge, turned, 0.3).unwrap();
-        assert_relative_eq!(angle(on_side), short, epsilon = 1e-12);
-        assert_relative_eq!(angle(on_end), -short, epsilon = 1e-12);
+        for (edge, expected) in [(on_side, short), (on_end, -short)] {
+            let angle = to_level(edge, CornerContact::Edge, turned, 0.3).unwrap();
+            assert_relative_eq!(angle, expected, epsilon = 1e-12);
+        }
     }
     // Corner on corner has no such angle, nor has a tip on the neighbour's side.
     assert_eq!(to_level(on_side, CornerContact::Corner, 14.0, 0.3), None);
@@ -121,11 +121,11 @@ fn the_flush_contact_acts_only_at_a_level_side() {
 fn there_is_no_flush_contact_beyond_the_far_end_of_its_edge() {
     let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
     for (edge, within, beyond) in [(on_side, 1.99, 2.01), (on_end, 3.8, 3.9)] {
-        let angle = |inside| to_level(edge, CornerContact::Edge, 15.0, inside);
-        assert!(angle(within).unwrap().abs() < 1e-12);
-        assert_eq!(angle(beyond), None);
         // The near end is where the corners meet, which is another condition.
-        assert!(angle(-0.01).unwrap().abs() < 1e-12);
+        let [near, within, beyond_end] =
+            [-0.01, within, beyond].map(|inside| to_level(edge, CornerContact::Edge, 15.0, inside));
+        assert!(near.unwrap().abs() < 1e-12 && within.unwrap().abs() < 1e-12);
+        assert_eq!(beyond_end, None);
         // While the flush contact acts, its condition exists.
         assert!(to_level(edge, CornerContact::Flush, 15.0, beyond).unwrap().abs() < 1e-12);
     }
@@ -143,10 +143,9 @@ fn at_the_corner_the_force_turns_no_further_than_to_the_end() {
         let of_tip = expected.to_radians();
         let normal = Vec2::new(-of_tip.sin(), of_tip.cos());
         for edge in ACROSS.map(|(edge, _)| edge) {
-            let force = |corners: &Corners, edge| {
+            let ours = at_both_levels(turned, 0.0, 0.0, edge, |corners, edge| {
                 CornerContact::Corner(edge).forces_on_left(corners, [0.3, 0.2, 0.0])
-            };
-            let ours = at_both_levels(turned, 0.0, 0.0, edge, force);
+            });
             let expected = match edge {
                 CornerEdge::BottomLeftOnRightEdge => 0.2 * normal - 0.3 * side,
                 _ => 0.3 * normal - 0.2 * side,
@@ -169,16 +168,18 @@ fn a_corner_is_left_as_the_side_leans() {
     for (turned, leaning) in [(14.0, on_side), (16.0, on_end)] {
         let (pair, [left, right]) = under_the_base(turned, 0.0, 0.0);
         let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
-        let after = |edge, force| {
+        for (edge, force, after) in [
+            (on_side, Force::Partner, leaning),
+            (on_side, Force::Own, tip_on_side),
+            (on_end, Force::Partner, leaning),
+            (on_end, Force::Own, tip_on_side),
+            (tip_on_side, Force::Partner, tip_on_side),
+            (tip_on_side, Force::Own, leaning),
+        ] {
             let corner = CornerContact::Corner(edge);
-            corner.transition(force, false, &corners, [0.0; FORCES]).unwrap().contact
-        };
-        for edge in [on_side, on_end] {
-            assert_eq!(after(edge, Force::Partner), CornerContact::Edge(leaning));
-            assert_eq!(after(edge, Force::Own), CornerContact::Edge(tip_on_side));
+            let transition = corner.transition(force, false, &corners, [0.0; FORCES]).unwrap();
+            assert_eq!(transition.contact, CornerContact::Edge(after));
         }
-        assert_eq!(after(tip_on_side, Force::Partner), CornerContact::Edge(tip_on_side));
-        assert_eq!(after(tip_on_side, Force::Own), CornerContact::Edge(leaning));
     }
 }
 
@@ -187,8 +188,7 @@ fn flush_edges_touch_at_both_ends() {
     for (level, edge) in EDGES {
         let flush = edge.flush();
         assert_eq!(flush.and_then(CornerEdge::flush), flush.map(|_| edge));
-        let of_level = |flush| EDGES.contains(&(level, flush));
-        assert!(flush.is_none_or(of_level));
+        assert!(flush.is_none_or(|flush| EDGES.contains(&(level, flush))));
     }
     let on_base = CornerEdge::BottomLeftOnBase;
     assert_eq!(on_base.flush(), Some(CornerEdge::BottomRightOnLeftEdge));

@@ -57,10 +57,6 @@ fn an_edge_contact_stays_at_the_corner_that_it_reaches() {
 fn an_edge_contact_passes_the_corner_between_parallel_sides() {
     let pair = Pair::new(Parallelogram::new(0.4, 30.0).unwrap(), 1.0);
     let rest = Pose::new(0.0, 0.0, 0.0);
-    let pass = |level, contact: CornerContact, forces| {
-        let corners = Corners::new(level, &pair, [&rest; 2]);
-        contact.transition(Force::Partner, BEGINS, &corners, forces)
-    };
     let forces = [0.7, 0.0, 0.0];
     for (level, edge, partner) in [
         (Level::Lower, BottomRightOnLeftEdge, BottomLeftOnRightEdge),
@@ -68,13 +64,16 @@ fn an_edge_contact_passes_the_corner_between_parallel_sides() {
         (Level::Upper, CornerEdge::TopRightOnLeftEdge, CornerEdge::TopLeftOnRightEdge),
         (Level::Upper, CornerEdge::TopLeftOnRightEdge, CornerEdge::TopRightOnLeftEdge),
     ] {
-        assert_eq!(
-            pass(level, Edge(edge), forces),
-            Some(to(Edge(partner), forces, Force::Partner))
-        );
+        let corners = Corners::new(level, &pair, [&rest; 2]);
+        let passed = Edge(edge).transition(Force::Partner, BEGINS, &corners, forces);
+        assert_eq!(passed, Some(to(Edge(partner), forces, Force::Partner)));
     }
-    let flush = pass(Level::Lower, Flush(BottomRightOnLeftEdge), [0.7, 0.0, 0.2]);
-    assert_eq!(flush, Some(to(Edge(BottomLeftOnRightEdge), [0.7 + 0.2, 0.0, 0.0], Force::Partner)));
+    let (flush, corners) =
+        (Flush(BottomRightOnLeftEdge), Corners::new(Level::Lower, &pair, [&rest; 2]));
+    assert_eq!(
+        flush.transition(Force::Partner, BEGINS, &corners, [0.7, 0.0, 0.2]),
+        Some(to(Edge(BottomLeftOnRightEdge), [0.7 + 0.2, 0.0, 0.0], Force::Partner))
+    );
 }
 
 #[test]

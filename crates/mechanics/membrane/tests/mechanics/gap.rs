@@ -121,21 +121,20 @@ fn the_drawn_axis_follows_the_arc() -> Result<(), OutOfRange> {
 #[test]
 fn invalid_membranes_are_refused() {
     let span = Span { half_base: 0.5, gap: 0.1, axis_offset: 0.0 };
-    let message = |span, elements| gap(span, elements).err().map(|error| error.to_string());
-    assert_eq!(
-        message(span, 0).as_deref(),
-        Some("number of elements per gap is 0, expected at least 1"),
-    );
-    assert_eq!(
-        message(Span { gap: 0.0, ..span }, 1).as_deref(),
-        Some("gap is 0, expected a positive finite number"),
-    );
-    assert_eq!(
-        message(Span { half_base: -0.5, ..span }, 1).as_deref(),
-        Some("half-width of the base is -0.5, expected a length of at least 0"),
-    );
-    assert_eq!(
-        message(Span { axis_offset: f64::NAN, ..span }, 1).as_deref(),
-        Some("offset of the membrane's axis is NaN, expected a finite length"),
-    );
+    for (span, elements, message) in [
+        (span, 0, "number of elements per gap is 0, expected at least 1"),
+        (Span { gap: 0.0, ..span }, 1, "gap is 0, expected a positive finite number"),
+        (
+            Span { half_base: -0.5, ..span },
+            1,
+            "half-width of the base is -0.5, expected a length of at least 0",
+        ),
+        (
+            Span { axis_offset: f64::NAN, ..span },
+            1,
+            "offset of the membrane's axis is NaN, expected a finite length",
+        ),
+    ] {
+        assert_eq!(gap(span, elements).unwrap_err().to_string(), message);
+    }
 }

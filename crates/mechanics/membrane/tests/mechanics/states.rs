@@ -52,9 +52,12 @@ pub fn bent_beam() -> impl Strategy<Value = (CorotationalBeam, Ends)> {
     })
 }
 
+fn arm() -> impl Strategy<Value = RigidArm> {
+    (-1.0..1.0, -1.0..1.0).prop_map(|(x, y)| RigidArm::new(Vector2::new(x, y)))
+}
+
 /// Generates an element between two random arms, with poses of the bodies.
 pub fn bent_offset_beam() -> impl Strategy<Value = (OffsetBeam, Ends)> {
-    let arm = || (-1.0..1.0, -1.0..1.0).prop_map(|(x, y)| RigidArm::new(Vector2::new(x, y)));
     (bent_beam(), arm(), arm()).prop_map(|((beam, ends), first, second)| {
         let levers = [first.lever(ends[2]), second.lever(ends[5])];
         let mut bodies = ends;

@@ -55,18 +55,18 @@ impl Contacts {
         matrix: &mut impl Tangent,
     ) {
         let (pair, unknowns) = (self.pair_unknowns(contact), self.unknowns_of(contact));
-        let acting = || (0..FORCES).filter(|&force| acting[force]);
+        let acting = (0..FORCES).filter(|&force| acting[force]);
         pair.add_balance(residual, &balance.map(|equation| equation.value));
         pair.add_square(matrix, &balance.map(|equation| equation.by_coordinate));
-        for force in acting() {
+        for force in acting.clone() {
             pair.add_column(matrix, unknowns[force], &balance.map(|own| own.by_force[force]));
         }
         // The condition of a force is the equation in the row of its own unknown.
-        for force in acting() {
+        for force in acting.clone() {
             let Some(condition) = &conditions[force] else { continue };
             residual.add(unknowns[force], condition.value);
             pair.add_row(matrix, unknowns[force], &condition.by_coordinate);
-            for other in acting() {
+            for other in acting.clone() {
                 matrix.add(unknowns[force], unknowns[other], condition.by_force[other]);
             }
         }

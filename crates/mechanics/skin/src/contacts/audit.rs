@@ -95,18 +95,9 @@ impl Contacts {
     /// The corner then faces the edge from behind, and the model has no contact for the edge that
     /// it crossed or for the region below the bases.
     pub(crate) fn passes_an_end(&self, point: &SkinPoint) -> bool {
-        let facing = |state: &SkinState| {
-            let mut gaps = vec![None; state.mode.contacts.len()];
-            self.for_each(state, |contact, corners| {
-                // Closed contacts stay on their edge; `off_edge` checks them.
-                let is_open = state.mode.contacts[contact] == CornerContact::Open;
-                gaps[contact] = corners.facing().filter(|_| is_open).map(|(_, gap)| gap);
-            });
-            gaps
-        };
-        let here = facing(&point.state);
+        let here = self.open_gaps(&point.state);
         AHEAD.iter().any(|&step| {
-            let ahead = facing(&point.state.moved(step, &point.leaving));
+            let ahead = self.open_gaps(&point.state.moved(step, &point.leaving));
             here.iter().zip(&ahead).any(|(here, ahead)| {
                 // A small gap that becomes negative is a closing contact. A wide or missing gap
                 // that is strongly negative one step later belongs to a corner that passed the end
@@ -114,6 +105,17 @@ impl Contacts {
                 ahead.is_some_and(|gap| gap < -BEHIND && here.is_none_or(|here| here > BEHIND))
             })
         })
+    }
+
+    /// Returns the gap of each open contact that has a corner in front of an edge.
+    fn open_gaps(&self, state: &SkinState) -> Vec<Option<f64>> {
+        let mut gaps = vec![None; state.mode.contacts.len()];
+        self.for_each(state, |contact, corners| {
+            // Closed contacts stay on their edge; `off_edge` checks them.
+            let is_open = state.mode.contacts[contact] == CornerContact::Open;
+            gaps[contact] = corners.facing().filter(|_| is_open).map(|(_, gap)| gap);
+        });
+        gaps
     }
 
     /// Returns the distance in pitches of overlapping scales without a contact.
@@ -138,8 +140,10 @@ impl Contacts {
         state: &SkinState,
         slack: impl Fn(usize) -> f64,
     ) -> Vec<usize> {
-        let standing = |i| (self.arrangement.scale(i), self.frame_at(i).origin);
-        let found = overlaps(standing, &self.poses(&state.z));
+        let found = overlaps(
+            |i| (self.arrangement.scale(i), self.frame_at(i).origin),
+            &self.poses(&state.z),
+        );
         let mut distances = Vec::new();
         for Overlap { left, right, depth } in found {
             let pitches = right - left;
@@ -165,8 +169,9 @@ impl Contacts {
         self.pairs(&state.z).any(|(pair, poses)| {
             let allowed = self.pair_approach(state, pair) + AUDIT_TOLERANCE;
             let pair = self.pair(pair);
-            let standing = |i: usize| (pair.scales()[i], i as f64 * pair.offset());
-            overlaps(standing, &poses).iter().any(|overlap| overlap.depth > allowed)
+            overlaps(|i| (pair.scales()[i], i as f64 * pair.offset()), &poses)
+                .iter()
+                .any(|overlap| overlap.depth > allowed)
         })
     }
 

@@ -25,14 +25,11 @@
 //! ratio of sliding in that direction; while both stick only the sum of their friction matters, and
 //! tip and corner take equal fractions of their limits ([`TipFriction`]).
 
-use std::iter::Sum;
-use std::ops::{Add, Mul};
-
 use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose, quarter};
 use geometry::Vec2;
 use solver::{Residual, Tangent};
 
-use super::{Contacts, LEVELS, SkinMode, SkinPoint, SkinState};
+use super::{Contacts, LEVELS, SkinMode, SkinState};
 
 /// Slots of the friction constraints of a contact, behind the force constraints.
 pub(super) const STICK_MULTIPLIER: usize = FORCES;
@@ -396,17 +393,24 @@ impl Contacts {
         contact: usize,
         slot: usize,
     ) -> f64 {
-        let poses = self.pair_poses(&state.z, contact);
-        let along =
-            |sliding: Sliding| self.pair_unknowns(contact).sum(&sliding.slide.gradient, direction);
-        let along = || self.friction_of(state, contact, &poses).map_or(0.0, along);
         match (state.mode.friction_states[contact], slot) {
-            (FrictionState::Stick { .. }, STICK_MULTIPLIER) => along(),
+            (FrictionState::Stick { .. }, STICK_MULTIPLIER) => {
+                self.slide_rate(state, direction, contact)
+            }
             (FrictionState::Slip { sign, .. }, SLIP_DISTANCE) => {
-                direction[self.unknown(contact, SLIP_DISTANCE)] - sign * along()
+                direction[self.unknown(contact, SLIP_DISTANCE)]
+                    - sign * self.slide_rate(state, direction, contact)
             }
             _ => self.slot_condition(state, direction, contact, slot).unwrap_or(0.0),
         }
+    }
+
+    /// Evaluates the directional derivative of the tangential displacement of a contact.
+    fn slide_rate(&self, state: &SkinState, direction: &[f64], contact: usize) -> f64 {
+        let sliding = self.friction_of(state, contact, &self.pair_poses(&state.z, contact));
+        sliding.map_or(0.0, |sliding| {
+            self.pair_unknowns(contact).sum(&sliding.slide.gradient, direction)
+        })
     }
 
     /// Fills in the slip conditions, or with a direction for `z` their derivatives.
@@ -423,84 +427,6 @@ impl Contacts {
             values[self.slots * contact + SLIP_DISTANCE] =
                 self.slot_condition(state, z, contact, SLIP_DISTANCE).unwrap_or(otherwise);
         }
-    }
-
-    /// Computes the frictional dissipation `∫ μ Λ |ds|` between two path points.
-    ///
-    /// `spans` are the lengths of the segment in units of the outgoing direction at `from` and of
-    /// the incoming direction at `to` ([`solver::Continuation::spans`]). With them both factors are
-    /// accurate to third order.
-    pub(crate) fn friction_work(
-        &self,
-        from: &SkinPoint,
-        to: &SkinPoint,
-        spans: [f64; 2],
-    ) -> Dissipation {
-        let slips = from.state.mode.friction_states.iter().enumerate();
-        let work = |(contact, friction_state): (usize, &FrictionState)| {
-            let FrictionState::Slip { sign, start } = *friction_state else {
-                return self.work_at_tip(contact, from, to, spans);
-            };
-            let Some(edge) = from.state.mode.contacts[contact].edge() else {
-                return Dissipation::default();
-            };
-            let normal_force = |z: &[f64]| -> f64 {
-                // The force may have been handed over to another contact at the second point.
-                let both = Self::sharing_contacts(&from.state.mode, contact);
-                let both = both.map(|contact| self.forces_of(z, contact));
-                both.map(|forces| forces[Force::Own as usize] + forces[Force::Flush as usize]).sum()
-            };
-            let slip = self.unknown(contact, SLIP_DISTANCE);
-            // The contact may have stopped slipping at the second point, so compute its slip from
-            // the poses.
-            let end = sign * (self.slip_coordinate(&to.state, edge, contact) - start);
-            let slip_distances = [from.state.z[slip], end];
-            let rates = [spans[0] * from.leaving[slip], spans[1] * to.arriving[slip]];
-            let forces = [normal_force(&from.state.z), normal_force(&to.state.z)];
-            let growth =
-                [spans[0] * normal_force(&from.leaving), spans[1] * normal_force(&to.arriving)];
-            product_integral([forces, growth], [slip_distances, rates]) * self.law.friction()
-        };
-        slips.map(work).sum()
-    }
-
-    /// Computes the dissipation `−∫ T ds` of a contact with a needle tip at its corner.
-    ///
-    /// Zero for other contacts.
-    fn work_at_tip(
-        &self,
-        contact: usize,
-        from: &SkinPoint,
-        to: &SkinPoint,
-        spans: [f64; 2],
-    ) -> Dissipation {
-        let mode = &from.state.mode;
-        let friction_state = mode.friction_states[contact];
-        let (FrictionState::Locked { .. } | FrictionState::WithTip, Some(edge)) =
-            (friction_state, Self::edge_of(mode, contact))
-        else {
-            return Dissipation::default();
-        };
-        // The state may have changed at the second point, so use the state of the first point for
-        // both.
-        let by_normal_force = self.by_normal_force(contact, friction_state);
-        let multiplier = self.unknown(contact, STICK_MULTIPLIER);
-        let traction = |z: &[f64]| {
-            let normal_force: f64 =
-                self.normal_force_unknowns(mode, contact).map(|force| z[force]).sum();
-            by_normal_force * normal_force
-                + if friction_state == FrictionState::WithTip { z[multiplier] } else { 0.0 }
-        };
-        let ends = [(&from.state, &from.leaving, spans[0]), (&to.state, &to.arriving, spans[1])];
-        let tractions = ends.map(|(state, ..)| traction(&state.z));
-        let growth = ends.map(|(_, direction, span)| span * traction(direction));
-        let slides = ends.map(|(state, direction, span)| {
-            let slide = self.slide(edge, contact, &self.pair_poses(&state.z, contact));
-            let rate = self.pair_unknowns(contact).sum(&slide.gradient, direction);
-            (slide.value, span * rate)
-        });
-        let slides_and_rates = [slides.map(|(value, _)| value), slides.map(|(_, rate)| rate)];
-        product_integral([tractions, growth], slides_and_rates) * -1.0
     }
 
     /// Returns true if the other contact of the pair carries the friction of this one.
@@ -521,7 +447,7 @@ impl Contacts {
     }
 
     /// Iterates over a carrier and the contact that shares it, if any.
-    fn sharing_contacts(mode: &SkinMode, carrier: usize) -> impl Iterator<Item = usize> {
+    pub(super) fn sharing_contacts(mode: &SkinMode, carrier: usize) -> impl Iterator<Item = usize> {
         let shared =
             Some(Self::other_contact(carrier)).filter(|&other| Self::is_shared(mode, other));
         std::iter::once(carrier).chain(shared)
@@ -564,7 +490,7 @@ impl Contacts {
     }
 
     /// Returns `∂T/∂Λ` at a constant multiplier.
-    fn by_normal_force(&self, contact: usize, friction_state: FrictionState) -> f64 {
+    pub(super) fn by_normal_force(&self, contact: usize, friction_state: FrictionState) -> f64 {
         match friction_state {
             FrictionState::Stick { .. } => -self.law.friction(),
             FrictionState::Slip { sign, .. } => -sign * self.law.friction(),
@@ -577,12 +503,12 @@ impl Contacts {
     /// Returns the edge on which a contact slides; `None` for coinciding corners.
     ///
     /// The contact law rotates the force of coinciding corners.
-    fn edge_of(mode: &SkinMode, contact: usize) -> Option<CornerEdge> {
+    pub(super) fn edge_of(mode: &SkinMode, contact: usize) -> Option<CornerEdge> {
         let contact = mode.contacts[contact];
         contact.edge().filter(|_| !matches!(contact, CornerContact::Corner(_)))
     }
 
-    fn slide(&self, edge: CornerEdge, contact: usize, [left, right]: &[Pose; 2]) -> Gap {
+    pub(super) fn slide(&self, edge: CornerEdge, contact: usize, [left, right]: &[Pose; 2]) -> Gap {
         self.pair(Self::pair_of(contact)).slide(edge, left, right)
     }
 
@@ -594,7 +520,7 @@ impl Contacts {
     /// Iterates over the normal-force unknowns on the edge of a carrier.
     ///
     /// The shared contact is included.
-    fn normal_force_unknowns(
+    pub(super) fn normal_force_unknowns(
         &self,
         mode: &SkinMode,
         contact: usize,
@@ -656,65 +582,5 @@ impl Contacts {
         contact: usize,
     ) -> f64 {
         self.slide(edge, contact, &self.pair_poses(&state.z, contact)).value
-    }
-}
-
-/// Dissipation `∫ T ds` along a segment of a path.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Dissipation {
-    /// With cubics between the ends.
-    pub(crate) value: f64,
-    /// By the trapezoidal rule.
-    ///
-    /// The difference from `value` measures the curvature within the segment.
-    pub(crate) trapezoid: f64,
-}
-
-impl Add for Dissipation {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, trapezoid: self.trapezoid + other.trapezoid }
-    }
-}
-
-impl Mul<f64> for Dissipation {
-    type Output = Self;
-    fn mul(self, factor: f64) -> Self {
-        Self { value: factor * self.value, trapezoid: factor * self.trapezoid }
-    }
-}
-
-impl Sum for Dissipation {
-    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
-        terms.fold(Self::default(), Add::add)
-    }
-}
-
-/// Computes `∫ f dg` over a unit interval for cubics.
-///
-/// They are given by values and slopes at both ends. Exact with three Gauss points.
-pub(crate) fn product_integral(
-    [values, slopes]: [[f64; 2]; 2],
-    [of_g, slopes_of_g]: [[f64; 2]; 2],
-) -> Dissipation {
-    let points = [
-        (0.5, 4.0 / 9.0),
-        (0.5 - 0.15_f64.sqrt(), 5.0 / 18.0),
-        (0.5 + 0.15_f64.sqrt(), 5.0 / 18.0),
-    ];
-    let integrand = |x: f64| {
-        let [start, end] = values;
-        let cubic = start * (1.0 + 2.0 * x) * (1.0 - x).powi(2)
-            + end * x * x * (3.0 - 2.0 * x)
-            + slopes[0] * x * (1.0 - x).powi(2)
-            + slopes[1] * x * x * (x - 1.0);
-        let rate = 6.0 * x * (1.0 - x) * (of_g[1] - of_g[0])
-            + slopes_of_g[0] * (1.0 - x) * (1.0 - 3.0 * x)
-            + slopes_of_g[1] * x * (3.0 * x - 2.0);
-        cubic * rate
-    };
-    Dissipation {
-        value: points.into_iter().map(|(x, weight)| weight * integrand(x)).sum(),
-        trapezoid: 0.5 * (values[0] + values[1]) * (of_g[1] - of_g[0]),
     }
 }

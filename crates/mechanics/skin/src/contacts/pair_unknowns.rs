@@ -124,8 +124,9 @@ impl PairUnknowns {
                 for (i, row) in scales.into_iter().enumerate() {
                     for (j, column) in scales.into_iter().enumerate() {
                         let (k, l) = (3 * i, 3 * j);
-                        let three = |k: usize| [slopes[k][l], slopes[k][l + 1], slopes[k][l + 2]];
-                        matrix.add_block(row, column, &[three(k), three(k + 1), three(k + 2)]);
+                        let block = [k, k + 1, k + 2]
+                            .map(|k| [slopes[k][l], slopes[k][l + 1], slopes[k][l + 2]]);
+                        matrix.add_block(row, column, &block);
                     }
                 }
             }

@@ -56,7 +56,7 @@ impl Contacts {
             friction_states[shared] = FrictionState::None;
             // Two contacts that slid in opposite directions have less friction than the limit together,
             // so the shared contact sticks.
-            let normal = pair.map(|contact| self.own_and_flush_force(state, contact));
+            let normal = pair.map(|contact| self.own_and_flush_force(&state.z, contact));
             let sum = ratios[0] * normal[0] + ratios[1] * normal[1];
             let carrier = pair[1 - shared];
             if let (FrictionState::Slip { .. }, Some(edge)) =
@@ -72,21 +72,22 @@ impl Contacts {
         for (contact, friction_state) in pair.into_iter().zip(friction_states) {
             state.mode.friction_states[contact] = friction_state;
         }
+        let multipliers = [0, 1].map(|k| {
+            (ratios[k] + self.law.friction()) * self.own_and_flush_force(&state.z, pair[k])
+        });
         for (k, (contact, friction_state)) in pair.into_iter().zip(friction_states).enumerate() {
-            let share = |k: usize| {
-                (ratios[k] + self.law.friction()) * self.own_and_flush_force(state, pair[k])
-            };
             // The carrier takes over the tangential force of the shared contact, so their sum is
             // continuous.
-            let shared = if Self::is_shared(&state.mode, pair[1 - k]) { share(1 - k) } else { 0.0 };
+            let is_carrier = Self::is_shared(&state.mode, pair[1 - k]);
+            let shared = if is_carrier { multipliers[1 - k] } else { 0.0 };
             let is_new = before.mode.friction_states[contact] != friction_state;
-            self.set_friction(state, contact, share(k) + shared, is_new);
+            self.set_friction(state, contact, multipliers[k] + shared, is_new);
         }
     }
 
     /// Returns the normal force of a contact on its edge.
-    fn own_and_flush_force(&self, state: &SkinState, contact: usize) -> f64 {
-        let forces = self.forces_of(&state.z, contact);
+    pub(super) fn own_and_flush_force(&self, z: &[f64], contact: usize) -> f64 {
+        let forces = self.forces_of(z, contact);
         forces[Force::Own as usize] + forces[Force::Flush as usize]
     }
 
@@ -116,14 +117,15 @@ impl Contacts {
 
     /// Returns true if the sides of a pair lie on each other at both contacts.
     fn slide_along_one_line(state: &SkinState, contact: usize) -> bool {
-        let is_side = |contact: usize| match state.mode.contacts[contact] {
-            CornerContact::Edge(edge) => {
+        [contact, Self::other_contact(contact)].into_iter().all(|contact| {
+            match state.mode.contacts[contact] {
                 // A tip on the top or base of its neighbour slides along that, not along the sides.
-                !matches!(edge, CornerEdge::TopRightOnTop | CornerEdge::BottomLeftOnBase)
+                CornerContact::Edge(edge) => {
+                    !matches!(edge, CornerEdge::TopRightOnTop | CornerEdge::BottomLeftOnBase)
+                }
+                _ => false,
             }
-            _ => false,
-        };
-        is_side(contact) && is_side(Self::other_contact(contact))
+        })
     }
 
     /// Sets active flags and values of the friction unknowns of a contact.

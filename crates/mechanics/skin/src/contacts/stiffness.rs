@@ -62,9 +62,10 @@ impl Contacts {
             .iter()
             .enumerate()
             .filter(|(contact, mode)| {
-                let at_corner = || self.pair_poses(&state.z, *contact);
-                matches!(mode, CornerContact::Corner(_))
-                    && mode.is_on_ridge(&self.corners(*contact, &at_corner()))
+                matches!(mode, CornerContact::Corner(_)) && {
+                    let poses = self.pair_poses(&state.z, *contact);
+                    mode.is_on_ridge(&self.corners(*contact, &poses))
+                }
             })
             .count()
     }

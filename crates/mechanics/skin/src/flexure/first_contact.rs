@@ -97,14 +97,13 @@ pub(super) fn curvature_derivatives(
             let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
             let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
             let (measure, value) = ("contact_curvature", rotation / gap.pair.offset().x);
-            let kink = || "another corner meets an edge".to_owned();
             Ok(Derivative::sided(
                 (measure, parameter),
                 meetings
                     .map(|meeting| Some(gap.closing_rate(meeting, rotation, &neighbours, *step))),
                 value,
                 *step,
-                kink,
+                || "another corner meets an edge".to_owned(),
             ))
         })
         .collect()

@@ -158,29 +158,30 @@ impl<'a> UnevenStrip<'a> {
         };
         let friction_work = (problem.common.friction > 0.0)
             .then(|| self.gaps.iter_mut().map(|gap| gap.friction_work(end)).sum());
-        let rotated = |moment: f64| self.direction() * self.rotation(moment);
-        let curvature = |moment: Option<f64>| Some(rotated(moment?) / problem.length());
-        let of_strip =
-            |compliance: f64| compliance * problem.bending_stiffness() / problem.length();
+        let [first_contact, last_contact, locking] =
+            [first, last, locking].map(|moment| Some(self.curvature(moment?)));
+        let [compliance, initial_compliance] =
+            [self.least_compliance(stiffest), self.compliance(0.0, KinkSide::Behind)]
+                .map(|compliance| compliance * problem.bending_stiffness() / problem.length());
         let mut sums = Sums::default();
         self.knots(end).for_each(|(gap, knot)| sums.add(gap.strip(), knot));
         let gaps = self.gaps.iter();
         let measures = FlexureMeasures {
-            compliance: Some(of_strip(self.least_compliance(stiffest))),
-            initial_compliance: Some(of_strip(self.compliance(0.0, KinkSide::Behind))),
+            compliance: Some(compliance),
+            initial_compliance: Some(initial_compliance),
             contact: Some(first.is_some()),
-            first_contact_curvature: curvature(first),
+            first_contact_curvature: first_contact,
             max_moment: Some(self.direction() * end / problem.bending_stiffness()),
             axial_energy_share: Some(sums.axial_energy / sums.energy),
             membrane_strain_max: gaps.clone().map(|gap| gap.largest_strain(end)).reduce(f64::max),
             error,
             friction_work,
-            locking_curvature: curvature(locking),
+            locking_curvature: locking,
             contact_curvature: problem.contact_curvature,
             gaps: problem.gaps,
             ..FlexureMeasures::default()
         };
-        let closing_range = curvature(last).zip(curvature(first)).map(|(last, first)| last - first);
+        let closing_range = last_contact.zip(first_contact).map(|(last, first)| last - first);
         Some((measures.in_closed_form(problem.row.share_of_gaps()), closing_range))
     }
 
@@ -207,12 +208,16 @@ impl<'a> UnevenStrip<'a> {
         None
     }
 
+    /// Returns the curvature of the strip under a moment.
+    fn curvature(&self, moment: f64) -> f64 {
+        self.direction() * self.rotation(moment) / self.problem.length()
+    }
+
     /// Inverts (F8) for the moment of a rotation.
     ///
     /// Returns `highest` if that moment is too small.
     fn moment_at(&self, rotation: f64, highest: f64) -> f64 {
-        let off = |moment: f64| self.rotation(moment) - rotation;
-        let at_highest = off(highest);
+        let at_highest = self.rotation(highest) - rotation;
         if at_highest <= 0.0 {
             return highest;
         }
@@ -222,7 +227,7 @@ impl<'a> UnevenStrip<'a> {
         let mut moment = highest;
         for _ in 0..ROUNDS {
             let next = bracket.secant();
-            let value = off(next);
+            let value = self.rotation(next) - rotation;
             if value == 0.0 || (next - moment).abs() <= f64::EPSILON * highest {
                 return next;
             }
@@ -282,14 +287,13 @@ impl<'a> UnevenStrip<'a> {
     /// Predicts by (F8) the moment of least compliance and the compliance there.
     fn promising(&self, end: f64) -> (f64, f64) {
         let places = self.places(end);
-        let less = |one: (f64, f64), other: (f64, f64)| if other.1 < one.1 { other } else { one };
         let found = places.iter().map(|&moment| (moment, self.least_compliance(moment)));
-        let best = found.reduce(less).unwrap_or((0.0, f64::INFINITY));
+        let best = found.reduce(lesser).unwrap_or((0.0, f64::INFINITY));
         let number = places.partition_point(|moment| *moment < best.0);
         let beside = places[number.saturating_sub(1)..].windows(2).take(2);
         let inside = beside.map(|segment| self.least_within([segment[0], segment[1]]));
         // Prefer a solved point if the predictions agree up to round-off.
-        inside.filter(|(_, value)| *value < best.1 * (1.0 - FLAT)).fold(best, less)
+        inside.filter(|(_, value)| *value < best.1 * (1.0 - FLAT)).fold(best, lesser)
     }
 
     /// Minimises the compliance between two breakpoints by golden sections.
@@ -297,16 +301,15 @@ impl<'a> UnevenStrip<'a> {
     /// The breakpoints are neighbours.
     fn least_within(&self, [mut low, mut high]: [f64; 2]) -> (f64, f64) {
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-        let value = |moment: f64| (moment, self.compliance(moment, KinkSide::Before));
-        let mut inner = [high - golden * (high - low), low + golden * (high - low)].map(value);
+        let mut inner = [high - golden * (high - low), low + golden * (high - low)]
+            .map(|moment| (moment, self.compliance(moment, KinkSide::Before)));
         for _ in 0..SECTIONS {
-            if inner[0].1 < inner[1].1 {
-                high = inner[1].0;
-                inner = [value(high - golden * (high - low)), inner[0]];
-            } else {
-                low = inner[0].0;
-                inner = [inner[1], value(low + golden * (high - low))];
-            }
+            let is_below = inner[0].1 < inner[1].1;
+            *(if is_below { &mut high } else { &mut low }) = inner[usize::from(is_below)].0;
+            let step = golden * (high - low);
+            let moment = if is_below { high - step } else { low + step };
+            let value = (moment, self.compliance(moment, KinkSide::Before));
+            inner = if is_below { [value, inner[0]] } else { [inner[1], value] };
         }
         if inner[0].1 < inner[1].1 { inner[0] } else { inner[1] }
     }
@@ -374,6 +377,11 @@ impl<'a> UnevenStrip<'a> {
     fn knots(&self, moment: f64) -> impl Iterator<Item = (&GapCurve, &Knot)> {
         self.gaps.iter().filter_map(move |gap| Some((gap, gap.knot(moment)?)))
     }
+}
+
+/// Returns the sample of the lesser value; the first one if both are equal.
+fn lesser(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
+    if other.1 < one.1 { other } else { one }
 }
 
 /// Sums over the gaps under one moment; of the strain, the largest value.

@@ -35,11 +35,11 @@ pub(super) struct Knot {
 impl Knot {
     fn new(strip: &Strip, point: SkinPoint) -> Self {
         let direction = strip.direction();
-        let compliance = |along: &[f64]| strip.rotation(along) / strip.moment(along);
         Self {
             moment: direction * strip.moment(&point.state.z),
             rotation: direction * strip.rotation(&point.state.z),
-            compliances: [compliance(&point.arriving), compliance(&point.leaving)],
+            compliances: [&point.arriving, &point.leaving]
+                .map(|along| strip.rotation(along) / strip.moment(along)),
             point,
         }
     }
@@ -101,13 +101,13 @@ impl GapCurve {
             let point = self.path.next()?;
             self.iterations += self.path.take_history().len();
             let knot = Knot::new(self.path.system(), point);
-            let rises = |now: f64, before: f64| now >= before - ROUND_OFF * before;
-            let is_regular = rises(knot.moment, last.moment)
-                && rises(knot.rotation, last.rotation)
-                && knot
-                    .compliances
-                    .iter()
-                    .all(|compliance| *compliance > 0.0 && compliance.is_finite());
+            let rises = [(knot.moment, last.moment), (knot.rotation, last.rotation)];
+            let is_regular =
+                rises.into_iter().all(|(now, before)| now >= before - ROUND_OFF * before)
+                    && knot
+                        .compliances
+                        .iter()
+                        .all(|compliance| *compliance > 0.0 && compliance.is_finite());
             if !is_regular {
                 return None;
             }
@@ -243,8 +243,8 @@ impl Segment<'_> {
         let Self { from, to } = self;
         let turn = to.rotation - from.rotation;
         let x = (self.rotation(moment) - from.rotation) / turn;
-        let rate = |along: &[f64]| turn * strip.direction() / strip.rotation(along);
-        let [start, end] = [rate(&from.point.leaving), rate(&to.point.arriving)];
+        let [start, end] = [&from.point.leaving, &to.point.arriving]
+            .map(|along| turn * strip.direction() / strip.rotation(along));
         let mut state = from.point.state.clone();
         for (k, z) in state.z.iter_mut().enumerate() {
             let rise = to.point.state.z[k] - *z;

@@ -38,8 +38,9 @@ impl Resolution {
     /// beyond the largest useful order.
     pub(crate) fn better(self, error: Option<f64>) -> Option<Self> {
         let suffices = error.is_none_or(|error| error <= TOLERANCE);
-        let is_usual = |finer: &Self| !matches!(finer, Self::Order(order) if *order > LAST_ORDER);
-        self.finer().filter(|finer| !suffices && is_usual(finer))
+        self.finer().filter(|finer| {
+            !suffices && !matches!(finer, Self::Order(order) if *order > LAST_ORDER)
+        })
     }
 
     /// Returns the next finer order; `None` for elements.

@@ -9,7 +9,7 @@ use super::mesh::Resolution;
 use super::problem::{Bent, FlexureProblem};
 use super::strip::Strip;
 use super::{Flexure, FlexureParameters};
-use crate::contacts::{Contacts, SkinState};
+use crate::contacts::Contacts;
 use crate::path_location::PathLocation;
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
@@ -89,16 +89,15 @@ pub fn moment_curve(
 ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
     let (input, rotations) = bent_to(input, curvatures)?;
     let FlexureInput { design, common, parameters } = &input;
-    // The end scales the control parameter, so use the same end for the perturbed inputs.
-    let as_far = |other: &FlexureInput| {
-        let end = parameters.max_end_rotation_deg;
-        let parameters = FlexureParameters { max_end_rotation_deg: end, ..other.parameters };
-        FlexureInput { parameters, ..other.clone() }
-    };
     let problem = FlexureProblem::even(design, common, parameters)?;
     let (bent, resolution) = problem.resolved(&[], &rotations)?;
-    let strip = |input: &FlexureInput| strip(&as_far(input), resolution);
-    let (strips, system) = (Neighbours::map_all(variations, strip)?, bent.path.system());
+    // The end scales the control parameter, so use the same end for the perturbed inputs.
+    let end = parameters.max_end_rotation_deg;
+    let strips = Neighbours::map_all(variations, |other| {
+        let parameters = FlexureParameters { max_end_rotation_deg: end, ..other.parameters };
+        strip(&FlexureInput { parameters, ..other.clone() }, resolution)
+    })?;
+    let system = bent.path.system();
     Ok(bent
         .requested_points
         .into_iter()
@@ -173,8 +172,7 @@ impl FlexureProblem<'_> {
         variations: &[Neighbours<FlexureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let spots = self.measured_points(&bent.record, &mut bent.path);
-        let strip = |input: &FlexureInput| strip(input, resolution);
-        let strips = Neighbours::map_all(variations, strip)?;
+        let strips = Neighbours::map_all(variations, |input| strip(input, resolution))?;
         let strip = bent.path.system();
         let (sticking, free): (Vec<_>, Vec<_>) = spots.into_iter().partition(|spot| {
             spot.place
@@ -237,21 +235,18 @@ impl FlexureProblem<'_> {
         let strained = record.summit(path, STRAIN);
         let strain = sensitivity::summit(strained.as_ref(), path, FOLLOWED[STRAIN], settings);
         let strip = path.system();
-        let spot = |place, quantity| MeasuredPoint { place, quantities: vec![quantity] };
-        vec![
-            spot(stiffest, compliance("compliance")),
-            spot(Some(rest(strip)), compliance("initial_compliance")),
-            spot(
-                touching,
-                quantity("first_contact_curvature", |s, state, _, _| s.curvature(&state.z)),
-            ),
-            spot(moment, quantity("max_moment", |s, state, _, _| s.normalised_moment(&state.z))),
-            spot(
+        let points = [
+            (stiffest, compliance("compliance")),
+            (Some(rest(strip)), compliance("initial_compliance")),
+            (touching, quantity("first_contact_curvature", |s, state, _, _| s.curvature(&state.z))),
+            (moment, quantity("max_moment", |s, state, _, _| s.normalised_moment(&state.z))),
+            (
                 Some(end(path)),
                 quantity("axial_energy_share", |s, state, _, _| s.axial_energy_share(state)),
             ),
-            spot(strain, quantity("membrane_strain_max", |s, state, _, _| s.largest_strain(state))),
-        ]
+            (strain, quantity("membrane_strain_max", |s, state, _, _| s.largest_strain(state))),
+        ];
+        points.map(|(place, quantity)| MeasuredPoint::new(place, [quantity])).into()
     }
 }
 
@@ -271,11 +266,11 @@ fn differences(
         let (below, above) =
             (measured(&variation.below, resolution)?, measured(&variation.above, resolution)?);
         for derivative in unknown.iter_mut().filter(|of| of.parameter == parameter) {
-            let slope = |nearby: &[(&str, f64)], sign: f64| {
+            let slopes = [(&below, -1.0), (&above, 1.0)].map(|(nearby, sign)| {
                 let (_, value) = nearby.iter().find(|(of, _)| *of == derivative.measure)?;
                 Some(sign * (value - derivative.value) / variation.step)
-            };
-            (derivative.left, derivative.right) = (slope(&below, -1.0), slope(&above, 1.0));
+            });
+            [derivative.left, derivative.right] = slopes;
             derivative.kink =
                 Some("something sticks: from whole solutions on either side".to_owned());
         }
@@ -310,8 +305,8 @@ fn measured(
 }
 
 fn compliance(measure: &'static str) -> MeasuredQuantity<Strip> {
-    let value = |strip: &Strip, state: &SkinState, direction: &[f64], _| {
+    let quantity = quantity(measure, |strip: &Strip, state, direction, _| {
         strip.normalised_stiffness(strip.stiffness(state, direction)).recip()
-    };
-    MeasuredQuantity { turns: true, ..quantity(measure, value) }
+    });
+    MeasuredQuantity { turns: true, ..quantity }
 }

@@ -66,8 +66,7 @@ fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapsho
     let contacts = strip.contacts.closed_contacts(state);
     // A chain is solved as a whole; only the gap of a unit cell is repeated.
     let copies = (0..gaps / solved).flat_map(|copy| {
-        let left = move |contact: &Contact| copy * solved + contact.left;
-        contacts.iter().map(move |contact| (left(contact), contact))
+        contacts.iter().map(move |contact| (copy * solved + contact.left, contact))
     });
     StripSnapshot {
         curvature: strip.curvature(&state.z),

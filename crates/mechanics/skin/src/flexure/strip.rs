@@ -133,7 +133,6 @@ impl Strip {
             units[layout.membrane(gap)..][..of_gap.len()].copy_from_slice(of_gap.as_slice());
         }
         let last = layout.moment() - 3;
-        let control = |k: usize, scale| Control { index: last + k, scale };
         // The last scale is placed in the frame of its neighbour, so their pitch is the length
         // unit.
         let pitch = row.pitch(gaps - 1);
@@ -147,7 +146,8 @@ impl Strip {
             blocks: layout.blocks(),
             // The rotation comes first, because it is the control parameter that bending must
             // reach.
-            controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
+            controls: [(2, rotation), (0, pitch), (1, pitch)]
+                .map(|(k, scale)| Control { index: last + k, scale }),
             farthest,
             units,
         }

@@ -175,26 +175,23 @@ impl Chain {
     pub(super) fn extended(&self, shorter: &Self, point: &SkinPoint) -> SkinPoint {
         let added = self.layout.left - shorter.layout.left;
         let contacts = [shorter, self].map(|chain| chain.contacts.forces.len());
-        let constraint = |number: usize| {
-            // Needle constraints follow all contact constraints.
-            if number < contacts[0] {
-                number + self.layout.contacts * added
-            } else {
-                number - contacts[0] + contacts[1]
-            }
-        };
         let event = point.event.clone().map(|event| match event {
             Event::Changed(changes) => {
-                let moved = changes.into_iter().map(|Change { constraint: number, activated }| {
-                    Change { constraint: constraint(number), activated }
+                let moved = changes.into_iter().map(|Change { constraint, activated }| {
+                    // Needle constraints follow all contact constraints.
+                    let constraint = if constraint < contacts[0] {
+                        constraint + self.layout.contacts * added
+                    } else {
+                        constraint - contacts[0] + contacts[1]
+                    };
+                    Change { constraint, activated }
                 });
                 Event::Changed(moved.collect())
             }
             other => other,
         });
-        let unknowns = |z: &[f64]| self.extended_unknowns(shorter, z);
         let mut state = SkinState::at_rest(self);
-        state.z = unknowns(&point.state.z);
+        state.z = self.extended_unknowns(shorter, &point.state.z);
         let (of_contacts, of_needle) = point.state.active.split_at(contacts[0]);
         copy_to(&mut state.active, self.layout.contacts * added, of_contacts);
         copy_to(&mut state.active, contacts[1], of_needle);
@@ -206,8 +203,8 @@ impl Chain {
         state.mode.needle = point.state.mode.needle.clone();
         SkinPoint {
             state,
-            arriving: unknowns(&point.arriving),
-            leaving: unknowns(&point.leaving),
+            arriving: self.extended_unknowns(shorter, &point.arriving),
+            leaving: self.extended_unknowns(shorter, &point.leaving),
             event,
         }
     }

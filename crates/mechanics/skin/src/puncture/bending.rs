@@ -13,13 +13,16 @@
 //! `M` is a moment at the tip, of value 0. The tangent is therefore symmetric, and the work of the
 //! load equals the energy of substrate, contacts and scales.
 
-use contact::{COORDINATES, CornerEdge};
+mod flexibility;
+
+use contact::COORDINATES;
 use geometry::Vec2;
 use solver::{Residual, Tangent};
 
+use self::flexibility::{BeamLoad, Flexibility, Section};
 use super::beam::Beam;
 use super::system::Chain;
-use crate::contacts::{PairCoordinate, SkinState, TouchingEdge};
+use crate::contacts::SkinState;
 
 /// Unknowns of a free needle on an elastic scale, behind the load: depth and total tilt.
 pub(super) const BENDING_UNKNOWNS: usize = 2;
@@ -34,35 +37,6 @@ const SPREAD: f64 = 0.25;
 /// Fraction by which the end of a path may miss the critical tilt.
 const AT_THE_TILT: f64 = 1e-9;
 
-/// Value with its first and second derivative by the coordinate of a load.
-type Varying = [f64; 3];
-
-/// Force on a scale, which is a beam.
-#[derive(Clone, Copy, Debug)]
-struct BeamLoad {
-    /// Unknown of the force; `None` for the moment at the tip.
-    unknown: Option<usize>,
-    force: f64,
-    /// Moment about the node and transverse force, per unit force.
-    moment: Varying,
-    across: Varying,
-    /// Position along the beam, with its first derivative.
-    section: [f64; 2],
-    /// Unknowns on which the coordinate of the load depends, with derivatives.
-    at: [usize; COORDINATES],
-    slopes: [f64; COORDINATES],
-    curvature: [[f64; COORDINATES]; COORDINATES],
-}
-
-/// Flexibility `C_kl` of a scale with derivatives by the coordinates of the loads `k` and `l`.
-#[derive(Clone, Copy, Debug, Default)]
-struct Flexibility {
-    value: f64,
-    by_first: f64,
-    by_first_twice: f64,
-    by_both: f64,
-}
-
 /// Sums over all loads for one load `k`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
@@ -72,207 +46,6 @@ struct Sums {
     slope: f64,
     /// Second derivative of the displacement by the coordinate of the load `k`.
     curvature: f64,
-}
-
-/// Section of a scale.
-#[derive(Clone, Copy, Debug)]
-struct Section {
-    length: f64,
-    spread: f64,
-    bending: f64,
-    shear_stiffness: f64,
-}
-
-impl BeamLoad {
-    /// Creates a load at a point fixed to the scale, in a direction that turns by `coordinate`.
-    fn at_point(beam: &Beam, point: Vec2, direction: Vec2, section: f64) -> Self {
-        let turned = contact::quarter(direction);
-        let (moment, across) = (point.perp(&direction), beam.along.perp(&direction));
-        Self {
-            unknown: None,
-            force: 0.0,
-            moment: [moment, point.perp(&turned), -moment],
-            across: [across, beam.along.perp(&turned), -across],
-            section: [section, 0.0],
-            at: [0; COORDINATES],
-            slopes: [0.0; COORDINATES],
-            curvature: [[0.0; COORDINATES]; COORDINATES],
-        }
-    }
-
-    /// Iterates over the unknowns on which the coordinate of the load depends, with derivatives.
-    fn varying(&self) -> impl Iterator<Item = (usize, f64)> {
-        self.at.into_iter().zip(self.slopes).filter(|(_, slope)| *slope != 0.0)
-    }
-
-    /// Computes the derivative of the coordinate of the load along a direction of the unknowns.
-    fn along(&self, direction: &[f64]) -> f64 {
-        self.at.iter().zip(self.slopes).map(|(&at, slope)| slope * direction[at]).sum()
-    }
-
-    /// Integrates the moment of the load, or a derivative of it, and minus its first moment up to
-    /// the section `z`.
-    fn integrals(&self, derivative: usize, z: f64) -> [f64; 2] {
-        let (moment, across) = (self.moment[derivative], self.across[derivative]);
-        let (square, cube) = (z * z / 2.0, z * z * z / 3.0);
-        [moment * z - across * square, across * cube - moment * square]
-    }
-
-    /// Creates the unit moment at the tip.
-    fn tip_moment(beam: &Beam, at: [usize; COORDINATES]) -> Self {
-        Self {
-            moment: [1.0, 0.0, 0.0],
-            across: [0.0; 3],
-            at,
-            ..Self::at_point(beam, Vec2::zeros(), Vec2::zeros(), beam.length)
-        }
-    }
-
-    /// Places the load by `sign` times a coordinate of its pair.
-    fn along_pair(self, touching: &TouchingEdge, sign: f64, coordinate: &PairCoordinate) -> Self {
-        Self {
-            unknown: Some(touching.unknown),
-            force: touching.force,
-            at: touching.at,
-            slopes: coordinate.slopes.map(|slope| sign * slope),
-            curvature: coordinate.curvature.map(|row| row.map(|value| sign * value)),
-            ..self
-        }
-    }
-
-    /// Creates the load of a contact on its scale with the corner, or with the edge.
-    ///
-    /// `None` for a force on a base, which bends nothing.
-    fn of_contact(beam: &Beam, touching: &TouchingEdge, scale: usize) -> Option<Self> {
-        let is_left = touching.ends[0] == scale;
-        if is_left == touching.edge.corner_is_left() {
-            // The normal of the edge, turned by the rotation of the edge relative to the corner.
-            let sign = if is_left { 1.0 } else { -1.0 };
-            let angle = sign * touching.turn.value;
-            let direction = contact::Pose::new(0.0, 0.0, angle).turn(touching.normal);
-            let section = touching.corner.dot(&beam.along);
-            let load = Self::at_point(beam, touching.corner, direction, section);
-            return Some(load.along_pair(touching, sign, &touching.turn));
-        }
-        let along = contact::quarter(touching.normal);
-        let slide = touching.slide.value;
-        let load = Self::at_point(beam, slide * along, -touching.normal, 0.0);
-        let across = load.across[0];
-        let (arm, section) = match touching.edge {
-            CornerEdge::BottomLeftOnBase => return None,
-            // The part beyond the last section is rigid.
-            CornerEdge::TopRightOnTop => (along.perp(&-touching.normal), [beam.length, 0.0]),
-            // The force is perpendicular to the axis of the beam.
-            _ => {
-                let side = along.dot(&beam.along).signum();
-                (across * side, [side * slide, side])
-            }
-        };
-        let (moment, across) = ([arm * slide, arm, 0.0], [across, 0.0, 0.0]);
-        Some(Self { moment, across, section, ..load }.along_pair(touching, 1.0, &touching.slide))
-    }
-}
-
-impl Section {
-    /// Computes the flexibility between two loads.
-    fn flexibility(&self, k: &BeamLoad, l: &BeamLoad) -> Flexibility {
-        let [own, other] = [k, l].map(|load| load.section[0].clamp(0.0, self.length));
-        let z = own.min(other);
-        let [zeroth, first] = l.integrals(0, z);
-        let [zeroth_by_other, first_by_other] = l.integrals(1, z);
-        // The moment of a moving load vanishes at its own section, so that a moving limit of the
-        // integral matters only in the second derivative.
-        let moves = own <= other && own > 0.0 && own < self.length;
-        let at_limit = if moves {
-            k.section[1] * (l.moment[0] - l.across[0] * z) * (k.moment[1] - k.across[1] * z)
-        } else {
-            0.0
-        };
-        let bent = Flexibility {
-            value: k.moment[0] * zeroth + k.across[0] * first,
-            by_first: k.moment[1] * zeroth + k.across[1] * first,
-            by_first_twice: k.moment[2] * zeroth + k.across[2] * first + at_limit,
-            by_both: k.moment[1] * zeroth_by_other + k.across[1] * first_by_other,
-        };
-        let overlap = self.overlap(k.section[0], l.section[0]);
-        let (a, b, rate) = (k.across, l.across, [k.section[1], l.section[1]]);
-        let sheared = Flexibility {
-            value: a[0] * b[0] * overlap.value,
-            by_first: b[0] * (a[1] * overlap.value + a[0] * rate[0] * overlap.by_first),
-            by_first_twice: b[0]
-                * (a[2] * overlap.value
-                    + 2.0 * a[1] * rate[0] * overlap.by_first
-                    + a[0] * rate[0] * rate[0] * overlap.by_first_twice),
-            by_both: a[1] * b[1] * overlap.value
-                + a[1] * b[0] * rate[1] * overlap.by_second
-                + a[0] * b[1] * rate[0] * overlap.by_first
-                + a[0] * b[0] * rate[0] * rate[1] * overlap.by_both,
-        };
-        let (bending, shear) = (self.bending, self.shear_stiffness);
-        Flexibility {
-            value: bent.value / bending + sheared.value / shear,
-            by_first: bent.by_first / bending + sheared.by_first / shear,
-            by_first_twice: bent.by_first_twice / bending + sheared.by_first_twice / shear,
-            by_both: bent.by_both / bending + sheared.by_both / shear,
-        }
-    }
-
-    /// Returns the shear force at `x` of a unit force at `s`.
-    fn shear(&self, s: f64, x: f64) -> f64 {
-        ((s + self.spread - x) / (2.0 * self.spread)).clamp(0.0, 1.0)
-    }
-
-    /// Integrates the product of two unit shear forces over the beam.
-    ///
-    /// The shear force of a load at `s` falls linearly from 1 at `s − w` to 0 at `s + w`.
-    fn overlap(&self, s: f64, t: f64) -> Overlap {
-        let (w, length) = (self.spread, self.length);
-        let [near, far] = [s.min(t), s.max(t)];
-        // Below these sections both shear forces are 1, above them one of them is 0.
-        let breaks = [near - w, (far - w).min(near + w), near + w].map(|x| x.clamp(0.0, length));
-        let mut overlap = Overlap { value: breaks[0], ..Overlap::default() };
-        for pair in breaks.windows(2) {
-            let [low, high] = [pair[0], pair[1]];
-            if high <= low {
-                continue;
-            }
-            let middle = f64::midpoint(low, high);
-            overlap.value += integral([low, high], |x| self.shear(s, x) * self.shear(t, x));
-            let [beside_first, beside_second] = [s, t].map(|at| (middle - at).abs() <= w);
-            if beside_first {
-                overlap.by_first += integral([low, high], |x| self.shear(t, x)) / (2.0 * w);
-            }
-            if beside_second {
-                overlap.by_second += integral([low, high], |x| self.shear(s, x)) / (2.0 * w);
-            }
-            if beside_first && beside_second {
-                overlap.by_both += (high - low) / (4.0 * w * w);
-            }
-        }
-        for (x, sign) in [(s + w, 1.0), (s - w, -1.0)] {
-            if (0.0..=length).contains(&x) {
-                overlap.by_first_twice += sign * self.shear(t, x) / (2.0 * w);
-            }
-        }
-        overlap
-    }
-}
-
-/// Integrates a polynomial of degree 3 or less by two points of Gauss and Legendre.
-fn integral([low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
-    let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0);
-    let offset = half / 3.0_f64.sqrt();
-    half * (f(middle - offset) + f(middle + offset))
-}
-
-/// Integral of the product of two shear forces, with derivatives by their positions.
-#[derive(Clone, Copy, Debug, Default)]
-struct Overlap {
-    value: f64,
-    by_first: f64,
-    by_second: f64,
-    by_first_twice: f64,
-    by_both: f64,
 }
 
 /// The loads of one scale.

@@ -23,14 +23,10 @@ pub(super) fn classify(status: Status, path: &[PuncturePoint]) -> Status {
 
 /// Returns true if load, depth and tilt all end below their maxima.
 fn has_turned_back(path: &[PuncturePoint]) -> bool {
-    let below = |value: fn(&PuncturePoint) -> f64| {
-        let largest = path.iter().map(value).reduce(f64::max);
-        // A quantity at its maximum has recovered, or never turned back.
-        path.last().map(value) < largest
-    };
-    below(|point| point.force)
-        && below(|point| point.displacement)
-        && below(|point| point.tilt_deg.abs())
+    let values: [fn(&PuncturePoint) -> f64; 3] =
+        [|point| point.force, |point| point.displacement, |point| point.tilt_deg.abs()];
+    // A quantity at its maximum has recovered, or never turned back.
+    values.into_iter().all(|value| path.last().map(value) < path.iter().map(value).reduce(f64::max))
 }
 
 #[cfg(test)]

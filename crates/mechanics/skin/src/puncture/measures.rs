@@ -236,8 +236,7 @@ impl PunctureMeasures {
 /// `None` if the path never left its start. Extrema of the load are points of the path, so no
 /// search between points is needed.
 fn peak(path: &[PuncturePoint]) -> Option<&PuncturePoint> {
-    let highest = |best: &'_ PuncturePoint, point: &'_ PuncturePoint| point.force > best.force;
-    path.iter().skip(1).reduce(|best, point| if highest(best, point) { point } else { best })
+    path.iter().skip(1).reduce(|best, point| if point.force > best.force { point } else { best })
 }
 
 #[cfg(test)]
@@ -252,11 +251,11 @@ mod tests {
             ..FailureMeasures::default()
         };
         let along = PunctureMeasures { failure, ..PunctureMeasures::default() };
-        let borne = |force| along.with_across(None, Some(force), Some(2.0));
-        assert_eq!(borne(3.0).failure.force, Some(2.0));
-        assert_eq!(borne(3.0).across.any_direction, Some(2.0));
-        assert_eq!(borne(1.0).failure.force, None);
-        assert_eq!(borne(1.0).across.any_direction, None);
+        for (across, expected) in [(3.0, Some(2.0)), (1.0, None)] {
+            let measures = along.with_across(None, Some(across), Some(2.0));
+            assert_eq!(measures.failure.force, expected);
+            assert_eq!(measures.across.any_direction, expected);
+        }
         let weaker = along.with_across(Some(1.5), Some(1.5), Some(2.0)).failure;
         assert_eq!((weaker.mode, weaker.force), (Some(FailureMode::Across), Some(1.5)));
     }

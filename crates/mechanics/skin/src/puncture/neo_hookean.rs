@@ -92,10 +92,11 @@ impl Chain {
             .map(|(pair, &width)| {
                 let [near, next] = [pair[0], pair[1]].map(end);
                 let strip = SurfaceStrip { width, half_base: self.half_base };
-                let excess = |ends| Bar::new(&strip, spring, ends).excess.abs();
                 // A bar that is stretched beyond one end of the row would be compressed beyond the
                 // other: take the larger excess.
-                excess([near, next]).max(excess([next, near])) / self.direct[0]
+                let [one, other] = [[near, next], [next, near]]
+                    .map(|ends| Bar::new(&strip, spring, ends).excess.abs());
+                one.max(other) / self.direct[0]
             })
             .fold(0.0, f64::max)
     }

@@ -9,7 +9,6 @@ use super::snap::SnapObserver;
 use super::surface_fold::FoldObserver;
 use super::system::Chain;
 use super::{At, PunctureParameters};
-use crate::contacts::SkinPoint;
 use crate::path_location::PointLocator;
 use crate::record::{PathFunction, Record};
 
@@ -79,7 +78,6 @@ impl PathObservers {
 
     /// Extends all recorded points to the final row.
     pub(super) fn lengthen(&mut self, path: &AdaptiveRowPath) {
-        let longer = |point: &SkinPoint| path.lengthened(point);
         // Every observer that keeps points must be listed here, or its points keep the size of a
         // shorter row.
         let SnapObserver { load_limit, depth_limit, .. } = &mut self.needle;
@@ -89,11 +87,11 @@ impl PathObservers {
         let points = single.into_iter().chain(located).flatten();
         let segments = self.history.segments.iter_mut().chain(&mut self.passage.passed);
         for point in points.chain(segments.flatten()) {
-            *point = longer(point);
+            *point = path.lengthened(point);
         }
         if let Some(failure) = &mut self.failure {
-            failure.replace_points(longer);
+            failure.replace_points(|point| path.lengthened(point));
         }
-        self.record.replace_points(longer);
+        self.record.replace_points(|point| path.lengthened(point));
     }
 }

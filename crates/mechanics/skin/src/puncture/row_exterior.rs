@@ -2,7 +2,7 @@
 
 use std::array;
 
-use geometry::{Body, Corner, OutOfRange, Vec2};
+use geometry::{Body, Corner, OutOfRange};
 use substrate::{FarField, Relief, SurfaceStrip};
 
 use super::Rows;
@@ -82,11 +82,10 @@ impl RowExterior {
         beyond: [Option<Beyond>; 2],
         body: Body,
     ) -> Result<Self, OutOfRange> {
-        let looked_at = |side: &Option<Beyond>| {
+        let [left, right] = beyond.each_ref().map(|side| {
             let scales = side.as_ref().map_or(Some(0), |beyond| beyond.scales);
             scales.map_or(LOOKED_AT, |scales| scales.min(LOOKED_AT))
-        };
-        let [left, right] = [looked_at(&beyond[0]), looked_at(&beyond[1])];
+        });
         // A longer row keeps its middle, so its outer scales are the scales beyond the ends.
         let row = rows.row(RowLayout {
             left: layout.left + left,
@@ -94,29 +93,27 @@ impl RowExterior {
             ..layout
         })?;
         let end = left + layout.scales() - 1;
-        let pairs: [Vec<usize>; 2] = [(0..left).rev().collect(), (end..end + right).collect()];
-        let side = |(beyond, pairs): (Option<Beyond>, Vec<usize>)| {
+        let [first, last] = beyond;
+        let sides: [(_, Vec<_>); 2] =
+            [(first, (0..left).rev().collect()), (last, (end..end + right).collect())];
+        let sides = sides.map(|(beyond, pairs)| {
             Some(ExteriorSide {
                 beyond: beyond?,
                 gaps: pairs.iter().map(|&pair| row.gap(pair)).collect(),
                 clearances: pairs.iter().map(|&pair| row.clearance(pair, body)).collect(),
             })
-        };
-        let [first, last] = pairs;
-        let [left_beyond, right_beyond] = beyond;
-        let scale = row.scale(left);
-        let arm = |corner| Vec2::norm(&scale.corner(corner));
-        let sides = [side((left_beyond, first)), side((right_beyond, last))];
+        });
         let relief = relief(layout, &sides);
         // Whichever way a scale leans, one of its top corners is the farthest from its node.
-        let arm = arm(Corner::TopLeft).max(arm(Corner::TopRight));
-        Ok(Self { sides, relief, arm })
+        let scale = row.scale(left);
+        let arm = [Corner::TopLeft, Corner::TopRight].map(|corner| scale.corner(corner).norm());
+        Ok(Self { sides, relief, arm: arm[0].max(arm[1]) })
     }
 
     /// Counts the scales of a finite row beyond its left and its right end.
     pub(super) fn scales_to_ends(&self) -> [usize; 2] {
-        let scales = |side: &Option<ExteriorSide>| side.as_ref()?.beyond.scales;
-        self.sides.each_ref().map(|side| scales(side).unwrap_or(0))
+        let sides = self.sides.each_ref();
+        sides.map(|side| side.as_ref().and_then(|side| side.beyond.scales).unwrap_or(0))
     }
 }
 
@@ -157,8 +154,7 @@ impl Chain {
     /// Returns displacements of scales counted from an end, mirrored to a right end.
     fn at_end<'a>(&'a self, z: &'a [f64], side: usize) -> impl Fn(usize) -> [f64; 3] + 'a {
         let last = self.layout.scales() - 1;
-        let scale = move |k: usize| if side == 0 { k } else { last - k };
-        move |k| mirrored(self.displacement(z, scale(k)), side)
+        move |k| mirrored(self.displacement(z, if side == 0 { k } else { last - k }), side)
     }
 
     /// Computes the displacements of the end scale and of the checked scales beyond.
@@ -259,12 +255,11 @@ impl Chain {
             // Farther gaps lie between the last checked one and this one.
             let last = side.beyond.scales.zip(side.gaps.last());
             stretches.push(last.map_or(1.0, |(scales, &width)| {
-                let at = |distance| match distance {
+                let [near, far] = [scales - 1, scales].map(|distance| match distance {
                     0 => displacements[0],
                     _ => side.beyond.far.displacement(self.at_end(z, number), distance),
-                };
-                let strip = SurfaceStrip { width, half_base: self.half_base };
-                strip.stretch(at(scales - 1), at(scales))
+                });
+                SurfaceStrip { width, half_base: self.half_base }.stretch(near, far)
             }));
         }
         stretches

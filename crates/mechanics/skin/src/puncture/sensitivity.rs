@@ -88,11 +88,11 @@ pub fn force_curve(
         // The critical tilt scales the control parameter, so use the same tilt for the perturbed
         // inputs.
         let tilt = problem.parameters.critical_tilt_deg;
-        let as_far = |input: &PunctureInput| {
+        let variations = Neighbours::map_all(variations, |input| {
             let parameters = PunctureParameters { critical_tilt_deg: tilt, ..input.parameters };
             Ok::<_, OutOfRange>(PunctureInput { parameters, ..input.clone() })
-        };
-        problem.curve(&mut followed, &Neighbours::map_all(variations, as_far)?)
+        })?;
+        problem.curve(&mut followed, &variations)
     })
 }
 
@@ -160,8 +160,7 @@ impl Problem<'_> {
         let Followed { watch, path, .. } = followed;
         // Perturbed rows get the final layout of the path, so that their unknowns match.
         let layout = path.system().layout;
-        let chain = |input: &PunctureInput| input.chain(layout);
-        let variations = Neighbours::map_all(variations, chain)?;
+        let variations = Neighbours::map_all(variations, |input| input.chain(layout))?;
         let anchors = anchors(path, &watch.history.segments, &variations);
         let system = path.system();
         Ok(watch
@@ -191,8 +190,7 @@ impl Problem<'_> {
         let Followed { watch, path, status, .. } = followed;
         let is_bent = *status == Status::Bent;
         let layout = path.system().layout;
-        let chain = |input: &PunctureInput| input.chain(layout);
-        let variations = Neighbours::map_all(variations, chain)?;
+        let variations = Neighbours::map_all(variations, |input| input.chain(layout))?;
         let anchors = anchors(path, &watch.history.segments, &variations);
         let mut found = Vec::new();
         // Build the perturbed rows once for all points with the same history variables.
@@ -255,7 +253,6 @@ impl Problem<'_> {
         let depth_limit = depth_limit.and_then(|point| sensitivity::turn(chain, point, DEPTH_RATE));
         let touching = record.touching.as_ref().filter(|_| along_path);
         let touching = touching.and_then(|point| first_contact(chain, point));
-        let spot = |place, quantities| MeasuredPoint { place, quantities };
         let folded = first.as_ref().zip(folds.first());
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
         let deep = marked.points.iter().flatten().next();
@@ -291,7 +288,7 @@ impl Problem<'_> {
         let mut at_rest = rest(chain);
         at_rest.state = chain.at_rest();
         let stresses = maxima.into_iter().zip(largest_stresses());
-        let stresses = stresses.map(|(place, quantity)| spot(place, vec![quantity]));
+        let stresses = stresses.map(|(place, quantity)| MeasuredPoint::new(place, [quantity]));
         let mut resting = Vec::new();
         if along_path {
             resting.push(stiffness("initial_stiffness"));
@@ -302,19 +299,19 @@ impl Problem<'_> {
             }));
         }
         let mut points = vec![
-            spot(bent.or_else(|| Some(chain.end_of(end(path)))), end_quantities),
-            spot(folded, fold_quantities),
-            spot(passed, passing),
-            spot(deep, vec![force("force_at_depth")]),
-            spot(loaded, vec![tissue_pressure("tissue_pressure_at_force")]),
-            spot(highest, vec![force("peak_force")]),
+            MeasuredPoint::new(bent.or_else(|| Some(chain.end_of(end(path)))), end_quantities),
+            MeasuredPoint::new(folded, fold_quantities),
+            MeasuredPoint::new(passed, passing),
+            MeasuredPoint::new(deep, [force("force_at_depth")]),
+            MeasuredPoint::new(loaded, [tissue_pressure("tissue_pressure_at_force")]),
+            MeasuredPoint::new(highest, [force("peak_force")]),
             at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
             at_turn(load_limit, [force("load_stability_force")]),
             at_turn(depth_limit, [force("depth_stability_force")]),
-            spot(touching, vec![depth("first_contact_displacement")]),
-            spot(Some(at_rest).filter(|_| !resting.is_empty()), resting),
-            spot(stiffest, vec![stiffness("max_stiffness")]),
-            spot(failed, vec![force(FAILURE_FORCE)]),
+            MeasuredPoint::new(touching, [depth("first_contact_displacement")]),
+            MeasuredPoint::new(Some(at_rest).filter(|_| !resting.is_empty()), resting),
+            MeasuredPoint::new(stiffest, [stiffness("max_stiffness")]),
+            MeasuredPoint::new(failed, [force(FAILURE_FORCE)]),
         ];
         points.extend(stresses);
         points
@@ -389,9 +386,7 @@ fn at_turn<const N: usize>(
     quantities: [MeasuredQuantity<Chain>; N],
 ) -> MeasuredPoint<Chain> {
     let turns = place.as_ref().is_some_and(|p| matches!(p.anchor, PathAnchor::Stationary(_)));
-    let quantities = quantities.into_iter();
-    let quantities = quantities.map(|quantity| MeasuredQuantity { turns, ..quantity }).collect();
-    MeasuredPoint { place, quantities }
+    MeasuredPoint::new(place, quantities.map(|quantity| MeasuredQuantity { turns, ..quantity }))
 }
 
 /// Lists the quantities at the critical tilt and at the first fold.
@@ -417,10 +412,6 @@ fn tilt(measure: &'static str) -> MeasuredQuantity<Chain> {
 
 fn critical() -> Vec<MeasuredQuantity<Chain>> {
     // Each scale has a gap, too; the last index stands for all gaps beyond the solved part.
-    let extreme = |measure, value: ValueOf<Chain>, outer: fn(f64, f64) -> f64| MeasuredQuantity {
-        extreme: Some(outer),
-        ..quantity(measure, value)
-    };
     vec![
         force(CRITICAL_FORCE),
         depth("critical_displacement"),
@@ -482,8 +473,17 @@ fn depth(measure: &'static str) -> MeasuredQuantity<Chain> {
 }
 
 fn stiffness(measure: &'static str) -> MeasuredQuantity<Chain> {
-    let value = |chain: &Chain, state: &SkinState, direction: &[f64], _| {
+    let quantity = quantity(measure, |chain: &Chain, state, direction, _| {
         chain.plane_modulus * chain.stiffness(state, direction)
-    };
-    MeasuredQuantity { turns: true, ..quantity(measure, value) }
+    });
+    MeasuredQuantity { turns: true, ..quantity }
+}
+
+/// Creates the extreme of a quantity over all scales, and over their gaps.
+fn extreme(
+    measure: &'static str,
+    value: ValueOf<Chain>,
+    outer: fn(f64, f64) -> f64,
+) -> MeasuredQuantity<Chain> {
+    MeasuredQuantity { extreme: Some(outer), ..quantity(measure, value) }
 }

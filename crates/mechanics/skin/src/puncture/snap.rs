@@ -87,10 +87,9 @@ impl SnapObserver {
         if chain.is_nonconservative(state) {
             // With friction the stiffness is not symmetric, so instability is only detected by
             // decreasing load or depth.
-            let falls = |rate: f64| usize::from(rate < 0.0);
-            let [load, depth] =
-                [leaving[chain.layout.load()], chain.depth_slope(&state.z, leaving)];
-            return Instability { load: falls(load), depth: falls(depth), tilt: 0 };
+            let rates = [leaving[chain.layout.load()], chain.depth_slope(&state.z, leaving)];
+            let [load, depth] = rates.map(|rate| usize::from(rate < 0.0));
+            return Instability { load, depth, tilt: 0 };
         }
         chain
             .instability(state)
@@ -155,19 +154,16 @@ impl Snap {
     /// Finds the point within a segment at which the depth of the snap recurs.
     fn land(&mut self, path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) {
         let depth = self.point.displacement;
-        let is_below = |path: &Continuation<Chain>, point: &SkinPoint| {
-            path.system().depth(&point.state.z) < depth
-        };
-        if is_below(path, to) {
+        if path.system().depth(&to.state.z) < depth {
             return;
         }
-        let below = if is_below(path, from) {
+        let below = if path.system().depth(&from.state.z) < depth {
             Some(from.clone())
         } else {
             // The depth turns back at the first point and recovers before the second.
             (1..HALVINGS).find_map(|k| {
                 let point = path.between(from, to, 0.5_f64.powi(k))?;
-                is_below(path, &point).then_some(point)
+                (path.system().depth(&point.state.z) < depth).then_some(point)
             })
         };
         let location = At::Displacement(depth).location();
@@ -184,11 +180,8 @@ fn turning_point(
     from: &SkinPoint,
     to: &SkinPoint,
 ) -> Option<SkinPoint> {
-    let rate = |path: &Continuation<Chain>, point: &SkinPoint, direction: &[f64]| {
-        path.system().depth_slope(&point.state.z, direction)
-    };
-    let leaving = rate(path, from, &from.leaving);
-    let arriving = rate(path, to, &to.arriving);
+    let leaving = path.system().depth_slope(&from.state.z, &from.leaving);
+    let arriving = path.system().depth_slope(&to.state.z, &to.arriving);
     // At a kink the depth decreases right from the point; otherwise the previous segment would have
     // shown it.
     if leaving < 0.0 {
@@ -202,7 +195,7 @@ fn turning_point(
     for _ in 0..EVALUATIONS {
         let place = bracket.secant();
         nearest = path.between(from, to, place)?;
-        let slope = rate(path, &nearest, &nearest.arriving);
+        let slope = path.system().depth_slope(&nearest.state.z, &nearest.arriving);
         if slope.abs() <= FLAT * (leaving - arriving) {
             break;
         }

@@ -3,10 +3,10 @@
 use geometry::OutOfRange;
 use solver::Termination;
 
+use super::point::scales;
 use super::system::Chain;
 use super::{
     FailureMode, Problem, Puncture, PunctureParameters, RowStiffness, Rows, ScaleState, Status,
-    scales,
 };
 use crate::contacts::{Contact, SkinState};
 use crate::path_location::PathLocation;
@@ -150,9 +150,11 @@ pub fn snapshots_to_end(
     let mut followed = problem.follow(&[], at)?;
     let found = std::mem::take(&mut followed.watch.requested.points);
     let chain = followed.path.system();
-    let snapshot = |state: &SkinState| snapshot(chain, row.pitch(), state);
-    let at = found.iter().map(|point| Some(snapshot(&point.as_ref()?.state))).collect();
-    let end = snapshot(&followed.path.point().state);
+    let at = found
+        .iter()
+        .map(|point| Some(snapshot(chain, row.pitch(), &point.as_ref()?.state)))
+        .collect();
+    let end = snapshot(chain, row.pitch(), &followed.path.point().state);
     let is_critical = followed.path.termination() == Some(Termination::Reached)
         && followed.status != Status::Untilted;
     Ok(Snapshots { puncture: followed.puncture(parameters.unload), at, end, is_critical })

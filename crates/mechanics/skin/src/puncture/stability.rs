@@ -42,21 +42,12 @@ impl Chain {
             places[unknown] = place;
         }
         let factors = self.stiffness_matrix(state, kept.len(), &places).factorise().ok()?;
-        let compliance = |loads: &[(usize, f64)]| {
-            let mut x = vec![0.0; kept.len()];
-            for &(unknown, load) in loads {
-                x[places[unknown]] += load;
-            }
-            factors.solve(&mut x);
-            loads.iter().map(|&(unknown, load)| load * x[places[unknown]]).sum::<f64>()
-        };
         // All other unknowns are forces.
         let motions = 3 * self.layout.scales() + usize::from(self.needle.is_some());
         let forces = kept.len() - motions;
         // Each force unknown is a multiplier, which adds one negative eigenvalue without a motion.
         let held_together = factors.negative_eigenvalues().checked_sub(forces)?;
         let load = held_together + self.contacts.ridges(state);
-        let held = |compliance: f64| load.saturating_sub(usize::from(compliance < 0.0));
         let at = self.layout.scale(self.layout.left);
         let arm = self.loaded_arm(&state.z);
         let [mut depth, mut tilt] = match &self.needle {
@@ -67,8 +58,17 @@ impl Chain {
         if self.is_elastic {
             [(depth, of_beam[0]), (tilt, of_beam[1])] = self.bending_loads(state);
         }
-        let [depth, tilt] = [compliance(&depth) + of_beam[0], compliance(&tilt) + of_beam[1]];
-        Some(Instability { load, depth: held(depth), tilt: held(tilt) })
+        let [depth, tilt] = [(depth, of_beam[0]), (tilt, of_beam[1])].map(|(loads, of_beam)| {
+            let mut x = vec![0.0; kept.len()];
+            for &(unknown, load) in &loads {
+                x[places[unknown]] += load;
+            }
+            factors.solve(&mut x);
+            let motions = loads.iter().map(|&(unknown, load)| load * x[places[unknown]]);
+            let compliance = motions.sum::<f64>() + of_beam;
+            load.saturating_sub(usize::from(compliance < 0.0))
+        });
+        Some(Instability { load, depth, tilt })
     }
 
     /// Lists the unknowns of the stiffness: displacements, contact and needle forces.

@@ -231,8 +231,9 @@ impl Chain {
         direction: &[f64],
         scale: usize,
     ) -> f64 {
-        let of = |z: &[f64]| [scale, scale + 1].map(|i| self.displacement(z, i));
-        self.strip(scale).stretch_rate(of(&state.z), of(direction))
+        let [poses, rates] =
+            [&state.z, direction].map(|z| [scale, scale + 1].map(|i| self.displacement(z, i)));
+        self.strip(scale).stretch_rate(poses, rates)
     }
 
     /// Computes the stretch of the tightest and of the widest gap.

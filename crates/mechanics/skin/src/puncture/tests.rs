@@ -152,14 +152,11 @@ fn slopes_of_inactive_conditions_match_finite_differences() {
     for_segments(path(&FOLDING, law(&FOLDING, Law::EXCHANGED, HARD), 1.0), |path, from, to| {
         let state = path.between(from, to, 0.5).unwrap().state;
         let chain = path.system();
-        let at = |shift: f64| {
-            let along = state.z.iter().zip(&from.leaving);
-            let z = along.map(|(z, d)| z + shift * d).collect();
+        let [low, high] = [-1e-7, 1e-7].map(|shift| {
             let mut conditions = Vec::new();
-            chain.conditions(&SkinState { z, ..state.clone() }, &mut conditions);
+            chain.conditions(&state.moved(shift, &from.leaving), &mut conditions);
             conditions
-        };
-        let (low, high) = (at(-1e-7), at(1e-7));
+        });
         for constraint in 0..chain.constraints().len() {
             let difference = (high[constraint] - low[constraint]) / 2e-7;
             // The condition of a force that cannot become active next is constant.
@@ -266,15 +263,15 @@ fn one_neighbour_without_cross_coupling_matches_the_paper() {
             scales: super::RowLength::Scales(21),
             ..PunctureParameters::default()
         };
-        let ours = super::solve(&design, &one, &Common::default(), &parameters).unwrap();
-        let paper = super::solve(&design, &springs, &Common::default(), &parameters).unwrap();
+        let full = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
+        let [ours, paper, full] = [one, (&springs).into(), full].map(|stiffness| {
+            let solved = super::solve(&design, stiffness, &Common::default(), &parameters);
+            solved.unwrap().measures.critical_force.unwrap()
+        });
         // One stiffness is computed on the default mesh, up to 2e-4 off; the other comes from the
         // table.
-        let force = |solved: &super::Puncture| solved.measures.critical_force.unwrap();
-        assert_relative_eq!(force(&ours), force(&paper), max_relative = 2e-4);
-        let full = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
-        let full = super::solve(&design, &full, &Common::default(), &parameters).unwrap();
-        assert_ne!(full.measures.critical_force, paper.measures.critical_force);
+        assert_relative_eq!(ours, paper, max_relative = 2e-4);
+        assert_ne!(full, paper);
     }
 }
 
@@ -283,18 +280,17 @@ fn one_neighbour_without_cross_coupling_matches_the_paper() {
 fn doubling_the_neighbours_changes_less_than_half_a_percent() {
     for slant_deg in [0.0, 45.0, 75.0] {
         let design = Design { slant_deg, ..BLOCKS };
-        let at = |neighbours| {
+        let [ours, more] = [substrate::NEIGHBOURS, 2 * substrate::NEIGHBOURS].map(|neighbours| {
             let row = RowStiffness::solve(&design.footprint(0.5).unwrap(), neighbours).unwrap();
             super::solve(&design, &row, &Common::default(), &PunctureParameters::default())
                 .unwrap()
                 .measures
-        };
-        let (ours, more) = (at(substrate::NEIGHBOURS), at(2 * substrate::NEIGHBOURS));
-        let close = |a: Option<f64>, b: Option<f64>| {
-            assert_relative_eq!(a.unwrap(), b.unwrap(), max_relative = 0.005);
-        };
-        close(ours.critical_force, more.critical_force);
-        close(ours.penetration, more.penetration);
+        });
+        for (ours, more) in
+            [(ours.critical_force, more.critical_force), (ours.penetration, more.penetration)]
+        {
+            assert_relative_eq!(ours.unwrap(), more.unwrap(), max_relative = 0.005);
+        }
     }
 }
 
@@ -317,16 +313,17 @@ fn soft_contacts_store_part_of_the_work() {
 fn rows_grow_within_their_limit() {
     use Reach::{Beyond, Near, Short};
     let layout = RowLayout { left: 14, right: 17, needle: 0, contacts: 6 };
-    let grown = |reach, longest| {
+    for (reach, longest, expected) in [
+        ([Near, Short], 100, [22, 17]),
+        ([Short, Beyond], 100, [14, 25]),
+        ([Beyond, Near], 100, [22, 25]),
+        ([Near, Near], 42, [16, 25]),
+        ([Near, Near], 37, [14, 22]),
+        ([Near, Near], 32, [14, 17]),
+    ] {
         let RowLayout { left, right, .. } = layout.grown(reach, longest);
-        [left, right]
-    };
-    assert_eq!(grown([Near, Short], 100), [22, 17]);
-    assert_eq!(grown([Short, Beyond], 100), [14, 25]);
-    assert_eq!(grown([Beyond, Near], 100), [22, 25]);
-    assert_eq!(grown([Near, Near], 42), [16, 25]);
-    assert_eq!(grown([Near, Near], 37), [14, 22]);
-    assert_eq!(grown([Near, Near], 32), [14, 17]);
+        assert_eq!([left, right], expected);
+    }
 }
 
 #[test]
@@ -336,11 +333,10 @@ fn a_row_at_its_limit_has_no_final_values() {
     let row = Rows::Even(DOMINO.row().unwrap());
     let problem =
         Problem::new(row, &DOMINO, (&springs).into(), &Common::default(), parameters).unwrap();
-    let grown = |longest| {
+    let [cut, whole] = [60, 4001].map(|longest| {
         let start = problem.start(1).unwrap().0;
         problem.follow_row(start, longest, &[], &[]).unwrap().puncture(false)
-    };
-    let cut = grown(60);
+    });
     assert_eq!(cut.status, Status::RowLimit);
     assert_eq!(cut.measures.scales, 60);
     assert!(cut.measures.first_contact_displacement.is_some());
@@ -348,7 +344,6 @@ fn a_row_at_its_limit_has_no_final_values() {
     assert_eq!(cut.measures.critical_force, None);
     assert_eq!(cut.measures.peak_force, cut.path.last().map(|end| end.force));
     assert!(cut.path.last().unwrap().tilt_deg < 10.0);
-    let whole = grown(4001);
     assert_eq!(whole.status, Status::Complete);
     assert!(whole.measures.scales > 60);
 }
@@ -356,23 +351,26 @@ fn a_row_at_its_limit_has_no_final_values() {
 #[test]
 fn parameters_out_of_range_are_rejected() {
     let springs = calibrate(&BLOCKS.footprint(0.5).unwrap()).unwrap();
-    let refused = |change: fn(&mut PunctureParameters)| {
+    let cases: [(fn(&mut PunctureParameters), _); 6] = [
+        (|p| p.critical_tilt_deg = 0.0, "critical tilt is 0, expected an angle between 0° and 90°"),
+        (
+            |p| p.critical_tilt_deg = f64::NAN,
+            "critical tilt is NaN, expected an angle between 0° and 90°",
+        ),
+        (|p| p.scales = super::RowLength::Scales(0), "number of scales is 0, expected at least 1"),
+        (|p| p.poisson_ratio = 0.6, "poisson's ratio is 0.6, expected a ratio from 0 to 0.5"),
+        (|p| p.load_position = f64::INFINITY, "load position is inf, expected a number"),
+        (
+            |p| p.contact_modulus_over_substrate = -1.0,
+            "modulus of the contact law is -0.75, expected a positive number",
+        ),
+    ];
+    for (change, message) in cases {
         let mut parameters = PunctureParameters::default();
         change(&mut parameters);
-        super::solve(&BLOCKS, &springs, &Common::default(), &parameters).unwrap_err().to_string()
-    };
-    let text = refused(|p| p.critical_tilt_deg = 0.0);
-    assert_eq!(text, "critical tilt is 0, expected an angle between 0° and 90°");
-    let text = refused(|p| p.critical_tilt_deg = f64::NAN);
-    assert_eq!(text, "critical tilt is NaN, expected an angle between 0° and 90°");
-    let text = refused(|p| p.scales = super::RowLength::Scales(0));
-    assert_eq!(text, "number of scales is 0, expected at least 1");
-    let text = refused(|p| p.poisson_ratio = 0.6);
-    assert_eq!(text, "poisson's ratio is 0.6, expected a ratio from 0 to 0.5");
-    let text = refused(|p| p.load_position = f64::INFINITY);
-    assert_eq!(text, "load position is inf, expected a number");
-    let text = refused(|p| p.contact_modulus_over_substrate = -1.0);
-    assert_eq!(text, "modulus of the contact law is -0.75, expected a positive number");
+        let error = super::solve(&BLOCKS, &springs, &Common::default(), &parameters).unwrap_err();
+        assert_eq!(error.to_string(), message);
+    }
 }
 
 /// Bound on finite eigenvalues: contacts are softer than this, unless rigid.
@@ -386,9 +384,9 @@ const RIGID: f64 = 1e6;
 fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
     chain.tangent(state, &mut tangent);
-    let entry = |row: usize, column: usize| {
+    let mut dense = DMatrix::from_fn(chain.size(), chain.size(), |row, column| {
         if tangent.columns(row).contains(&column) { tangent.get(row, column) } else { 0.0 }
-    };
+    });
     let scales = (0..chain.layout.scales()).map(|scale| chain.layout.scale(scale));
     let mut coordinates: Vec<usize> = scales.flat_map(|at| at..at + 3).collect();
     let constraints = chain.constraints().iter().zip(&state.active);
@@ -399,21 +397,19 @@ fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     coordinates.extend(depth);
     let of_needle = chain.needle_in_stiffness(state).into_iter();
     forces.extend(of_needle.filter(|f| Some(*f) != depth && !chain.constraints().contains(f)));
-    let part = |rows: &[usize], columns: &[usize]| {
-        // The balance of the needle itself has the opposite sign.
-        let sign = |row: usize| if Some(row) == depth { -1.0 } else { 1.0 };
-        DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
-            sign(rows[i]) * entry(rows[i], columns[j])
-        })
-    };
-    let mut compliance = part(&forces, &forces);
+    // The balance of the needle itself has the opposite sign.
+    if let Some(row) = depth {
+        dense.row_mut(row).neg_mut();
+    }
+    let [on_coordinates, on_forces] = [&coordinates, &forces].map(|rows| dense.select_rows(rows));
+    let mut compliance = on_forces.select_columns(&forces);
     for k in 0..forces.len() {
         if compliance.row(k).iter().all(|entry| *entry == 0.0) {
             compliance[(k, k)] = 1e-8;
         }
     }
-    let by_forces = compliance.try_inverse().unwrap() * part(&forces, &coordinates);
-    part(&coordinates, &coordinates) - part(&coordinates, &forces) * by_forces
+    let by_forces = compliance.try_inverse().unwrap() * on_forces.select_columns(&coordinates);
+    on_coordinates.select_columns(&coordinates) - on_coordinates.select_columns(&forces) * by_forces
 }
 
 /// Counts the negative eigenvalues of a dense stiffness orthogonal to a direction.
@@ -477,18 +473,15 @@ fn negative_eigenvalues_match_the_dense_stiffness() {
         let parameters =
             &PunctureParameters { critical_tilt_deg: 40.0, ..PunctureParameters::default() };
         let layout = RowLayout { left: 7, right: 9, needle: 0, contacts: 6 };
-        let chain = |stiffness| whole(stiffness, &design, law, layout, parameters);
         let nearest: RowStiffness = (&springs).into();
         let rows = Rows::Even(design.row().unwrap());
-        let endless = |stiffness: &RowStiffness| {
-            let far = stiffness.with_lengths_over(design.half_base()).far_field(None).unwrap();
-            let beyond = [(); 2].map(|()| Some(Beyond { far: far.clone(), scales: None }));
-            let exterior = RowExterior::new(rows, layout, beyond, Body::default()).unwrap();
-            let row = rows.row(layout).unwrap();
-            Chain::new(row, stiffness, law, layout, exterior, parameters, &design)
-        };
         let [finite, part] = if is_full { [&nearest, &full] } else { [&full, &nearest] };
-        for chain in [chain(finite), endless(part)] {
+        let far = part.with_lengths_over(design.half_base()).far_field(None).unwrap();
+        let beyond = [(); 2].map(|()| Some(Beyond { far: far.clone(), scales: None }));
+        let exterior = RowExterior::new(rows, layout, beyond, Body::default()).unwrap();
+        let row = rows.row(layout).unwrap();
+        let endless = Chain::new(row, part, law, layout, exterior, parameters, &design);
+        for chain in [whole(finite, &design, law, layout, parameters), endless] {
             let rest = SkinState::at_rest(&chain);
             compare_instability(Continuation::new(chain, rest, Settings::default()), &mut compared);
         }

@@ -34,33 +34,29 @@ pub(crate) fn curve_point<S: Skin>(
     curve: Curve<S>,
 ) -> CurvePoint {
     let Equilibrium { state, arriving, .. } = point;
-    let at = |f: ValueOf<S>, by: f64| {
+    let [rise_x, rise_y] = curve.map(|f| {
         // At a kink the point belongs to the incoming segment.
-        f(system, &state.moved(by, arriving), arriving, 0)
-    };
-    let [rise_x, rise_y] = curve.map(|f| at(f, ALONG) - at(f, -ALONG));
+        let [before, after] =
+            [-ALONG, ALONG].map(|by| f(system, &state.moved(by, arriving), arriving, 0));
+        after - before
+    });
     let slope = rise_y / rise_x;
     // Anchor the point to its section of the path, where it moves little even at turning points of
     // the curve; then correct along the curve to the same `x`.
     let place = AnchoredPoint::arriving(point, PathAnchor::Still);
-    let quantities = vec![quantity("x", curve[0]), quantity("y", curve[1])];
-    let spot = MeasuredPoint { place: Some(place), quantities };
-    let found = derivatives(system, vec![spot], variations, settings);
-    let of = |measure: &str| found.iter().filter(|d| d.measure == measure).collect::<Vec<_>>();
-    let side = |x: Option<f64>, y: Option<f64>| Some(y? - slope * x?).filter(|r| r.is_finite());
-    let rates: Vec<_> = of("x")
-        .into_iter()
-        .zip(of("y"))
-        .map(|(x, y)| {
-            match (side(x.left, y.left), side(x.right, y.right)) {
-                (Some(left), Some(right)) => Some(0.5 * (left + right)),
-                // If one side has no equilibrium, use the rate of the other side for both.
-                (left, right) => left.or(right),
-            }
-        })
-        .collect();
-    let unknown = vec![None; variations.len()];
-    let value = (curve[1])(system, state, arriving, 0);
+    let point = MeasuredPoint::new(Some(place), [quantity("x", curve[0]), quantity("y", curve[1])]);
+    let found = derivatives(system, vec![point], variations, settings);
     // At a singular tangent there are no derivatives at all.
-    CurvePoint { value, slope, rates: if rates.is_empty() { unknown } else { rates } }
+    let mut rates = vec![None; variations.len()];
+    let (of_x, of_y) = found.split_at(found.len() / 2);
+    for (rate, (x, y)) in rates.iter_mut().zip(of_x.iter().zip(of_y)) {
+        let sides = [(x.left, y.left), (x.right, y.right)]
+            .map(|(x, y)| Some(y? - slope * x?).filter(|rate| rate.is_finite()));
+        *rate = match sides {
+            [Some(left), Some(right)] => Some(0.5 * (left + right)),
+            // If one side has no equilibrium, use the rate of the other side for both.
+            [left, right] => left.or(right),
+        };
+    }
+    CurvePoint { value: (curve[1])(system, state, arriving, 0), slope, rates }
 }

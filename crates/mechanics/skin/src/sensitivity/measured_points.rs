@@ -71,23 +71,19 @@ pub(crate) fn summit<S: Skin>(
     // an extremum.
     let is_target = *event == Some(Event::Target)
         || ((state.z[control.index] / control.scale).abs() - 1.0).abs() < VANISHED;
-    let at = |direction: &Vec<f64>, anchor| {
-        Some(AnchoredPoint { state: state.clone(), direction: direction.clone(), anchor })
-    };
+    let still = AnchoredPoint::arriving(&summit.point, PathAnchor::Still);
     match (event, &summit.before) {
         // Between points the function is smooth, so refine the point until it is stationary.
-        _ if summit.is_inside => {
-            at(arriving, PathAnchor::Still)?.stationary(path.system(), &f, settings)
-        }
+        _ if summit.is_inside => still.stationary(path.system(), &f, settings),
         // Only the start of a path has no previous point.
-        (_, None) => at(leaving, PathAnchor::Still),
-        _ if is_target => at(arriving, PathAnchor::Target),
+        (_, None) => Some(AnchoredPoint { direction: leaving.clone(), ..still }),
+        _ if is_target => Some(AnchoredPoint { anchor: PathAnchor::Target, ..still }),
         (Some(Event::Changed(changes)), Some(before)) => {
             let [arrives, leaves] = [arriving, leaving].map(|v| f(path.system(), state, v));
             // The larger value is after the event, so use the outgoing state.
             if leaves >= arrives {
-                let guard = vanished(path.system(), state, changes)?;
-                return at(leaving, PathAnchor::Guard(guard));
+                let anchor = PathAnchor::Guard(vanished(path.system(), state, changes)?);
+                return Some(AnchoredPoint { direction: leaving.clone(), anchor, ..still });
             }
             // The larger value is before the event. The recorded point has lost that active set, so
             // solve for the equilibrium again.
@@ -95,7 +91,7 @@ pub(crate) fn summit<S: Skin>(
             let anchor = PathAnchor::Guard(vanished(path.system(), &state, changes)?);
             Some(AnchoredPoint { state, direction: arriving, anchor })
         }
-        _ => at(arriving, PathAnchor::Still)?.stationary(path.system(), &f, settings),
+        _ => still.stationary(path.system(), &f, settings),
     }
 }
 
@@ -146,10 +142,10 @@ pub(crate) fn vanished<S: Skin>(
     let guards = Newton::guards(system, state);
     let contacts = system.contacts();
     let vanished = (0..guards.len())
-        .filter(|constraint| {
-            let contact = |constraint: usize| system.contacts().contact_of(constraint).0;
+        .filter(|&constraint| {
+            let (contact, _) = contacts.contact_of(constraint);
             // A change of one force may make another force of the same contact vanish.
-            changes.iter().any(|change| contact(change.constraint) == contact(*constraint))
+            changes.iter().any(|change| contacts.contact_of(change.constraint).0 == contact)
         })
         .filter(|&c| guards[c].abs() < VANISHED);
     // A slip distance that starts at the event has an origin that moves with the event.

@@ -14,13 +14,12 @@ use crate::samples::{LAWS, forty, with_law};
 const AT: [f64; 12] = [1.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0, 175.0, 180.0];
 
 fn compare(design: &Design, law: Law) -> usize {
-    let with = |method| {
+    let [cell, chain] = [Method::UnitCell, Method::Chain].map(|method| {
         let gaps = Some(whole_gaps(&design.row().unwrap(), &FlexureParameters::default()));
         let parameters = FlexureParameters { method, gaps, ..FlexureParameters::default() };
         let shots = snapshots(design, &with_law(law), &parameters, &AT).unwrap();
         shots.into_iter().map(|shot| shot.expect("reached")).collect::<Vec<StripSnapshot>>()
-    };
-    let [cell, chain] = [with(Method::UnitCell), with(Method::Chain)];
+    });
     for (cell, chain) in cell.iter().zip(&chain) {
         assert_relative_eq!(cell.curvature, chain.curvature, max_relative = 1e-11);
         assert_relative_eq!(cell.moment, chain.moment, max_relative = 1e-8);
@@ -42,14 +41,13 @@ fn chain_and_unit_cell_have_equal_moments() {
 #[test]
 fn chain_and_unit_cell_have_equal_measures() {
     for design in forty().iter().step_by(5) {
-        let with = |method| {
+        let [cell, chain] = [Method::UnitCell, Method::Chain].map(|method| {
             let gaps = Some(whole_gaps(&design.row().unwrap(), &FlexureParameters::default()));
             let parameters = FlexureParameters { method, gaps, ..FlexureParameters::default() };
             let flexure = solve(design, &Common::default(), &parameters).unwrap();
             assert_eq!(flexure.status, Status::Complete);
             flexure.measures
-        };
-        let [cell, chain] = [with(Method::UnitCell), with(Method::Chain)];
+        });
         assert_eq!((cell.contact, cell.gaps), (chain.contact, chain.gaps));
         for (cell, chain) in [
             (cell.initial_compliance, chain.initial_compliance),

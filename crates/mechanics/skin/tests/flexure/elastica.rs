@@ -25,18 +25,15 @@ fn references() -> Vec<Reference> {
 
 fn reference(line: &str) -> Reference {
     let cells: Vec<&str> = line.split(',').collect();
-    let number = |k: usize| cells[k].parse::<f64>().unwrap();
     let base = if cells[0] == "L" { Base::L } else { Base::TwoL };
-    let design =
-        Design { gap: number(1), length: number(2), slant_deg: number(3), base, width: 1.0 };
-    Reference {
-        design,
-        gaps: number(4),
-        compliance: number(5),
-        end_moment: number(6),
-        first_contact_curvature: number(7),
-        max_strain: number(8),
-    }
+    let numbers: Vec<f64> = cells[1..9].iter().map(|cell| cell.parse().unwrap()).collect();
+    let [gap, length, slant_deg, gaps, compliance, end_moment, first_contact_curvature, max_strain] =
+        numbers[..]
+    else {
+        panic!("{line}")
+    };
+    let design = Design { gap, length, slant_deg, base, width: 1.0 };
+    Reference { design, gaps, compliance, end_moment, first_contact_curvature, max_strain }
 }
 
 impl Reference {
@@ -58,13 +55,14 @@ fn seventy_designs_match_the_elastica() {
         let ours = reference.measures(MembraneMesh::Auto);
         let error = ours.error.unwrap();
         assert!(error <= 1e-4, "{:?}: {error:e}", reference.design);
-        let close = |ours: Option<f64>, theirs: f64, tolerance: f64| {
+        for (ours, theirs, tolerance) in [
+            (ours.compliance, reference.compliance, 1e-5),
+            (ours.max_moment, reference.end_moment, 1e-5),
+            (ours.first_contact_curvature, reference.first_contact_curvature, 1e-8),
+            (ours.membrane_strain_max, reference.max_strain, 1e-4),
+        ] {
             assert_relative_eq!(ours.unwrap(), theirs, max_relative = tolerance);
-        };
-        close(ours.compliance, reference.compliance, 1e-5);
-        close(ours.max_moment, reference.end_moment, 1e-5);
-        close(ours.first_contact_curvature, reference.first_contact_curvature, 1e-8);
-        close(ours.membrane_strain_max, reference.max_strain, 1e-4);
+        }
     });
 }
 
@@ -72,11 +70,10 @@ fn seventy_designs_match_the_elastica() {
 #[test]
 fn elements_converge_quadratically() {
     for reference in references().iter().step_by(7) {
-        let error = |elements: usize| {
+        let [coarse, fine] = [32, 64].map(|elements| {
             let ours = reference.measures(MembraneMesh::Elements(elements));
             ours.max_moment.unwrap() / reference.end_moment - 1.0
-        };
-        let [coarse, fine] = [error(32), error(64)];
+        });
         let order = (coarse / fine).log2();
         assert!((order - 2.0).abs() < 0.1, "{:?}: order {order}", reference.design);
     }

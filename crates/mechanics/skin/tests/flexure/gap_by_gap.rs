@@ -38,7 +38,7 @@ impl Uneven {
 
 /// Computes the largest relative difference of any measure but the dissipation.
 fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
-    let values = |bent: &BentSample| {
+    let [ours, theirs] = [gaps, chain].map(|bent| {
         let m = bent.measures;
         let last_closing = m.first_contact_curvature.zip(bent.closing_range);
         [
@@ -51,8 +51,8 @@ fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
             m.membrane_strain_max,
             m.locking_curvature,
         ]
-    };
-    let differences = values(gaps).into_iter().zip(values(chain)).map(|(ours, theirs)| {
+    });
+    let differences = ours.into_iter().zip(theirs).map(|(ours, theirs)| {
         assert_eq!(ours.is_some(), theirs.is_some(), "{gaps:?} {chain:?}");
         ours.zip(theirs)
             .map_or(0.0, |(ours, theirs)| (ours - theirs).abs() / theirs.abs().max(1e-9))
@@ -65,11 +65,10 @@ fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
 fn gap_by_gap_matches_the_chain() {
     let slanted = slanted();
     let Uneven { design, parameters, .. } = slanted;
-    let scattered = |gap_cv, slant_sd_deg| Imperfection { gap_cv, slant_sd_deg };
     let steep = Design { gap: 0.1, length: 0.1, slant_deg: 75.0, ..design };
     let cases = [
-        Uneven { imperfection: scattered(0.2, 0.0), ..slanted },
-        Uneven { imperfection: scattered(0.0, 0.5), ..slanted },
+        Uneven { imperfection: Imperfection { gap_cv: 0.2, slant_sd_deg: 0.0 }, ..slanted },
+        Uneven { imperfection: Imperfection { gap_cv: 0.0, slant_sd_deg: 0.5 }, ..slanted },
         // All gaps close at the same moment.
         Uneven { design: Design { slant_deg: 0.0, ..design }, ..slanted },
         // Corners pass each other.

@@ -14,19 +14,13 @@ fn steps_ten_times_smaller_give_the_same_compliance() {
     let fine = finer(coarse);
     for law in LAWS {
         forty().par_iter().for_each(|design| {
-            let with = |solver| {
-                solve(
-                    design,
-                    &Common { law, solver, ..Common::default() },
-                    &FlexureParameters::default(),
-                )
-                .unwrap()
-            };
-            let [ours, theirs] = [with(coarse), with(fine)];
+            let [ours, theirs] = [coarse, fine].map(|solver| {
+                let common = Common { law, solver, ..Common::default() };
+                solve(design, &common, &FlexureParameters::default()).unwrap()
+            });
             assert!(theirs.path.len() > 3 * ours.path.len());
-            let compliance =
-                |flexure: &skin::flexure::Flexure| flexure.measures.compliance.unwrap();
-            assert_relative_eq!(compliance(&ours), compliance(&theirs), max_relative = 1e-6);
+            let [ours, theirs] = [ours, theirs].map(|flexure| flexure.measures.compliance.unwrap());
+            assert_relative_eq!(ours, theirs, max_relative = 1e-6);
         });
     }
 }
@@ -38,15 +32,13 @@ fn a_tolerance_at_round_off_gives_the_same_compliance() {
     let tight = Settings { tolerance: 1e-12, ..loose };
     for law in LAWS {
         forty().par_iter().for_each(|design| {
-            let compliance = |solver| {
-                let parameters = FlexureParameters::default();
-                let flexure =
-                    solve(design, &Common { law, solver, ..Common::default() }, &parameters)
-                        .unwrap();
+            let [loose, tight] = [loose, tight].map(|solver| {
+                let common = Common { law, solver, ..Common::default() };
+                let flexure = solve(design, &common, &FlexureParameters::default()).unwrap();
                 assert_eq!(flexure.status, Status::Complete, "{design:?} {law:?}");
                 flexure.measures.compliance.unwrap()
-            };
-            assert_relative_eq!(compliance(loose), compliance(tight), max_relative = 1e-8);
+            });
+            assert_relative_eq!(loose, tight, max_relative = 1e-8);
         });
     }
 }

@@ -94,15 +94,13 @@ fn a_vanishing_curvature_converges_to_the_flat_row() {
         (design(0.3, 0.7, 30.0), guided, None),
         (design(0.2, 0.5, 45.0), guided, Some(0.2)),
     ] {
-        let at = |curvature| {
+        let [flat, convex, concave, almost_flat] = [0.0, 1e-6, -1e-6, 1e-9].map(|curvature| {
             let position = PunctureParameters { load_position: 0.9, ..on_body(curvature) };
             critical_force(&design, &PunctureParameters { needle, needle_radius, ..position })
-        };
-        let flat = at(0.0);
-        for curvature in [1e-6, -1e-6] {
-            assert_relative_eq!(at(curvature), flat, max_relative = 1e-3);
-        }
-        assert_relative_eq!(at(1e-9), flat, max_relative = 1e-6);
+        });
+        assert_relative_eq!(convex, flat, max_relative = 1e-3);
+        assert_relative_eq!(concave, flat, max_relative = 1e-3);
+        assert_relative_eq!(almost_flat, flat, max_relative = 1e-6);
     }
 }
 
@@ -268,25 +266,22 @@ fn derivatives_by_curvature_agree_with_differences() {
         (design(0.3, 0.7, 30.0), -0.02, Needle::Guided { friction: 0.3 }, None),
         (design(0.2, 0.5, 45.0), 0.03, Needle::Guided { friction: 0.2 }, Some(0.2)),
     ] {
-        let input = |curvature| {
+        let (step, by) = (2e-6, 1e-5);
+        let [input, below, above, low, high] = [0.0, -step, step, -by, by].map(|by| {
             let parameters = PunctureParameters {
                 needle,
                 needle_radius,
                 load_position: 0.9,
-                ..on_body(curvature)
+                ..on_body(curvature + by)
             };
             let footprint = design.footprint(parameters.poisson_ratio).unwrap();
             let stiffness = (&substrate::calibrate(&footprint).unwrap()).into();
             PunctureInput { design, stiffness, common: Common::default(), parameters, odd: None }
-        };
-        let step = 2e-6;
-        let neighbours =
-            Neighbours { below: input(curvature - step), above: input(curvature + step), step };
-        let (_, derivatives) = puncture::differentiate(&input(curvature), &[neighbours]).unwrap();
-        let by = 1e-5;
-        let [below, above] =
-            [-by, by].map(|by| critical_force(&design, &input(curvature + by).parameters));
-        let difference = (above - below) / (2.0 * by);
+        });
+        let neighbours = Neighbours { below, above, step };
+        let (_, derivatives) = puncture::differentiate(&input, &[neighbours]).unwrap();
+        let [low, high] = [low, high].map(|input| critical_force(&design, &input.parameters));
+        let difference = (high - low) / (2.0 * by);
         let of_force = derivatives.iter().find(|of| of.measure == "critical_force").unwrap();
         let Some(derivative) = of_force.left.filter(|_| of_force.kink.is_none()) else { continue };
         assert_relative_eq!(derivative, difference, max_relative = 1e-5);

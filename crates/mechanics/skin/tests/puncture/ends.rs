@@ -140,13 +140,14 @@ fn no_path_returns_to_rest() {
         (NeoHookean, 0.6, 0.1),
         (NeoHookean, 0.7, 0.2),
     ];
-    let named = came_back.map(|(law, gap, length)| (law, design(gap, length, 75.0, Base::L)));
-    let study = || BASES.map(reference_study).concat().into_iter();
-    let both_laws = [Linear, NeoHookean].into_iter();
     let designs: Vec<_> = if long_campaigns() {
-        both_laws.flat_map(|law| study().map(move |design| (law, design))).collect()
+        let study = BASES.map(reference_study).concat();
+        [Linear, NeoHookean]
+            .into_iter()
+            .flat_map(|law| study.iter().map(move |design| (law, *design)))
+            .collect()
     } else {
-        named.to_vec()
+        came_back.map(|(law, gap, length)| (law, design(gap, length, 75.0, Base::L))).to_vec()
     };
     let known = Calibrations::default();
     designs.par_iter().for_each(|&(substrate_law, design)| {
@@ -165,8 +166,8 @@ fn no_path_returns_to_rest() {
 #[test]
 fn random_designs_never_have_a_negative_load() {
     let designs = random(if long_campaigns() { 2000 } else { 200 }, 7);
-    let tilt = |k: usize| 10.0 + 5.0 * (k % 8) as f64;
-    let designs: Vec<_> = designs.into_iter().enumerate().map(|(k, d)| (d, tilt(k))).collect();
+    let tilts = (0..8).map(|k| 10.0 + 5.0 * f64::from(k)).cycle();
+    let designs: Vec<_> = designs.into_iter().zip(tilts).collect();
     check(&designs, &Calibrations::default());
 }
 
@@ -211,10 +212,10 @@ fn a_row_snaps_where_a_corner_passes_a_corner() {
     assert_eq!([measures.stable_under_load, measures.stable_under_depth], [Some(true); 2]);
     // The row is unstable in all controls on the reversed part, and stable elsewhere.
     let back = behind.take_while(|pair| pair[1].force < pair[0].force).count();
-    let unstable = |count| Instability { load: count, depth: count, tilt: count };
     for (k, instability) in puncture.instability.iter().enumerate() {
         let count = usize::from((at..at + back).contains(&k));
-        assert_eq!(*instability, unstable(count), "point {k}, snap at {at}, {back} back");
+        let expected = Instability { load: count, depth: count, tilt: count };
+        assert_eq!(*instability, expected, "point {k}, snap at {at}, {back} back");
     }
 }
 

@@ -85,13 +85,15 @@ impl Pair {
         // The right edge of the left scale faces right, the left edge of the right scale faces
         // left.
         let (right, left) = (-quarter(up), quarter(up));
-        let touch = |corner, edge, normal| Touch { corner, edge, normal, tangent: up };
-        let touches = vec![
-            touch((0, top[1]), (1, bottom[0]), left),
-            touch((1, top[0]), (0, bottom[1]), right),
-            touch((1, bottom[0]), (0, bottom[1]), right),
-            touch((0, bottom[1]), (1, bottom[0]), left),
+        let touches = [
+            ((0, top[1]), (1, bottom[0]), left),
+            ((1, top[0]), (0, bottom[1]), right),
+            ((1, bottom[0]), (0, bottom[1]), right),
+            ((0, bottom[1]), (1, bottom[0]), left),
         ];
+        let touches = touches
+            .map(|(corner, edge, normal)| Touch { corner, edge, normal, tangent: up })
+            .into();
         let modulus =
             parameters.contact_modulus_over_substrate * (1.0 - parameters.poisson_ratio.powi(2));
         let law =
@@ -175,12 +177,12 @@ impl Pair {
             }
             let columns: Vec<_> = (0..z.len())
                 .map(|k| {
-                    let at = |by: f64| {
+                    let [low, high] = [-1e-6, 1e-6].map(|by| {
                         let mut moved = z.clone();
                         moved[k] += by;
                         self.residual(&moved, tilt, stands, anchors)
-                    };
-                    (at(1e-6) - at(-1e-6)) / 2e-6
+                    });
+                    (high - low) / 2e-6
                 })
                 .collect();
             z -= DMatrix::from_columns(&columns).lu().solve(&r)?;
@@ -219,19 +221,14 @@ impl Pair {
         for step in 1..=steps {
             let tilt = end * step as f64 / steps as f64;
             let anchors: Vec<_> = (0..count).map(|k| self.way(&z, k)).collect();
-            let attempt = |stands: &[Stand]| {
-                let to = self.solve(&z, tilt, stands, &anchors)?;
-                self.holds(&z, &to, stands).then_some(to)
-            };
-            let valid = (0..STANDS.len().pow(count as u32)).filter_map(|number| {
-                let digit = |k: usize| number / STANDS.len().pow(k as u32) % STANDS.len();
-                let pattern: Vec<_> = (0..count).map(|k| STANDS[digit(k)]).collect();
-                Some((attempt(&pattern)?, pattern))
+            let patterns = (0..STANDS.len().pow(count as u32)).map(|number| {
+                let digits = (0..count).map(|k| number / STANDS.len().pow(k as u32) % STANDS.len());
+                digits.map(|digit| STANDS[digit]).collect()
             });
-            let found = match attempt(&stands) {
-                Some(to) => Some((to, stands.clone())),
-                None => valid.into_iter().next(),
-            };
+            let found = std::iter::once(stands.clone()).chain(patterns).find_map(|pattern| {
+                let to = self.solve(&z, tilt, &pattern, &anchors)?;
+                self.holds(&z, &to, &pattern).then_some((to, pattern))
+            });
             let (to, pattern) = found.unwrap_or_else(|| panic!("no pattern at {tilt}: {stands:?}"));
             if pattern != stands {
                 seen.push(pattern.clone());

@@ -8,7 +8,7 @@ use skin::{Base, Common, Design};
 use substrate::{Calibrations, SubstrateLaw};
 
 use crate::complete;
-use crate::samples::{design, solve_as};
+use crate::samples::{design, solve_as, solve_with};
 
 /// Modulus of the polyurethane of the reference study, `MPa`.
 const SUBSTRATE_MPA: f64 = 0.31;
@@ -50,13 +50,10 @@ fn strong_designs_of_the_reference_study_would_break_or_bend() {
 #[test]
 fn the_pressure_at_a_force_belongs_to_the_equilibrium_with_that_force() {
     let known = Calibrations::default();
-    let solved = |design: &Design, force: f64, scales| {
-        let parameters =
-            PunctureParameters { scales, force: Some(force), ..parameters(Strengths::default()) };
-        solve_as(&known, design, &Common::default(), &parameters)
-    };
+    let unloaded = parameters(Strengths::default());
     let isolated = design(100.0, 0.5, 0.0, Base::L);
-    let puncture = solved(&isolated, 0.01, RowLength::Scales(1));
+    let single = PunctureParameters { scales: RowLength::Scales(1), force: Some(0.01), ..unloaded };
+    let puncture = solve_as(&known, &isolated, &Common::default(), &single);
     let tilts = puncture.path.windows(2).find(|pair| pair[1].force >= 0.01).expect("reached");
     // `F` over `E_s t²` on a base of area 0.5; the tilt lies between the tilts of two points.
     let pressures = [tilts[0].tilt_deg, tilts[1].tilt_deg]
@@ -65,15 +62,16 @@ fn the_pressure_at_a_force_belongs_to_the_equilibrium_with_that_force() {
     assert!(pressures[1] <= pressure && pressure <= pressures[0], "{pressure} {pressures:?}");
 
     let slanted = design(0.2, 0.5, 60.0, Base::L);
-    let whole = complete(&solved(&slanted, 1e-3, RowLength::Auto));
+    let whole = complete(&solve_with(&known, &slanted, &unloaded));
     let (last, largest) =
         (whole.critical_force.expect("a force"), whole.failure.tissue_pressure.expect("pressure"));
-    let almost = complete(&solved(&slanted, last * (1.0 - 1e-9), RowLength::Auto));
-    let almost = almost.tissue_pressure_at_force.expect("reached");
-    assert_relative_eq!(almost, largest, max_relative = 1e-7);
-    assert!(whole.tissue_pressure_at_force.expect("reached") < 0.1 * largest);
-    let beyond = complete(&solved(&slanted, 1.001 * last, RowLength::Auto));
-    assert_eq!(beyond.tissue_pressure_at_force, None);
+    let [low, almost, beyond] = [1e-3, last * (1.0 - 1e-9), 1.001 * last].map(|force| {
+        let parameters = PunctureParameters { force: Some(force), ..unloaded };
+        complete(&solve_with(&known, &slanted, &parameters)).tissue_pressure_at_force
+    });
+    assert_relative_eq!(almost.expect("reached"), largest, max_relative = 1e-7);
+    assert!(low.expect("reached") < 0.1 * largest);
+    assert_eq!(beyond, None);
 }
 
 /// An isolated scale: every value follows from the load and its arm.

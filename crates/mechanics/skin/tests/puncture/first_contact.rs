@@ -17,14 +17,12 @@ const SCALES: usize = 41;
 fn before_contact(design: &Design, springs: &Springs, psi: f64) -> [f64; 2] {
     let scale = *design.row().unwrap().scale();
     let a = scale.half_base();
-    let green = |k: usize, unit: f64| {
+    let [normal, rotation] = [(1, a), (2, a.powi(3))].map(|(k, unit)| {
         linear_chain::compliance(SCALES, unit * springs.direct[k], unit * springs.coupling[k])
-    };
-    let rotation = green(2, a.powi(3));
+    });
     let arm = [a + scale.shift(), 1.0];
     let lever = arm[0] * psi.cos() + arm[1] * psi.sin();
     let force = psi / (rotation.middle * lever);
-    let normal = green(1, a);
     let (y, y_next) = (-force * normal.middle, -force * normal.neighbour);
     let psi_next = psi * rotation.neighbour / rotation.middle;
     let (left, right) = (Pose::new(0.0, y, -psi), Pose::new(0.0, y_next, -psi_next));

@@ -29,12 +29,12 @@ fn automatic() -> PunctureParameters {
 /// Computes the stretch of every gap at the path end from the base corners.
 fn stretches(design: &Design, puncture: &Puncture) -> Vec<f64> {
     let (a, pitch) = (design.half_base(), 2.0 * design.half_base() + design.gap);
-    let width = |left: &skin::puncture::ScaleState, right: &skin::puncture::ScaleState| {
-        let corner = |turned: f64| a * turned.to_radians().cos();
-        let right_end = left.displacement[0] + corner(left.rotation_deg);
-        pitch + right.displacement[0] - corner(right.rotation_deg) - right_end
-    };
-    puncture.scales.windows(2).map(|pair| width(&pair[0], &pair[1]) / design.gap).collect()
+    let widths = puncture.scales.windows(2).map(|pair| {
+        let corners = [0, 1].map(|k| a * pair[k].rotation_deg.to_radians().cos());
+        let right_end = pair[0].displacement[0] + corners[0];
+        pitch + pair[1].displacement[0] - corners[1] - right_end
+    });
+    widths.map(|width| width / design.gap).collect()
 }
 
 #[test]
@@ -123,15 +123,10 @@ fn folds_do_not_depend_on_the_step_size() {
     let (known, coarse) = (Calibrations::default(), Settings::default());
     for design in folded() {
         for law in LAWS {
-            let with = |solver| {
-                solve_as(
-                    &known,
-                    &design,
-                    &Common { law, solver, ..Common::default() },
-                    &automatic(),
-                )
-            };
-            let [ours, theirs] = [with(coarse), with(finer(coarse))].map(|solved| solved.folds);
+            let [ours, theirs] = [coarse, finer(coarse)].map(|solver| {
+                let common = Common { law, solver, ..Common::default() };
+                solve_as(&known, &design, &common, &automatic()).folds
+            });
             assert_eq!(ours.len(), theirs.len(), "{design:?}");
             for (ours, theirs) in ours.iter().zip(&theirs) {
                 assert_eq!((ours.left_scale, ours.folds), (theirs.left_scale, theirs.folds));

@@ -24,15 +24,16 @@ fn solve(design: &Design, friction: f64, parameters: &PunctureParameters) -> Pun
 /// The programs use penalty springs and return mapping.
 #[test]
 fn forces_and_penetration_match_independent_programs() {
-    let row = |slant_deg: f64, friction: f64| {
-        let measures =
-            complete(&solve(&design(0.1, 1.0, slant_deg, Base::L), friction, &on_row(41)));
-        (measures.critical_force.unwrap(), measures.penetration.unwrap())
-    };
-    assert_relative_eq!(row(45.0, 0.0).0, 0.4163, max_relative = 2e-4);
-    assert_relative_eq!(row(45.0, 0.1).0, 0.4514, max_relative = 2e-4);
-    assert_relative_eq!(row(60.0, 0.0).1, 0.426, max_relative = 2e-3);
-    assert_relative_eq!(row(60.0, 0.1).1, 0.475, max_relative = 2e-3);
+    let [steep, steepest] = [45.0, 60.0].map(|slant_deg| {
+        let design = design(0.1, 1.0, slant_deg, Base::L);
+        [0.0, 0.1].map(|friction| complete(&solve(&design, friction, &on_row(41))))
+    });
+    for (measures, force) in steep.iter().zip([0.4163, 0.4514]) {
+        assert_relative_eq!(measures.critical_force.unwrap(), force, max_relative = 2e-4);
+    }
+    for (measures, penetration) in steepest.iter().zip([0.426, 0.475]) {
+        assert_relative_eq!(measures.penetration.unwrap(), penetration, max_relative = 2e-3);
+    }
 }
 
 #[test]
@@ -53,11 +54,11 @@ fn the_path_does_not_depend_on_the_step_size() {
     {
         let design = design(gap, length, slant_deg, Base::L);
         let known = Calibrations::default();
-        let with = |solver| {
+        let settings = [Settings::default(), finer(Settings::default())];
+        let [coarse, fine] = settings.map(|solver| {
             let common = Common { solver, ..with_friction(friction) };
             complete(&solve_as(&known, &design, &common, &on_row(41)))
-        };
-        let (coarse, fine) = (with(Settings::default()), with(finer(Settings::default())));
+        });
         assert_relative_eq!(
             coarse.critical_force.unwrap(),
             fine.critical_force.unwrap(),
@@ -158,13 +159,10 @@ fn incomplete(
     parameters: &PunctureParameters,
 ) -> Vec<(Design, Status)> {
     let known = Calibrations::default();
-    let status = |design: Design| {
-        let springs = known.get(&design.footprint(0.5).unwrap()).unwrap();
-        let puncture =
-            puncture::solve(&design, &springs, &with_friction(friction), parameters).unwrap();
-        (design, puncture.status)
-    };
-    designs.into_iter().map(status).filter(|(_, status)| *status != Status::Complete).collect()
+    let statuses = designs.into_iter().map(|design| {
+        (design, solve_as(&known, &design, &with_friction(friction), parameters).status)
+    });
+    statuses.filter(|(_, status)| *status != Status::Complete).collect()
 }
 
 #[test]
@@ -186,8 +184,11 @@ fn the_reference_study_ends_mechanically_under_a_needle_with_friction() {
             let every = if long_campaigns() { 1 } else { 24 };
             let designs = reference_study(base).into_iter().skip(7).step_by(every);
             let failed = incomplete(designs, friction, &guided(0.3));
-            let is_numeric = |status: &Status| matches!(status, Status::Stopped(stop) if *stop != Termination::Jumps);
-            assert!(!failed.iter().any(|(_, status)| is_numeric(status)), "{failed:?}");
+            for (_, status) in &failed {
+                // Any other early end would be numerical.
+                let is_jump = *status == Status::Stopped(Termination::Jumps);
+                assert!(is_jump || !matches!(status, Status::Stopped(_)), "{failed:?}");
+            }
             assert!(failed.len() <= 4, "{failed:?}");
         }
     }
@@ -226,14 +227,14 @@ fn unloading_closes_the_energy_balance() {
             (Status::Complete, Termination::Unloaded),
             "{design:?}"
         );
-        let work = |path: &[puncture::PuncturePoint]| -> f64 {
-            let steps = path.windows(2).map(|pair| {
-                let mean = 0.5 * (pair[0].force + pair[1].force) * length;
-                mean * (pair[1].displacement - pair[0].displacement)
+        let [there, given_back] =
+            [(1.0, &puncture.path), (-1.0, &back.path)].map(|(sign, path)| {
+                let steps = path.windows(2).map(|pair| {
+                    let mean = 0.5 * (pair[0].force + pair[1].force) * length;
+                    mean * (pair[1].displacement - pair[0].displacement)
+                });
+                sign * steps.sum::<f64>()
             });
-            steps.sum()
-        };
-        let (there, given_back) = (work(&puncture.path), -work(&back.path));
         let loop_work = puncture.measures.remains.loop_work.unwrap();
         println!("{design:?} {there} {given_back} {loop_work} {:?}", puncture.measures.remains);
         assert!((there - given_back - loop_work).abs() < 1e-5 * there, "{design:?}");

@@ -94,22 +94,27 @@ fn an_inconclusive_position_hides_the_weakest_force() {
     assert_eq!(Weakest::from_positions(&places), Err(places[0].status));
     assert!(places[0].force.is_none() && places[1..].iter().all(|place| place.force.is_some()));
 
-    let place = |force, borne, status| LoadPosition {
+    let held = LoadPosition {
         position: 0.5,
-        status,
-        force,
+        status: Status::Complete,
+        force: Some(1.0),
         displacement: None,
         tilt_deg: None,
         critical_event: None,
-        borne,
+        borne: Some(2.0),
     };
-    let (held, unloaded) = (place(Some(1.0), Some(2.0), Status::Complete), Termination::Unloaded);
-    let stopped = |borne| place(None, borne, Status::Stopped(unloaded));
-    let found = |other| Weakest::from_positions(&[held, other]).map(|weakest| weakest.force);
-    assert_eq!(found(stopped(Some(0.9))), Err(Status::Stopped(unloaded)));
-    assert_eq!(found(stopped(Some(1.1))), Ok(Some(1.0)));
-    assert_eq!(found(place(None, None, Status::Untilted)), Ok(Some(1.0)));
-    assert_eq!(Weakest::from_positions(&[stopped(Some(1.0))]), Err(Status::Stopped(unloaded)));
+    let status = Status::Stopped(Termination::Unloaded);
+    for (borne, status, expected) in [
+        (Some(0.9), status, Err(status)),
+        (Some(1.1), status, Ok(Some(1.0))),
+        (None, Status::Untilted, Ok(Some(1.0))),
+    ] {
+        let other = LoadPosition { force: None, borne, status, ..held };
+        let weakest = Weakest::from_positions(&[held, other]);
+        assert_eq!(weakest.map(|weakest| weakest.force), expected);
+    }
+    let stopped = LoadPosition { force: None, borne: Some(1.0), status, ..held };
+    assert_eq!(Weakest::from_positions(&[stopped]), Err(status));
     assert_eq!(Weakest::from_positions(&[]), Ok(Weakest::default()));
 }
 

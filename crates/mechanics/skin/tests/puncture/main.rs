@@ -69,7 +69,7 @@ fn end(puncture: &Puncture) -> PuncturePoint {
 
 /// Compares all measures except the length of the row.
 fn assert_same_measures(ours: &PunctureMeasures, theirs: &PunctureMeasures, max_relative: f64) {
-    let numbers = |m: &PunctureMeasures| {
+    let [our_numbers, their_numbers] = [ours, theirs].map(|m| {
         [
             m.critical_force,
             m.peak_force,
@@ -83,8 +83,8 @@ fn assert_same_measures(ours: &PunctureMeasures, theirs: &PunctureMeasures, max_
             m.secant_stiffness,
             m.first_contact_displacement,
         ]
-    };
-    for (ours, theirs) in numbers(ours).into_iter().zip(numbers(theirs)) {
+    });
+    for (ours, theirs) in our_numbers.into_iter().zip(their_numbers) {
         assert_eq!(ours.is_some(), theirs.is_some());
         if let (Some(ours), Some(theirs)) = (ours, theirs) {
             assert_relative_eq!(ours, theirs, max_relative = max_relative);

@@ -1,14 +1,14 @@
 //! A substrate with a surface that cannot fold over.
 
 use approx::assert_relative_eq;
-use skin::puncture::{self, Puncture, PunctureMeasures, PunctureParameters, RowLength};
+use skin::puncture::{self, Puncture, PunctureParameters, RowLength};
 use skin::{Base, Common, Design, Status};
 use solver::Settings;
 use substrate::{Calibrations, Coupling, RowStiffness, SubstrateLaw};
 
 use crate::samples::{
     LAWS, blocks, design, domino, finer, long_campaigns, on_row, random, reference_study, settled,
-    solve_as, spread, with_law,
+    solve_as, solve_with, spread, with_law,
 };
 use crate::{assert_same_measures, complete};
 use rayon::prelude::*;
@@ -66,13 +66,11 @@ fn random_designs_are_solved() {
 /// Computes the relative difference of both laws' critical forces at a tilt.
 fn difference(design: &Design, tilt_deg: f64) -> f64 {
     let linear = PunctureParameters { critical_tilt_deg: tilt_deg, ..on_row(21) };
-    let force = |parameters: PunctureParameters| {
-        let known = Calibrations::default();
-        let puncture = solve_as(&known, design, &Common::default(), &parameters);
+    let [linear, neo_hookean] = [linear, neo_hookean(linear)].map(|parameters| {
+        let puncture = solve_with(&Calibrations::default(), design, &parameters);
         complete(&puncture).critical_force.unwrap()
-    };
-    let linear_force = force(linear);
-    (force(neo_hookean(linear)) - linear_force).abs() / linear_force
+    });
+    (neo_hookean - linear).abs() / linear
 }
 
 /// The relative difference decreases at least as fast as the load.
@@ -95,11 +93,11 @@ fn steps_ten_times_smaller_give_the_same_measures() {
     let (known, coarse) = (Calibrations::default(), Settings::default());
     for design in spread() {
         for law in LAWS {
-            let with = |solver| {
+            let [ours, theirs] = [coarse, finer(coarse)].map(|solver| {
                 let common = Common { law, solver, ..Common::default() };
                 complete(&solve_as(&known, &design, &common, &neo_hookean(on_row(41))))
-            };
-            assert_same_measures(&with(coarse), &with(finer(coarse)), 1e-6);
+            });
+            assert_same_measures(&ours, &theirs, 1e-6);
         }
     }
 }
@@ -112,16 +110,15 @@ fn automatic_rows_match_longer_rows() {
     let known = Calibrations::default();
     let narrow = design(0.1, 0.4, 75.0, Base::TwoL);
     for design in [blocks(), settled(), domino(), narrow, design(1.0, 0.025, 75.0, Base::TwoL)] {
-        let with = |parameters: PunctureParameters| {
-            complete(&solve_as(&known, &design, &Common::default(), &parameters))
-        };
-        let ours = with(automatic());
-        let theirs = with(neo_hookean(on_row(2 * ours.scales + 301)));
+        let ours = complete(&solve_with(&known, &design, &automatic()));
+        let longer = neo_hookean(on_row(2 * ours.scales + 301));
+        let theirs = complete(&solve_with(&known, &design, &longer));
         assert_same_measures(&ours, &theirs, 1e-9);
-        let stretch =
-            |m: &PunctureMeasures| [m.gap_stretch_min, m.gap_stretch_max].map(Option::unwrap);
-        for (ours, theirs) in stretch(&ours).into_iter().zip(stretch(&theirs)) {
-            assert_relative_eq!(ours, theirs, max_relative = 1e-7);
+        for (ours, theirs) in [
+            (ours.gap_stretch_min, theirs.gap_stretch_min),
+            (ours.gap_stretch_max, theirs.gap_stretch_max),
+        ] {
+            assert_relative_eq!(ours.unwrap(), theirs.unwrap(), max_relative = 1e-7);
         }
     }
 }

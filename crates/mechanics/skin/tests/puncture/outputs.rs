@@ -143,21 +143,20 @@ fn force_at_a_depth_matches_a_snapshot_there() {
     assert_eq!(end.force_at_depth, None);
     let deepest = end.critical_displacement.unwrap();
     for needle in [Needle::Free, Needle::Guided { friction: 0.3 }] {
-        let at = |depth| PunctureParameters { depth: Some(depth), needle, ..Default::default() };
         let depth = 0.4 * deepest;
+        let [shallow, deep] = [depth, 10.0].map(|depth| PunctureParameters {
+            depth: Some(depth),
+            needle,
+            ..Default::default()
+        });
         let springs = calibrate(&design.footprint(0.5).unwrap()).unwrap();
-        let snapshots = puncture::snapshots(
-            &design,
-            &springs,
-            &Common::default(),
-            &at(depth),
-            &[At::Displacement(depth)],
-        );
-        let snapshots = snapshots.unwrap();
+        let at = [At::Displacement(depth)];
+        let snapshots =
+            puncture::snapshots(&design, &springs, &Common::default(), &shallow, &at).unwrap();
         let there = snapshots.at[0].as_ref().unwrap();
         let measured = snapshots.puncture.measures.force_at_depth.unwrap();
         assert_relative_eq!(measured, there.force, max_relative = 1e-12);
-        let beyond = solve(&design, &at(10.0)).measures;
+        let beyond = solve(&design, &deep).measures;
         assert_eq!(beyond.force_at_depth, beyond.critical_force);
         assert!(measured < beyond.force_at_depth.unwrap());
     }

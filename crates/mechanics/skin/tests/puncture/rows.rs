@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use contact::Law;
 use skin::puncture::{self, PunctureParameters, RowLength};
-use skin::{Base, Common, Design, PathDetail};
+use skin::{Base, Common, PathDetail};
 use solver::Settings;
 use substrate::{Calibrations, Coupling, RowStiffness};
 
@@ -32,21 +32,18 @@ fn automatic_rows_match_longer_rows() {
 
 #[test]
 fn automatic_rows_grow_where_scales_touch() {
-    let row = |design: &Design| {
-        let puncture = solve(design, &automatic());
+    let [apart, domino] = [design(1.0, 0.5, 0.0, Base::L), domino()].map(|design| {
+        let puncture = solve(&design, &automatic());
         complete(&puncture);
         let [first, last] = [puncture.scales[0].scale, puncture.scales.last().unwrap().scale];
         assert_eq!(puncture.scales.len(), puncture.measures.scales);
         [-first, last]
-    };
+    });
     // Without contact the row keeps the length estimated from the coupling of the springs, and is
     // symmetric.
-    let [left, right] = row(&design(1.0, 0.5, 0.0, Base::L));
-    assert_eq!(left, right);
-    assert!(left < 30);
+    assert!(apart[0] == apart[1] && apart[0] < 30, "{apart:?}");
     // The domino effect runs to the right.
-    let [left, right] = row(&domino());
-    assert!(right >= 4 * left, "{left} {right}");
+    assert!(domino[1] >= 4 * domino[0], "{domino:?}");
 }
 
 /// The step to the critical tilt ends beyond it by round-off, and the contact there reaches more
@@ -108,9 +105,10 @@ fn ends_of_automatic_rows_are_contact_free() {
 /// On a short row its force therefore differs from the force on a long one.
 #[test]
 fn a_short_row_underestimates_the_force() {
-    let force = |scales| complete(&solve(&domino(), &on_row(scales))).critical_force.unwrap();
-    assert!(force(11) < 0.5 * force(201));
-    assert_relative_eq!(force(201), force(401), max_relative = 1e-9);
+    let [short, long, longer] = [11, 201, 401]
+        .map(|scales| complete(&solve(&domino(), &on_row(scales))).critical_force.unwrap());
+    assert!(short < 0.5 * long);
+    assert_relative_eq!(long, longer, max_relative = 1e-9);
 }
 
 /// These scales have a closed form, because only the substrate acts on them.
@@ -128,7 +126,6 @@ fn scales_out_of_reach_of_contact_are_in_equilibrium() {
             .collect();
         assert_eq!(row.len(), scales);
         assert_eq!(complete(&puncture).scales, scales);
-        let at = |i: usize, k: usize| row.get(i).map_or(0.0, |u| u[k]);
         // Only the substrate acts on scales before the first contact and behind the last.
         let touched: Vec<i64> = puncture.events.iter().filter_map(|e| e.left_scale).collect();
         let (first, last) = (touched.iter().min().unwrap(), touched.iter().max().unwrap() + 1);
@@ -139,8 +136,10 @@ fn scales_out_of_reach_of_contact_are_in_equilibrium() {
             }
             for k in 0..3 {
                 let (alpha, beta) = (stiffness.direct[k], -stiffness.neighbours[0].direct[k]);
-                let before = i.checked_sub(1).map_or(0.0, |i| at(i, k));
-                let force = alpha * at(i, k) - beta * (before + at(i + 1, k));
+                // No substrate force is exchanged beyond the ends of the row.
+                let beside = [i.checked_sub(1), Some(i + 1)].into_iter().flatten();
+                let beside: f64 = beside.filter_map(|i| row.get(i)).map(|u| u[k]).sum();
+                let force = alpha * row[i][k] - beta * beside;
                 assert!(force.abs() < 1e-13, "{scales} {i} {k} {force:e}");
             }
         }
@@ -153,11 +152,10 @@ fn endless_rows_with_far_coupling_match_long_rows() {
     for design in [blocks(), settled(), design(0.1, 1.0, 45.0, Base::L)] {
         let footprint = design.footprint(0.5).unwrap();
         let full = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
-        let on = |parameters: &PunctureParameters| {
-            skin::puncture::solve(&design, &full, &Common::default(), parameters).unwrap()
-        };
-        let ours = on(&automatic());
-        let theirs = on(&on_row(2 * ours.measures.scales + 201));
+        let common = Common::default();
+        let ours = skin::puncture::solve(&design, &full, &common, &automatic()).unwrap();
+        let longer = on_row(2 * ours.measures.scales + 201);
+        let theirs = skin::puncture::solve(&design, &full, &common, &longer).unwrap();
         assert_same_measures(&complete(&ours), &complete(&theirs), 1e-9);
     }
 }

@@ -13,17 +13,16 @@ fn steps_ten_times_smaller_give_the_same_measures() {
     let fine = finer(coarse);
     for design in spread() {
         for law in LAWS {
-            let with = |solver| {
+            let [ours, theirs] = [coarse, fine].map(|solver| {
                 solve_as(&known, &design, &Common { law, solver, ..Common::default() }, &on_row(41))
-            };
-            let [ours, theirs] = [with(coarse), with(fine)];
+            });
             assert!(theirs.path.len() >= ours.path.len() + 30);
             crate::assert_same_measures(&crate::complete(&ours), &crate::complete(&theirs), 1e-6);
-            let story = |puncture: &skin::puncture::Puncture| {
+            let [ours, theirs] = [&ours, &theirs].map(|puncture| {
                 let events = puncture.events.iter();
                 events.map(|e| (e.left_scale, e.corner_edge.name(), e.change)).collect::<Vec<_>>()
-            };
-            assert_eq!(story(&ours), story(&theirs), "{design:?}");
+            });
+            assert_eq!(ours, theirs, "{design:?}");
         }
     }
 }

@@ -28,12 +28,13 @@ fn intermediate_tilts_match_paths_that_end_there() {
                 continue;
             }
             let (ours, measures) = (ours.unwrap(), one.measures);
-            let close = |ours: f64, theirs: Option<f64>| {
+            for (ours, theirs) in [
+                (ours.force, measures.critical_force),
+                (ours.displacement, measures.critical_displacement),
+                (ours.penetration, measures.penetration),
+            ] {
                 assert_relative_eq!(ours, theirs.unwrap(), max_relative = 1e-9);
-            };
-            close(ours.force, measures.critical_force);
-            close(ours.displacement, measures.critical_displacement);
-            close(ours.penetration, measures.penetration);
+            }
             compared += 1;
         }
     }

@@ -25,21 +25,20 @@ struct Drawn {
 
 fn draw(seed: u64) -> Drawn {
     let mut random = SplitMix64(seed);
-    let mut even = |low: f64, high: f64| low + (high - low) * random.next();
-    let [gap, length, width] = [(); 3].map(|()| 10_f64.powf(even(-3.0, 3.0)));
-    let base = BASES[usize::from(even(0.0, 1.0) >= 0.5)];
-    let design = Design { gap, length, slant_deg: even(0.0, 89.9), base, width };
-    let law = Law { c1: 10_f64.powf(even(-3.0, 3.0)), c2: even(0.05, 1.5) };
+    let [gap, length, width] = [(); 3].map(|()| 10_f64.powf(random.between(-3.0, 3.0)));
+    let base = BASES[usize::from(random.next() >= 0.5)];
+    let design = Design { gap, length, slant_deg: random.between(0.0, 89.9), base, width };
+    let law = Law { c1: 10_f64.powf(random.between(-3.0, 3.0)), c2: random.between(0.05, 1.5) };
     let solver = Settings { max_points: 1000, ..Settings::default() };
     let common = Common { law, solver, ..Common::default() };
-    let is_guided = even(0.0, 1.0) >= 0.5;
-    let friction = 10_f64.powf(even(-3.0, 3.0));
-    let is_rubber = even(0.0, 1.0) >= 0.5;
+    let is_guided = random.next() >= 0.5;
+    let friction = 10_f64.powf(random.between(-3.0, 3.0));
+    let is_rubber = random.next() >= 0.5;
     let parameters = PunctureParameters {
-        poisson_ratio: even(0.0, 0.5),
-        contact_modulus_over_substrate: 10_f64.powf(even(0.0, 9.0)),
-        load_position: even(0.0, 1.0),
-        critical_tilt_deg: even(0.1, 89.9),
+        poisson_ratio: random.between(0.0, 0.5),
+        contact_modulus_over_substrate: 10_f64.powf(random.between(0.0, 9.0)),
+        load_position: random.next(),
+        critical_tilt_deg: random.between(0.1, 89.9),
         substrate_law: if is_rubber { SubstrateLaw::NeoHookean } else { SubstrateLaw::Linear },
         needle: if is_guided { Needle::Guided { friction } } else { Needle::Free },
         ..PunctureParameters::default()

@@ -99,14 +99,12 @@ pub fn forty() -> Vec<Design> {
 /// `d/t` from 0.05 to 2, `L/t` from 0.02 to 3, slants from 0° to 80°.
 pub fn random(count: usize, seed: u64) -> Vec<Design> {
     let mut random = SplitMix64(seed);
-    let mut draw = |low: f64, high: f64| low + (high - low) * random.next();
-    (0..count)
-        .map(|_| {
-            let (gap, length, slant) = (draw(0.05, 2.0), draw(0.02, 3.0), draw(0.0, 80.0));
-            let base = BASES[usize::from(draw(0.0, 1.0) >= 0.5)];
-            design(gap, length, slant, base)
-        })
-        .collect()
+    let designs = (0..count).map(|_| {
+        let [gap, length, slant] =
+            [(0.05, 2.0), (0.02, 3.0), (0.0, 80.0)].map(|(low, high)| random.between(low, high));
+        design(gap, length, slant, BASES[usize::from(random.next() >= 0.5)])
+    });
+    designs.collect()
 }
 
 /// Returns true if `SQUAMA_CAMPAIGNS=long` requests long campaigns.
@@ -127,6 +125,11 @@ impl SplitMix64 {
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Evenly distributed in `[low, high)`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
     }
 }
 

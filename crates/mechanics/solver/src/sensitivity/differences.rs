@@ -14,15 +14,14 @@ pub(super) fn turning<S: System>(
     direction: &[f64],
     step: f64,
 ) -> Vec<f64> {
-    let product = |side: usize| {
+    let [below, above] = [0, 1].map(|side| {
         let mut product = vec![0.0; direction.len()];
-        let mut add = |row: usize, column: usize, value: f64| {
+        sides[side].tangent(&states[side], &mut |row: usize, column: usize, value: f64| {
             product[row] += value * direction[column];
-        };
-        sides[side].tangent(&states[side], &mut add);
+        });
         product
-    };
-    let change = difference(product(0), product(1), step);
+    });
+    let change = difference(below, above, step);
     rates(newton, sides[0], &states[0], change)
 }
 

@@ -39,15 +39,8 @@ impl<M: Clone> AnchoredPoint<M> {
         let section = section(system, &self.direction);
         let origin = Condition::through(section, &self.state.z);
         let reach = reach(system, &self.state, &self.direction);
-        let at = |distance: f64| {
-            let mut state = self.state.moved(distance, &self.direction);
-            let condition = Condition { value: origin.value + distance, ..origin.clone() };
-            let mut newton = Newton::new(system);
-            let direction = newton.solve(system, &mut state, &condition, settings).ok()?;
-            let slope = slope_along(system, &mut newton, &state, &direction, f);
-            Some((distance, slope, Self { state, direction, anchor: PathAnchor::Still }))
-        };
-        let (mut last, mut here) = (at(0.0)?, at(SECANT * reach)?);
+        let mut last = self.with_slope(system, 0.0, &origin, f, settings)?;
+        let mut here = self.with_slope(system, SECANT * reach, &origin, f, settings)?;
         let value = f(system, &self.state, &self.direction);
         if last.1.abs().max(here.1.abs()) <= FLAT * value.abs() {
             // The function is constant along the path.
@@ -59,13 +52,30 @@ impl<M: Clone> AnchoredPoint<M> {
             if !step.is_finite() || step.abs() > FARTHEST {
                 return None;
             }
-            let next = at(here.0 + step)?;
+            let next = self.with_slope(system, here.0 + step, &origin, f, settings)?;
             last = std::mem::replace(&mut here, next);
             if step.abs() <= SETTLED * reach {
                 return Some(here.2.anchored(system));
             }
         }
         None
+    }
+
+    /// Solves for the point at a distance along the path, and returns it behind the slope of `f`.
+    fn with_slope<S: System<Mode = M>>(
+        &self,
+        system: &S,
+        distance: f64,
+        origin: &Condition,
+        f: &impl Fn(&S, &State<M>, &[f64]) -> f64,
+        settings: &Settings,
+    ) -> Option<(f64, f64, Self)> {
+        let mut state = self.state.moved(distance, &self.direction);
+        let condition = Condition { value: origin.value + distance, ..origin.clone() };
+        let mut newton = Newton::new(system);
+        let direction = newton.solve(system, &mut state, &condition, settings).ok()?;
+        let slope = slope_along(system, &mut newton, &state, &direction, f);
+        Some((distance, slope, Self { state, direction, anchor: PathAnchor::Still }))
     }
 
     /// Anchors the point to the unknown of the fastest constraint.
@@ -94,9 +104,9 @@ pub(crate) fn slope_along<S: System>(
     let step = ALONG * reach(system, state, direction);
     let states = [-step, step].map(|step| state.moved(step, direction));
     let turning = turning(newton, [system; 2], &states, direction, step);
-    let value =
-        |side: usize, step: f64| f(system, &states[side], &moved(direction, step, &turning));
-    (value(1, step) - value(0, -step)) / (2.0 * step)
+    let [below, above] = [(0, -step), (1, step)]
+        .map(|(side, step)| f(system, &states[side], &moved(direction, step, &turning)));
+    (above - below) / (2.0 * step)
 }
 
 /// Returns the active constraint with the largest relative rate along the path.
@@ -109,8 +119,8 @@ fn fastest<S: System>(
 ) -> Option<(usize, f64)> {
     let constraints = system.constraints().iter().zip(&state.active).enumerate();
     // A slip distance is counted from a point of this path that differs for another design.
-    let counts = |number: usize| !system.monotone().contains(&number);
-    let active = constraints.filter(|(number, (_, active))| **active && counts(*number));
+    let active =
+        constraints.filter(|(number, (_, active))| **active && !system.monotone().contains(number));
     let ways = active
         .map(|(constraint, (&index, _))| (constraint, (state.z[index] / direction[index]).abs()));
     ways.filter(|(_, way)| way.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))

@@ -27,8 +27,7 @@ fn at(matrix: &BandMatrix, i: usize, j: usize) -> f64 {
 
 /// Returns the product of a matrix and a vector.
 fn times(matrix: &BandMatrix, x: &[f64]) -> Vec<f64> {
-    let row = |i: usize| matrix.columns(i).map(|j| matrix.get(i, j) * x[j]).sum();
-    (0..matrix.size()).map(row).collect()
+    (0..matrix.size()).map(|i| matrix.columns(i).map(|j| matrix.get(i, j) * x[j]).sum()).collect()
 }
 
 /// Solves without some rows and columns by faer's dense LU.

@@ -41,12 +41,12 @@ impl Chain {
     /// Returns true if two unknowns may be coupled.
     fn couples(&self, i: usize, j: usize) -> bool {
         let [a, b] = [self.block(i), self.block(j)];
-        let inner_is_link = |inner: usize, outer_block: usize, inner_block: usize| {
-            self.is_link(inner)
-                && inner_block.abs_diff(outer_block) <= self.reach
-                && inner_block.abs_diff(self.root) < outer_block.abs_diff(self.root)
-        };
-        a == b || inner_is_link(i, b, a) || inner_is_link(j, a, b)
+        // The inner unknown must be a link.
+        let inner = if a.abs_diff(self.root) < b.abs_diff(self.root) { i } else { j };
+        a == b
+            || self.is_link(inner)
+                && a.abs_diff(b) <= self.reach
+                && a.abs_diff(self.root) != b.abs_diff(self.root)
     }
 }
 
@@ -118,8 +118,9 @@ proptest! {
     ) {
         let size = chain.size();
         let left_out: Vec<_> = (0..size).map(|i| !chain.is_link(i) && marks[i] == 0).collect();
-        let entry = |i: usize, j: usize| if chain.couples(i, j) { entries[72 * i + j] } else { 0.0 };
-        let dense = Mat::from_fn(size, size, entry);
+        let dense = Mat::from_fn(size, size, |i, j| {
+            if chain.couples(i, j) { entries[72 * i + j] } else { 0.0 }
+        });
         let (expected, pivots, determinant) = reference(&dense, &left_out, &rhs[..size]);
         prop_assume!(pivots > 1e-3);
         let mut solver = BlockElimination::default();
@@ -139,14 +140,12 @@ proptest! {
         chain in chains(), entries in prop::collection::vec(-1.0_f64..1.0, 72 * 72), which in 0_usize..72,
     ) {
         let size = chain.size();
-        let entry = |i: usize, j: usize| if i == j {
-            20.0 + entries[i]
-        } else if chain.couples(i, j) {
-            entries[72 * i + j]
-        } else {
-            0.0
-        };
-        let matrix = in_blocks(&chain, &Mat::from_fn(size, size, entry), &vec![false; size]);
+        let dense = Mat::from_fn(size, size, |i, j| match i == j {
+            true => 20.0 + entries[i],
+            false if chain.couples(i, j) => entries[72 * i + j],
+            false => 0.0,
+        });
+        let matrix = in_blocks(&chain, &dense, &vec![false; size]);
         let blocks = chain.blocks();
         let end = blocks.starts.get(chain.root + 1).copied().unwrap_or(size);
         let unknown = which % end;
@@ -169,11 +168,10 @@ proptest! {
     ) {
         let chain = Chain { extras: vec![[0, 0]; count], root: root % count, reach: 1 };
         let size = chain.size();
-        let entry = |i: usize, j: usize| {
+        let dense = Mat::from_fn(size, size, |i, j| {
             let value = if chain.couples(i, j) { entries[18 * i.min(j) + i.max(j)] } else { 0.0 };
             if i == j { shift + value } else { value }
-        };
-        let dense = Mat::from_fn(size, size, entry);
+        });
         let eigenvalues = dense.self_adjoint_eigenvalues(Side::Lower).unwrap();
         prop_assume!(eigenvalues.iter().all(|value| value.abs() > 1e-6));
         let negative = eigenvalues.iter().filter(|value| **value < 0.0).count();
@@ -200,7 +198,7 @@ impl ContactRow {
         contacts: &[usize],
         a: f64,
         compliance: f64,
-        number: &mut impl FnMut() -> f64,
+        numbers: &mut impl Iterator<Item = f64>,
     ) -> Self {
         let extras = (0..=contacts.len()).map(|i| match i.cmp(&root) {
             std::cmp::Ordering::Less => [0, contacts[i]],
@@ -209,6 +207,7 @@ impl ContactRow {
         });
         let chain = Chain { extras: extras.collect(), root, reach: 1 };
         let links = chain.blocks().links;
+        let mut number = || numbers.next().unwrap();
         let mut row = Self { dense: Mat::zeros(chain.size(), chain.size()), chain };
         for (i, &at) in links.iter().enumerate() {
             for (k, stiffness) in [2.7 * a, 3.4 * a, 2.5 * a.powi(3)].into_iter().enumerate() {
@@ -257,10 +256,9 @@ proptest! {
         numbers in prop::collection::vec(-1.0_f64..1.0, 200),
     ) {
         let mut numbers = numbers.into_iter().cycle();
-        let mut number = || numbers.next().unwrap();
-        let row = ContactRow::new(root, &contacts, 10_f64.powf(half_base), 10_f64.powf(compliance), &mut number);
+        let row = ContactRow::new(root, &contacts, 10_f64.powf(half_base), 10_f64.powf(compliance), &mut numbers);
         let size = row.chain.size();
-        let rhs: Vec<_> = (0..size).map(|_| number()).collect();
+        let rhs: Vec<_> = numbers.take(size).collect();
         let left_out = vec![false; size];
         let matrix = in_blocks(&row.chain, &row.dense, &left_out);
         let mut solver = BlockElimination::default();

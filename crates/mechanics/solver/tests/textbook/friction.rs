@@ -123,12 +123,12 @@ fn a_block_sticks_slips_sticks_and_slips_back() {
         let [slides, stops, back, _] = &changes[..] else { panic!("{changes:?}") };
         // The block slips from f = μ on, stops at the maximum push, and slips back from f = u₀ − μ
         // (1 + c u₀) on.
-        let place = |push: f64| 0.5 - 0.5 * (1.0 - push).sqrt();
-        assert_relative_eq!(slides.state.z[4], place(FRICTION), max_relative = 1e-10);
+        let [slide, slide_back] =
+            [FRICTION, TURNED - limit(TURNED)].map(|push| 0.5 - 0.5 * (1.0 - push).sqrt());
+        assert_relative_eq!(slides.state.z[4], slide, max_relative = 1e-10);
         assert_relative_eq!(stops.state.z[4], 0.5, max_relative = 1e-7);
         assert_relative_eq!(stops.state.z[0], TURNED, max_relative = 1e-12);
-        let push = TURNED - limit(TURNED);
-        assert_relative_eq!(back.state.z[4], 1.0 - place(push), max_relative = 1e-10);
+        assert_relative_eq!(back.state.z[4], 1.0 - slide_back, max_relative = 1e-10);
         assert_relative_eq!(points.last().unwrap().state.z[0], LEFT, max_relative = 1e-10);
     }
 }

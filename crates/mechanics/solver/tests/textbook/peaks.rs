@@ -20,13 +20,12 @@ fn largest<S: System>(
     largest_step: f64,
     f: impl Fn(&State<S::Mode>, &[f64]) -> f64,
 ) -> [f64; 2] {
-    let of_path = |_: &S, state: &State<S::Mode>, direction: &[f64]| f(state, direction);
     let rest = State::at_rest(&system);
     let mut path = Continuation::new(system, rest, steps(largest_step));
     let (mut peak, mut sampled) = (Peak::default(), f64::NEG_INFINITY);
     let mut from = None;
     loop {
-        peak.visit(&path, from.as_ref(), of_path);
+        peak.visit(&path, from.as_ref(), |_, state, direction| f(state, direction));
         from = Some(path.point_shared());
         let Equilibrium { state, arriving, leaving, .. } = path.point();
         sampled = sampled.max(f(state, arriving)).max(f(state, leaving));
@@ -34,7 +33,7 @@ fn largest<S: System>(
             break;
         }
     }
-    [sampled, peak.summit(&mut path, of_path).unwrap().value]
+    [sampled, peak.summit(&mut path, |_, state, direction| f(state, direction)).unwrap().value]
 }
 
 #[test]

@@ -17,8 +17,10 @@ pub struct Scaled<S> {
 impl<S: System> Scaled<S> {
     /// Factors of constraints must be positive.
     pub fn new(system: S, factors: Vec<f64>) -> Self {
-        let scaled = |c: &Control| Control { scale: c.scale * factors[c.index], ..*c };
-        let controls = system.controls().iter().map(scaled).collect();
+        let mut controls = system.controls().to_vec();
+        for control in &mut controls {
+            control.scale *= factors[control.index];
+        }
         Self { system, factors, controls }
     }
 

@@ -86,22 +86,17 @@ impl System for Wrong {
 
 #[test]
 fn a_wrong_derivative_is_reported() {
-    let found = |entry, slope, active| {
-        let wrong = Wrong { right: bump(), entry, slope };
-        let state = State { active: vec![active], ..state(&wrong, &[1.3, 0.4, 0.2]) };
-        check_tangent(&wrong, &state, 1e-8).err().map(|wrong| (wrong.row, wrong.column))
-    };
-    assert_eq!(found(None, 0.0, true), None);
-    for row in 0..2 {
-        for column in 0..3 {
-            assert_eq!(found(Some((row, column)), 0.0, true), Some((row, column)));
-        }
-    }
-    assert_eq!(found(None, 1e-6, true), Some((1, 0)));
+    let entries = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2)].map(Some);
+    let mut cases = entries.map(|entry| (entry, 0.0, true, entry)).to_vec();
+    cases.extend([(None, 0.0, true, None), (None, 1e-6, true, Some((1, 0)))]);
     // The solver uses only the slope of an inactive constraint, so errors in its row and column are
     // accepted.
-    assert_eq!(found(None, 1e-6, false), Some((1, 0)));
-    for entry in [(1, 0), (1, 2), (0, 1)] {
-        assert_eq!(found(Some(entry), 0.0, false), None);
+    cases.push((None, 1e-6, false, Some((1, 0))));
+    cases.extend([(1, 0), (1, 2), (0, 1)].map(|entry| (Some(entry), 0.0, false, None)));
+    for (entry, slope, active, expected) in cases {
+        let wrong = Wrong { right: bump(), entry, slope };
+        let state = State { active: vec![active], ..state(&wrong, &[1.3, 0.4, 0.2]) };
+        let found = check_tangent(&wrong, &state, 1e-8).err();
+        assert_eq!(found.map(|wrong| (wrong.row, wrong.column)), expected, "{entry:?} {slope}");
     }
 }

@@ -112,11 +112,11 @@ fn maxima_between_points() {
 /// Walls at one position close together, without a separate solve for each.
 #[test]
 fn coincident_walls_take_no_longer_than_one() {
-    let tangents = |count: usize| {
+    let [few, many] = [2, 20].map(|count| {
         let walls = Walls::new(vec![|u| [0.5 - u, -1.0]; count]);
         let counter = walls.tangents.clone();
         work(walls, steps(0.2));
         counter.load(Ordering::Relaxed)
-    };
-    assert_eq!(tangents(2), tangents(20));
+    });
+    assert_eq!(few, many);
 }

@@ -107,14 +107,16 @@ fn block(stiffness: &RowStiffness, farther: usize) -> Mat<f64> {
 
 /// Splits a reduction by scales from the end, and symmetrises it.
 fn parts(relief: &Mat<f64>, scales: usize) -> Vec<Relief> {
-    let entry = |i, j| f64::midpoint(relief[(i, j)], relief[(j, i)]);
-    let part = |force, displacement| {
+    let pairs = (0..scales).flat_map(|force| (0..scales).map(move |displaced| (force, displaced)));
+    let parts = pairs.map(|(force, displacement)| {
         let [row, column] = [force, displacement].map(|scale| 3 * (scales - 1 - scale));
-        let by = std::array::from_fn(|k| std::array::from_fn(|l| entry(row + k, column + l)));
+        let by = std::array::from_fn(|k| {
+            std::array::from_fn(|l| {
+                let (i, j) = (row + k, column + l);
+                f64::midpoint(relief[(i, j)], relief[(j, i)])
+            })
+        });
         Relief { force, displacement, by }
-    };
-    (0..scales)
-        .flat_map(|force| (0..scales).map(move |displaced| (force, displaced)))
-        .map(|(force, displaced)| part(force, displaced))
-        .collect()
+    });
+    parts.collect()
 }

@@ -101,19 +101,20 @@ fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
         matrix[(3 * i, 3 * i + 2)] = stiffness.roll;
         matrix[(3 * i + 2, 3 * i)] = stiffness.roll;
         for (j, neighbour) in (i + 1..scales).zip(&stiffness.neighbours) {
-            let mut couple = |force: usize, displaced: usize, value: f64| {
+            for (force, displaced, value) in [
+                (3 * i, 3 * j, neighbour.direct[0]),
+                (3 * i + 1, 3 * j + 1, neighbour.direct[1]),
+                (3 * i + 2, 3 * j + 2, neighbour.direct[2]),
+                (3 * j + 1, 3 * i + 2, neighbour.cross),
+                (3 * i + 1, 3 * j + 2, -neighbour.cross),
+                (3 * j + 1, 3 * i, neighbour.lift),
+                (3 * j, 3 * i + 1, -neighbour.lift),
+                (3 * j, 3 * i + 2, neighbour.roll),
+                (3 * j + 2, 3 * i, neighbour.roll),
+            ] {
                 matrix[(force, displaced)] = value;
                 matrix[(displaced, force)] = value;
-            };
-            for k in 0..3 {
-                couple(3 * i + k, 3 * j + k, neighbour.direct[k]);
             }
-            couple(3 * j + 1, 3 * i + 2, neighbour.cross);
-            couple(3 * i + 1, 3 * j + 2, -neighbour.cross);
-            couple(3 * j + 1, 3 * i, neighbour.lift);
-            couple(3 * j, 3 * i + 1, -neighbour.lift);
-            couple(3 * j, 3 * i + 2, neighbour.roll);
-            couple(3 * j + 2, 3 * i, neighbour.roll);
         }
     }
     matrix
@@ -124,16 +125,14 @@ fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
 /// Compared with the static condensation of 400 scales.
 #[test]
 fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
-    let footprint = |gap, width| Footprint::new(gap, width, 0.5).unwrap();
     let rows = [([0.2, 2.0], 8), ([0.0125, 0.25], 3), ([8.0, 80.0], 1)];
-    let solved = |([gap, width], neighbours): ([f64; 2], usize)| {
-        RowStiffness::solve(&footprint(gap, width), neighbours).unwrap()
-    };
-    let on_layer = |coupling| {
-        RowStiffness::compute(&footprint(0.2, 2.0).on_layer(1.5).unwrap(), coupling).unwrap()
-    };
-    let layers = [Coupling::Nearest, Coupling::Full].map(on_layer);
-    for stiffness in rows.map(solved).into_iter().chain(layers) {
+    let rows = rows.map(|([gap, width], neighbours)| {
+        RowStiffness::solve(&Footprint::new(gap, width, 0.5).unwrap(), neighbours).unwrap()
+    });
+    let layer = Footprint::new(0.2, 2.0, 0.5).unwrap().on_layer(1.5).unwrap();
+    let layers = [Coupling::Nearest, Coupling::Full]
+        .map(|coupling| RowStiffness::compute(&layer, coupling).unwrap());
+    for stiffness in rows.into_iter().chain(layers) {
         let neighbours = stiffness.neighbours.len();
         let far = stiffness.far_field(None).unwrap();
         assert_eq!(stiffness.far_field(Some(5)), None);
@@ -142,17 +141,17 @@ fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
         let inner = matrix.submatrix(last, last, all - last, all - last);
         let follows = inner.partial_piv_lu().solve(matrix.submatrix(last, 0, all - last, last));
         let relief = matrix.submatrix(0, last, last, all - last) * &follows;
-        let place = |scale: usize| 3 * (neighbours - 1 - scale);
         let mut condensed = Mat::<f64>::zeros(last, last);
         for part in &far.relief {
+            let [row, column] =
+                [part.force, part.displacement].map(|scale| 3 * (neighbours - 1 - scale));
             for (k, by) in part.by.iter().enumerate() {
                 for (l, &by) in by.iter().enumerate() {
-                    condensed[(place(part.force) + k, place(part.displacement) + l)] = by;
+                    condensed[(row + k, column + l)] = by;
                 }
             }
         }
         assert!((&relief - &condensed).norm_max() < 1e-13 * stiffness.direct[0]);
-        let end = |k: usize| [0.3 + k as f64, (k as f64).cos(), (3.0 * k as f64).sin()];
         let held = Mat::from_fn(last, 1, |i, _| end(neighbours - 1 - i / 3)[i % 3]);
         let moved = &follows * held;
         for (scale, found) in far.displacements(end, 20).iter().enumerate() {
@@ -162,6 +161,12 @@ fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
             assert_eq!(*found, far.displacement(end, scale + 1));
         }
     }
+}
+
+/// Arbitrary displacements of the scales at the end.
+fn end(scale: usize) -> [f64; 3] {
+    let k = scale as f64;
+    [0.3 + k, k.cos(), (3.0 * k).sin()]
 }
 
 #[test]

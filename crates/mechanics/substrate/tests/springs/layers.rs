@@ -35,9 +35,9 @@ fn numbers(row: &RowStiffness) -> Vec<f64> {
 /// for a traction `i` along `x`.
 fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
     let kappa = 3.0 - 4.0 * ratio;
-    // U, V, and the tractions over i and 1, of each field at a depth.
-    let fields = |y: f64| {
-        [1.0, -1.0].map(|s: f64| {
+    // U, V, and the tractions over i and 1, of each field at the bottom and at the top.
+    let [bottom, top] = [-1.0, 0.0].map(|y: f64| {
+        let fields = [1.0, -1.0].map(|s: f64| {
             let e = (s * k * y).exp();
             let gradient = [k * e, s * k * e, 2.0 * s * k * k * e, 2.0 * k * k * e];
             let (u, v) = (-k * y * e, (kappa - s * k * y) * e);
@@ -45,20 +45,18 @@ fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
             let v_slope = s * k * (kappa - s * k * y) * e - s * k * e;
             let normal = 2.0 * v_slope + 4.0 * ratio * s * k * e;
             [gradient, [u, v, u_slope + k * v, normal]]
-        })
-    };
-    let at = |y: f64| fields(y).concat();
-    let (bottom, top) = (at(-1.0), at(0.0));
+        });
+        fields.concat()
+    });
     let matrix = Mat::from_fn(4, 4, |row, field| match row {
         0 | 1 => bottom[field][row],
         _ => top[field][row],
     });
-    let solution = |traction: [f64; 2]| {
+    [[0.0, 1.0], [1.0, 0.0]].map(|traction| {
         let right = Mat::from_fn(4, 1, |row, _| if row < 2 { 0.0 } else { traction[row - 2] });
         let found = matrix.partial_piv_lu().solve(right);
         [0, 1].map(|part| k * (0..4).map(|field| found[(field, 0)] * top[field][part]).sum::<f64>())
-    };
-    [solution([0.0, 1.0]), solution([1.0, 0.0])]
+    })
 }
 
 /// The compliances, with the sign of the coupling, against a solved layer.
@@ -78,40 +76,40 @@ fn compliances_agree_with_a_directly_solved_layer() {
     }
 }
 
+/// Returns a Bessel function `J` of integer order by its own integral.
+fn bessel(order: f64, z: f64) -> f64 {
+    let angles = (0..400).map(|k| PI * (f64::from(k) + 0.5) / 400.0);
+    angles.map(|t| (order * t - z * t.sin()).cos()).sum::<f64>() / 400.0
+}
+
+/// Integrates a compliance times a Bessel function by the trapezoidal rule.
+fn hankel_transform(ratio: f64, part: usize, order: f64, rho: f64) -> f64 {
+    let step = 0.01;
+    let mut values = (0..1600).map(|k| step * f64::from(k)).map(|x| {
+        let weight = if x == 0.0 { 0.5 } else { 1.0 };
+        weight * beside_half_space(ratio, x)[part] * bessel(order, x * rho)
+    });
+    let (first, second) = (values.next().unwrap(), values.next().unwrap());
+    // Truncated at the other end; at this end the slope cancels the remainder of the rule.
+    let slope = (second - 2.0 * first) / step;
+    (first + second + values.sum::<f64>()) * step + step * step / 12.0 * slope
+}
+
 /// In real space against the trapezoidal rule.
-///
-/// Bessel functions come from their own integrals.
 #[test]
 fn point_loads_are_hankel_transforms() {
-    let bessel = |order: f64, z: f64| {
-        let wave = |k: u32| {
-            let t = PI * (f64::from(k) + 0.5) / 400.0;
-            (order * t - z * t.sin()).cos()
-        };
-        (0..400).map(wave).sum::<f64>() / 400.0
-    };
     for ratio in [0.5, 0.2] {
         for [x, z] in [[0.0, 0.0], [0.3, 0.1], [-1.7, 0.4], [2.0, -5.0], [9.0, 3.0]] {
             let (thickness, r) = (1.5, f64::hypot(x, z));
-            let integral = |part: usize, order: f64| {
-                let step = 0.01;
-                let at = |k: u32| {
-                    let x = step * f64::from(k);
-                    let weight = if k == 0 { 0.5 } else { 1.0 };
-                    weight * beside_half_space(ratio, x)[part] * bessel(order, x * r / thickness)
-                };
-                // Truncated at the other end; at this end the slope cancels the remainder of the
-                // rule.
-                let slope = (at(1) - 2.0 * at(0)) / step;
-                (0..1600).map(at).sum::<f64>() * step + step * step / 12.0 * slope
-            };
+            let [normal, mean, difference, cross] = [(0, 0.0), (1, 0.0), (2, 2.0), (3, 1.0)]
+                .map(|(part, order)| hankel_transform(ratio, part, order, r / thickness));
             let cos = if r > 0.0 { x / r } else { 0.0 };
             let unit = 1.0 / (PI * (1.0 - ratio) * thickness);
             let found = Layer::with_poisson_ratio(ratio).beside_half_space(thickness, x, z);
-            let shear = integral(1, 0.0) - (2.0 * cos * cos - 1.0) * integral(2, 2.0);
-            assert_relative_eq!(found.normal, unit * integral(0, 0.0), epsilon = 1e-6);
+            let shear = mean - (2.0 * cos * cos - 1.0) * difference;
+            assert_relative_eq!(found.normal, unit * normal, epsilon = 1e-6);
             assert_relative_eq!(found.shear, unit * shear, epsilon = 1e-6);
-            assert_relative_eq!(found.cross, -unit * cos * integral(3, 1.0), epsilon = 1e-6);
+            assert_relative_eq!(found.cross, -unit * cos * cross, epsilon = 1e-6);
         }
     }
 }
@@ -122,16 +120,14 @@ fn thick_layers_approach_the_half_space() {
     for coupling in [Coupling::Nearest, Coupling::Full] {
         let half_space =
             RowStiffness::compute(&Footprint::new(0.2, 2.0, 0.5).unwrap(), coupling).unwrap();
-        let added = |thickness: f64| {
+        let [thick, thicker, thickest] = [2e3, 2e4, 1e9].map(|thickness| {
             let layer = numbers(&on(0.2, thickness, coupling));
             let added = layer.iter().zip(numbers(&half_space)).map(|(layer, half)| layer - half);
             added.collect::<Vec<_>>()
-        };
-        let largest = |of: &[f64]| of.iter().fold(0.0_f64, |max, number| max.max(number.abs()));
-        let [thick, thicker] = [2e3, 2e4].map(added);
+        });
         assert_relative_eq!(thick[1] / thicker[1], 10.0, max_relative = 0.01);
-        assert!(largest(&thicker) < 1e-4, "{thicker:?}");
-        assert!(largest(&added(1e9)) < 1e-8);
+        assert!(thicker.iter().all(|number| number.abs() < 1e-4), "{thicker:?}");
+        assert!(thickest.iter().all(|number| number.abs() < 1e-8));
     }
 }
 
@@ -185,13 +181,13 @@ fn the_stiffness_is_positive_definite() {
             assert_eq!(row.neighbours.len(), scales);
             for step in 0..=100 {
                 let q = PI * f64::from(step) / 100.0;
-                let sum = |part: fn(f64) -> f64, of: &dyn Fn(usize) -> f64| -> f64 {
-                    (0..scales).map(|k| 2.0 * of(k) * part((k + 1) as f64 * q)).sum()
-                };
-                let n = &row.neighbours;
-                let own = [0, 1, 2].map(|i| row.direct[i] + sum(f64::cos, &|k| n[k].direct[i]));
-                let roll = row.roll + sum(f64::cos, &|k| n[k].roll);
-                let (lift, cross) = (sum(f64::sin, &|k| n[k].lift), sum(f64::sin, &|k| n[k].cross));
+                let (mut own, mut roll, mut lift, mut cross) = (row.direct, row.roll, 0.0, 0.0);
+                for (k, n) in row.neighbours.iter().enumerate() {
+                    let (sin, cos) = ((k + 1) as f64 * q).sin_cos();
+                    own = std::array::from_fn(|i| own[i] + 2.0 * cos * n.direct[i]);
+                    roll += 2.0 * cos * n.roll;
+                    (lift, cross) = (lift + 2.0 * sin * n.lift, cross + 2.0 * sin * n.cross);
+                }
                 // Shifting y by a quarter wave makes the matrix real.
                 let matrix = Mat::from_fn(3, 3, |i, j| match (i.min(j), i.max(j)) {
                     (0, 1) => lift,
@@ -216,35 +212,36 @@ fn derivatives_agree_with_differences() {
         (Coupling::Nearest, [1.4, 6.0, 0.5, 9.0]),
         (Coupling::Full, [0.3, 2.4, 0.45, 1.9]),
     ] {
-        let of = |gap: f64, width: f64, ratio: f64, thickness: f64| {
-            Footprint::new(gap, width, ratio).unwrap().on_layer(thickness).unwrap()
-        };
-        let at = |[gap, width, ratio, thickness]: [f64; 4]| {
-            numbers(&RowStiffness::compute(&of(gap, width, ratio, thickness), coupling).unwrap())
-        };
-        let found = StiffnessSlopes::compute(&of(gap, width, ratio, thickness), coupling).unwrap();
-        let step = 1e-3;
         let center = [gap, width, ratio, thickness];
-        // Along a direction, by two step lengths.
-        let check = |slopes: &RowStiffness, along: [f64; 4]| {
-            let by = |steps: f64| at(std::array::from_fn(|i| center[i] + steps * step * along[i]));
-            let [near, far] = [1.0, 2.0].map(|k| by(k).into_iter().zip(by(-k)));
-            let expected: Vec<_> = near
-                .zip(far)
-                .map(|((a, b), (c, d))| (8.0 * (a - b) - (c - d)) / (12.0 * step))
+        let found = StiffnessSlopes::compute(&layer(center), coupling).unwrap();
+        for (parameter, along) in [
+            (Gap, [1.0, 0.0, 0.0, 0.0]),
+            (Width, [0.0, 1.0, 0.0, 0.0]),
+            (Size, [gap, width, 0.0, thickness]),
+            (Thickness, [0.0, 0.0, 0.0, 1.0]),
+            (PoissonRatio, [0.0, 0.0, 1.0, 0.0]),
+        ] {
+            if parameter == PoissonRatio && ratio == 0.5 {
+                continue;
+            }
+            // By two step lengths.
+            let step = 1e-3;
+            let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(|steps| {
+                let moved = layer(std::array::from_fn(|i| center[i] + steps * step * along[i]));
+                numbers(&RowStiffness::compute(&moved, coupling).unwrap())
+            });
+            let expected: Vec<_> = (0..a.len())
+                .map(|i| (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * step))
                 .collect();
             let largest = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
-            for (ours, expected) in numbers(slopes).iter().zip(expected) {
+            for (ours, expected) in numbers(found.by(parameter).unwrap()).iter().zip(expected) {
                 let off = (ours - expected).abs() / largest;
-                assert!(off < 1e-6, "{coupling:?} {along:?}: {ours} {expected} {off:e}");
+                assert!(off < 1e-6, "{coupling:?} {parameter:?}: {ours} {expected} {off:e}");
             }
-        };
-        check(found.by(Gap).unwrap(), [1.0, 0.0, 0.0, 0.0]);
-        check(found.by(Width).unwrap(), [0.0, 1.0, 0.0, 0.0]);
-        check(found.by(Size).unwrap(), [gap, width, 0.0, thickness]);
-        check(found.by(Thickness).unwrap(), [0.0, 0.0, 0.0, 1.0]);
-        if ratio < 0.5 {
-            check(found.by(PoissonRatio).unwrap(), [0.0, 0.0, 1.0, 0.0]);
         }
     }
+}
+
+fn layer([gap, width, ratio, thickness]: [f64; 4]) -> Footprint {
+    Footprint::new(gap, width, ratio).unwrap().on_layer(thickness).unwrap()
 }

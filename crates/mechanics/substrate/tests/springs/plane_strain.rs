@@ -10,8 +10,8 @@ use substrate::{Footprint, extrapolated};
 ///
 /// The difference of two lengths eliminates end effects.
 fn slope(gap: f64) -> [f64; 2] {
-    let of = |width: f64| extrapolated(&Footprint::new(gap, width, 0.5).unwrap(), [8, 12]).unwrap();
-    let (short, long) = (of(40.0), of(80.0));
+    let [short, long] = [40.0, 80.0]
+        .map(|width| extrapolated(&Footprint::new(gap, width, 0.5).unwrap(), [8, 12]).unwrap());
     [2, 5].map(|i| (long[i] - short[i]) / 40.0)
 }
 

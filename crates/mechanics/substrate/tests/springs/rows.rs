@@ -43,15 +43,16 @@ fn the_stiffness_is_positive_definite() {
             let row = row(numbers, neighbours);
             for step in 0..=400 {
                 let q = PI * f64::from(step) / 400.0;
-                let waves = |part: fn(f64) -> f64, of: &dyn Fn(usize) -> f64| -> f64 {
-                    let terms = (0..row.neighbours.len()).map(|k| of(k) * part((k + 1) as f64 * q));
-                    2.0 * terms.sum::<f64>()
-                };
-                let own =
-                    |i: usize| row.direct[i] + waves(f64::cos, &|k| row.neighbours[k].direct[i]);
-                let cross = waves(f64::sin, &|k| row.neighbours[k].cross);
-                assert!(own(0) > 0.0 && own(1) > 0.0 && own(2) > 0.0, "{numbers:?} {q}");
-                assert!(own(1) * own(2) > cross * cross, "{numbers:?} {q}");
+                let ([mut x, mut y, mut turn], mut cross) = (row.direct, 0.0);
+                for (k, n) in row.neighbours.iter().enumerate() {
+                    let (sin, cos) = ((k + 1) as f64 * q).sin_cos();
+                    x += 2.0 * cos * n.direct[0];
+                    y += 2.0 * cos * n.direct[1];
+                    turn += 2.0 * cos * n.direct[2];
+                    cross += 2.0 * sin * n.cross;
+                }
+                assert!(x > 0.0 && y > 0.0 && turn > 0.0, "{numbers:?} {q}");
+                assert!(y * turn > cross * cross, "{numbers:?} {q}");
             }
         }
     }
@@ -116,13 +117,8 @@ fn largest_change(short: &RowStiffness, long: &RowStiffness) -> f64 {
 fn couplings_of_rotations_decay_faster_than_couplings_of_displacements() {
     for numbers in FOOTPRINTS {
         let row = row(numbers, NEIGHBOURS);
-        let part = |k: usize, i: usize| (row.neighbours[k].direct[i] / row.direct[i]).abs();
-        assert!(
-            part(3, 2) < 3e-4 && part(3, 1) > 7e-3,
-            "{numbers:?} {} {}",
-            part(3, 2),
-            part(3, 1)
-        );
+        let [y, turn] = [1, 2].map(|i| (row.neighbours[3].direct[i] / row.direct[i]).abs());
+        assert!(turn < 3e-4 && y > 7e-3, "{numbers:?} {turn} {y}");
         let size = (row.direct[1] * row.direct[2]).sqrt();
         assert!((row.neighbours[3].cross / size).abs() < 2e-3, "{numbers:?}");
     }

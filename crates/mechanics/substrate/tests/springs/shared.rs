@@ -12,14 +12,14 @@ fn footprints(count: u32) -> Vec<Footprint> {
 fn all_threads_get_the_springs_of_their_footprint() {
     // A cache small enough to drop footprints in between.
     let (shared, asked) = (Calibrations::with_capacity(4), footprints(5));
-    let ask_from = |start: usize| {
-        for footprint in asked.iter().cycle().skip(start).take(asked.len()) {
-            assert_eq!(shared.get(footprint), calibrate(footprint));
-        }
-    };
     thread::scope(|scope| {
         for start in 0..8 {
-            scope.spawn(move || ask_from(start));
+            let (shared, asked) = (&shared, asked.iter().cycle().skip(start).take(asked.len()));
+            scope.spawn(move || {
+                for footprint in asked {
+                    assert_eq!(shared.get(footprint), calibrate(footprint));
+                }
+            });
         }
     });
 }
@@ -38,16 +38,16 @@ fn a_gap_lost_in_rounding_is_an_error_each_time() {
 
 #[test]
 fn numbers_out_of_range_are_refused() {
-    let message = |gap, width, ratio| Footprint::new(gap, width, ratio).unwrap_err().to_string();
-    assert_eq!(message(0.0, 2.0, 0.5), "gap over a is 0, expected a positive length");
-    assert_eq!(message(f64::NAN, 2.0, 0.5), "gap over a is NaN, expected a positive length");
-    assert_eq!(message(1.0, f64::INFINITY, 0.5), "width over a is inf, expected a positive length");
-    assert_eq!(message(1.0, -2.0, 0.5), "width over a is -2, expected a positive length");
-    assert_eq!(message(1.0, 2.0, 0.51), "poisson's ratio is 0.51, expected a ratio from 0 to 0.5");
-    assert_eq!(
-        message(1.0, 2.0, f64::NAN),
-        "poisson's ratio is NaN, expected a ratio from 0 to 0.5"
-    );
+    for (gap, width, ratio, message) in [
+        (0.0, 2.0, 0.5, "gap over a is 0, expected a positive length"),
+        (f64::NAN, 2.0, 0.5, "gap over a is NaN, expected a positive length"),
+        (1.0, f64::INFINITY, 0.5, "width over a is inf, expected a positive length"),
+        (1.0, -2.0, 0.5, "width over a is -2, expected a positive length"),
+        (1.0, 2.0, 0.51, "poisson's ratio is 0.51, expected a ratio from 0 to 0.5"),
+        (1.0, 2.0, f64::NAN, "poisson's ratio is NaN, expected a ratio from 0 to 0.5"),
+    ] {
+        assert_eq!(Footprint::new(gap, width, ratio).unwrap_err().to_string(), message);
+    }
 }
 
 #[test]

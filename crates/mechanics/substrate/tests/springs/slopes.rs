@@ -34,29 +34,27 @@ fn derivatives_agree_with_differences_of_the_table() {
         [[0.2, 1.7, 0.1], [0.03, 3.1, 0.37], [60.0, 0.6, 0.45], [1.3, 40.0, 0.2]]
     {
         for coupling in [Coupling::Nearest, Coupling::Full] {
-            let at = |gap: f64, width: f64, ratio: f64| {
-                let footprint = Footprint::new(gap, width, ratio).unwrap();
-                numbers(&RowStiffness::compute(&footprint, coupling).unwrap())
-            };
-            let slope = |at: &dyn Fn(f64) -> Vec<f64>| -> Vec<f64> {
-                let (high, low) = (at(step), at(-step));
-                high.iter().zip(low).map(|(high, low)| (high - low) / (2.0 * step)).collect()
-            };
             let found = slopes(gap, width, ratio, coupling);
-            let what = format!("{gap} {width} {ratio} {coupling:?}");
-            let by_gap = slope(&|h| at(gap * (1.0 + h), width, ratio));
-            assert_close(&numbers(&(found.by(Gap).unwrap().clone() * gap)), &by_gap, 1e-6, &what);
-            let by_width = slope(&|h| at(gap, width * (1.0 + h), ratio));
-            assert_close(
-                &numbers(&(found.by(Width).unwrap().clone() * width)),
-                &by_width,
-                1e-6,
-                &what,
-            );
-            let by_size = slope(&|h| at(gap * (1.0 + h), width * (1.0 + h), ratio));
-            assert_close(&numbers(found.by(Size).unwrap()), &by_size, 1e-6, &what);
-            let by_ratio = slope(&|h| at(gap, width, ratio + h));
-            assert_close(&numbers(found.by(PoissonRatio).unwrap()), &by_ratio, 1e-6, &what);
+            for (parameter, [by_gap, by_width, by_ratio], unit) in [
+                (Gap, [gap, 0.0, 0.0], gap),
+                (Width, [0.0, width, 0.0], width),
+                (Size, [gap, width, 0.0], 1.0),
+                (PoissonRatio, [0.0, 0.0, 1.0], 1.0),
+            ] {
+                let [high, low] = [step, -step].map(|h| {
+                    let footprint = Footprint::new(
+                        gap + h * by_gap,
+                        width + h * by_width,
+                        ratio + h * by_ratio,
+                    );
+                    numbers(&RowStiffness::compute(&footprint.unwrap(), coupling).unwrap())
+                });
+                let expected: Vec<_> =
+                    high.iter().zip(low).map(|(high, low)| (high - low) / (2.0 * step)).collect();
+                let what = format!("{gap} {width} {ratio} {coupling:?} {parameter:?}");
+                let slope = found.by(parameter).unwrap().clone() * unit;
+                assert_close(&numbers(&slope), &expected, 1e-6, &what);
+            }
         }
     }
 }

@@ -7,28 +7,28 @@ use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
 /// Generates footprints over the whole range, by multiples of three irrationals.
 fn footprints(count: usize) -> impl Iterator<Item = Footprint> {
     (1..=count).map(|k| {
-        let part = |step: f64| (k as f64 * step).fract();
-        let within = |[low, high]: [f64; 2], part: f64| low * (high / low).powf(part);
-        let gap = within(GAPS, part(5_f64.sqrt()));
-        let width = within(WIDTHS, part(2_f64.sqrt()));
+        let [gap, width, ratio] = [5.0, 2.0, 3.0].map(|step| (k as f64 * f64::sqrt(step)).fract());
+        let [gap, width] =
+            [(GAPS, gap), (WIDTHS, width)].map(|([low, high], part)| low * (high / low).powf(part));
         // Most rows are incompressible.
-        let ratio = if k % 2 == 0 { 0.5 } else { 0.5 * part(3_f64.sqrt()) };
+        let ratio = if k % 2 == 0 { 0.5 } else { 0.5 * ratio };
         Footprint::new(gap, width, ratio).unwrap()
     })
 }
 
 /// Solves a row on three meshes, extrapolated twice.
 fn solved(footprint: &Footprint, neighbours: usize, cells: [usize; 3]) -> Vec<f64> {
-    let limit = |[coarse, fine]: [&[f64]; 2], finer: f64, order: i32| -> Vec<f64> {
-        let share = 1.0 / (finer.powi(order) - 1.0);
-        coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
-    };
     let [coarse, medium, fine] =
         cells.map(|n| row_reactions(footprint, neighbours, n).unwrap().numbers());
     let finer = [1, 2].map(|k| cells[k] as f64 / cells[k - 1] as f64);
     let check = limit([&coarse, &medium], finer[0], 3);
     let best = limit([&medium, &fine], finer[1], 3);
     limit([&check, &best], finer[1], 4)
+}
+
+fn limit([coarse, fine]: [&[f64]; 2], finer: f64, order: i32) -> Vec<f64> {
+    let share = 1.0 / (finer.powi(order) - 1.0);
+    coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
 }
 
 #[test]
@@ -53,22 +53,14 @@ fn long_rows_agree_with_boundary_elements() {
     for footprint in footprints(3) {
         let row = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
         let exact = solved(&footprint, NEIGHBOURS, [6, 8, 12]);
-        let close = |found: f64, exact: f64, size: f64| {
-            let off = ((found - exact) / size).abs();
-            assert!(off < row.error, "{off:.1e} for {footprint:?}");
-        };
-        for (own, exact) in row.direct.into_iter().zip(&exact) {
-            close(own, *exact, own);
-        }
+        let mut errors: Vec<f64> = (0..3).map(|k| 1.0 - exact[k] / row.direct[k]).collect();
         let size = (row.direct[1] * row.direct[2]).sqrt();
         assert_eq!(row.neighbours.len(), NEIGHBOURS);
         for (neighbour, exact) in row.neighbours.iter().zip(exact[3..].chunks(5)) {
-            for (direct, (exact, own)) in neighbour.direct.iter().zip(exact.iter().zip(row.direct))
-            {
-                close(*direct, *exact, own);
-            }
-            close(neighbour.cross, f64::midpoint(exact[3], exact[4]), size);
+            errors.extend((0..3).map(|k| (neighbour.direct[k] - exact[k]) / row.direct[k]));
+            errors.push((neighbour.cross - f64::midpoint(exact[3], exact[4])) / size);
         }
+        assert!(errors.iter().all(|off| off.abs() < row.error), "{errors:?} for {footprint:?}");
         assert!(row.error <= 1e-4 && row.truncation > row.error);
     }
 }
@@ -79,11 +71,10 @@ fn long_rows_agree_with_boundary_elements() {
 #[test]
 fn table_and_boundary_elements_agree_at_the_range_limits() {
     for [gap, width] in [[0.0125, 0.25], [0.0125, 80.0], [100.0, 0.25], [100.0, 80.0]] {
-        let springs =
-            |gap: f64, width: f64| calibrate(&Footprint::new(gap, width, 0.4).unwrap()).unwrap();
-        let within = springs(gap, width);
-        let outwards = |size: f64| size * if size > 1.0 { 1.0 + 1e-9 } else { 1.0 - 1e-9 };
-        let beyond = springs(outwards(gap), outwards(width));
+        let outside =
+            [gap, width].map(|size| size * if size > 1.0 { 1.0 + 1e-9 } else { 1.0 - 1e-9 });
+        let [within, beyond] = [[gap, width], outside]
+            .map(|[gap, width]| calibrate(&Footprint::new(gap, width, 0.4).unwrap()).unwrap());
         assert!(beyond.error > 3.0 * within.error, "{beyond:?}");
         for k in 0..3 {
             let off = (within.direct[k] - beyond.direct[k]).abs() / within.direct[k];

@@ -41,10 +41,9 @@ impl Matching {
         let pairs: Vec<[usize; 2]> = (0..first.len())
             .filter_map(|row| Some([row, *second_keys.get(&key(first, &common, row))?]))
             .collect();
-        let without = |run: &Results, partners: &HashMap<Vec<u8>, usize>| {
+        let alone = [(first, &second_keys), (second, &first_keys)].map(|(run, partners)| {
             (0..run.len()).filter(|row| !partners.contains_key(&key(run, &common, *row))).collect()
-        };
-        let alone = [without(first, &second_keys), without(second, &first_keys)];
+        });
         Ok(Self { pairs, alone, changes: changes(first, second) })
     }
 }
@@ -58,12 +57,12 @@ fn shared(run: &Results, parameter: &Parameter) -> Option<Scalar> {
 
 /// Returns the parameters that vary in a run and are known in the other.
 fn common(first: &Results, second: &Results) -> Vec<&'static Parameter> {
-    let varies = |run: &Results, parameter: &&Parameter| run.parameters().any(|p| p == *parameter);
-    let knows =
-        |run, parameter: &&Parameter| varies(run, parameter) || shared(run, parameter).is_some();
-    let parameters = PARAMETERS.iter();
-    let vary = parameters.filter(|p| varies(first, p) || varies(second, p));
-    vary.filter(|p| knows(first, p) && knows(second, p)).collect()
+    let common = PARAMETERS.iter().filter(|parameter| {
+        let runs = [first, second].map(|run| (run, run.parameters().any(|p| p == *parameter)));
+        runs.iter().any(|(_, varies)| *varies)
+            && runs.iter().all(|(run, varies)| *varies || shared(run, parameter).is_some())
+    });
+    common.collect()
 }
 
 /// A parameter that matches designs, and its different numbers in both runs.

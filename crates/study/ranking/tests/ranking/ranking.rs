@@ -227,17 +227,20 @@ fn the_knee_has_the_largest_sum_of_rescaled_criteria() {
 fn a_weighted_mean_compensates_the_worst_criterion() {
     let results = results(&["1,1,1,1", "0.9,100,1,10", "0.8,1000,1,100"]);
     let criteria = "criteria = ['coverage', 'critical_force']\nscale = ";
-    let fitness = |scale: &str| {
+    let [paper, linear, log] = ["paper", "linear", "log"].map(|scale| {
         let ranking = by(&results, &format!("{criteria}'{scale}'")).expect("a ranking");
         let mut ranked: Vec<_> = ranking.by_fitness(ranking.preferences().weights).collect();
         ranked.sort_by_key(RankedDesign::row);
         ranked.iter().map(|design| design.fitness).collect::<Vec<_>>()
-    };
-    assert_eq!(fitness("paper")[0], 0.0);
-    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}");
-    close(fitness("linear")[0], 0.5);
-    close(fitness("linear")[1], 0.5 * (0.5 + 99.0 / 999.0));
-    close(fitness("log")[1], 0.5 * ((0.9_f64 / 0.8).ln() / (1.0_f64 / 0.8).ln() + 2.0 / 3.0));
+    });
+    assert_eq!(paper[0], 0.0);
+    for (found, expected) in [
+        (linear[0], 0.5),
+        (linear[1], 0.5 * (0.5 + 99.0 / 999.0)),
+        (log[1], 0.5 * ((0.9_f64 / 0.8).ln() / (1.0_f64 / 0.8).ln() + 2.0 / 3.0)),
+    ] {
+        assert!((found - expected).abs() < 1e-12, "{found}");
+    }
 }
 
 #[test]
@@ -288,22 +291,18 @@ fn incomparable_designs_are_ranked_within_groups() {
                  0001;5;0,1;1;1;1;1\n0002;8;0,1;1;2;1;1\n0003;8;0,2;1;3;1;1\n0004;8;0,1;1;4;1;1";
     std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
     let results = Results::read(folder.path()).expect("results");
-    let groups = |text: &str| {
-        comparable_groups(&results, &Preferences::parse(text, "x").expect("preferences"))
-            .expect("groups")
-    };
-    let best = |preferences: Preferences| {
+    let [all, coverage] = ["", "criteria = ['coverage']"]
+        .map(|text| Preferences::parse(text, "x").expect("preferences"));
+    let groups = comparable_groups(&results, &all).expect("groups").into_iter();
+    let best = groups.map(|preferences| {
         check_comparable(&results, &preferences).expect("comparable");
         let ranking = Ranking::by(&results, preferences, TetrahedralGrid::default());
         ranking.ok().map(|ranking| ranking.winner(Weights::BALANCED).design().to_owned())
-    };
-    let best: Vec<_> = groups("").into_iter().map(best).collect();
+    });
     // No design has a tilt of 5° and a membrane of 0.2 t.
-    assert_eq!(best, [Some("0001".into()), None, Some("0004".into()), Some("0003".into())]);
-    assert_eq!(
-        groups("criteria = ['coverage']"),
-        [Preferences::parse("criteria = ['coverage']", "x").expect("preferences")]
-    );
+    let expected = [Some("0001"), None, Some("0004"), Some("0003")];
+    assert!(best.eq(expected.map(|design| design.map(str::to_owned))));
+    assert_eq!(comparable_groups(&results, &coverage).expect("groups"), [coverage]);
 }
 
 #[test]
@@ -345,20 +344,21 @@ proptest! {
 #[test]
 fn round_off_does_not_put_designs_on_the_front() {
     let folder = tempfile::tempdir().expect("a folder");
-    let front = |table: &str, criteria: &[&str]| {
-        std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
-        let results = Results::read(folder.path()).expect("a table");
+    // Equal coverage up to the last digit; the third design has the largest force.
+    let table = "design,coverage,critical_force\n0001,0.826794919243112,1\n\
+                 0002,0.8267949192431123,2\n0003,0.8267949192431121,3\n";
+    std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
+    let results = Results::read(folder.path()).expect("a table");
+    for (criteria, expected) in [
+        (&["coverage", "critical_force"][..], &["0003"][..]),
+        (&["coverage"], &["0001", "0002", "0003"]),
+    ] {
         let criteria = criteria.iter().map(|column| Criterion::new(column, Goal::Maximize));
         let preferences = Preferences::new(Vec::new(), criteria.collect(), None, Scale::Paper);
         let ranking = Ranking::by(&results, preferences.expect("preferences"), grid("4"));
         let ranking = ranking.expect("a ranking");
-        ranking.front().iter().map(|design| design.design().to_owned()).collect::<Vec<_>>()
-    };
-    // Equal coverage up to the last digit; the third design has the largest force.
-    let table = "design,coverage,critical_force\n0001,0.826794919243112,1\n\
-                 0002,0.8267949192431123,2\n0003,0.8267949192431121,3\n";
-    assert_eq!(front(table, &["coverage", "critical_force"]), ["0003"]);
-    assert_eq!(front(table, &["coverage"]), ["0001", "0002", "0003"]);
+        assert!(ranking.front().iter().map(RankedDesign::design).eq(expected.iter().copied()));
+    }
 }
 
 /// Returns the rank of each design and whether it is on the front, by number.
@@ -387,7 +387,7 @@ proptest! {
         count in 1_usize..4,
     ) {
         let criteria = &["coverage", "critical_force", "compliance"][..count];
-        let table = |noise: f64| {
+        let [exact, noisy] = [0.0, f64::EPSILON].map(|noise| {
             let mut table = "design,coverage,critical_force,compliance\n".to_owned();
             for (number, (values, digits)) in designs.iter().enumerate() {
                 let cells = values.iter().zip(digits).map(|(value, digit)| {
@@ -398,10 +398,10 @@ proptest! {
                 table.extend([&format!("{:04}", number + 1), ",", &cells, "\n"]);
             }
             table
-        };
+        });
         for scale in [Scale::Paper, Scale::Linear] {
-            let exact = ranks_and_front(&table(0.0), criteria, scale);
-            prop_assert_eq!(&ranks_and_front(&table(f64::EPSILON), criteria, scale), &exact);
+            let exact = ranks_and_front(&exact, criteria, scale);
+            prop_assert_eq!(&ranks_and_front(&noisy, criteria, scale), &exact);
             if count == 1 {
                 let front_by_rank: BTreeSet<_> = exact.iter().map(|(_, rank, on)| (rank, on)).collect();
                 let ranks: BTreeSet<_> = exact.iter().map(|(_, rank, _)| rank).collect();

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use geometry::OutOfRange;
 use results::columns::is_along_path;
@@ -16,6 +16,7 @@ use skin::{Common, PathDetail};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
 use sweep::{Case, DesignNumber, Measure, Parameter};
 
+use super::across::AcrossForces;
 use super::between::{self, WorstBody};
 use super::parts::Parts;
 use super::sensitivity::Wanted;
@@ -24,12 +25,6 @@ use super::{samples, scatter, sensitivity};
 
 /// Maximum number of gaps of a chain, because longer paths do not fit into memory.
 const LONGEST_CHAIN: usize = 100_000;
-
-/// Number of rows across that an evaluator remembers.
-///
-/// Designs of a sweep follow each other by slant, which a row across does not have. Several threads
-/// solve several groups of designs.
-const KNOWN_ACROSS: usize = 64;
 
 /// Solves designs on any number of threads.
 ///
@@ -43,26 +38,7 @@ pub struct Evaluator {
     parts: Option<Parts>,
     calibrations: Calibrations,
     /// The last rows across that were solved.
-    across: Mutex<VecDeque<(Case, AcrossForces)>>,
-}
-
-/// Forces of a row across, in units that contain the length of the scales in that row.
-#[derive(Clone, Copy, Debug)]
-struct AcrossForces {
-    outcome: Outcome,
-    critical: Option<f64>,
-    /// Largest force on the path.
-    borne: Option<f64>,
-}
-
-impl AcrossForces {
-    fn new(across: &Result<Puncture, Outcome>) -> Self {
-        let punctured = across.as_ref().map(|puncture| PunctureResult::new(puncture, 0.0));
-        let outcome = punctured.as_ref().map_or_else(|outcome| **outcome, |p| p.outcome);
-        let critical = punctured.ok().and_then(|puncture| puncture.measures.critical_force);
-        let path = across.iter().flat_map(|puncture| &puncture.path);
-        Self { outcome, critical, borne: path.map(|point| point.force).reduce(f64::max) }
-    }
+    pub(super) across: Mutex<VecDeque<(Case, AcrossForces)>>,
 }
 
 /// An evaluated measure: result and path, or the reason for the failure.
@@ -371,24 +347,6 @@ impl Evaluator {
         Some((result, puncture))
     }
 
-    /// Punctures the row across, if requested, and adds its force and derivatives.
-    fn differentiate_across(
-        &self,
-        case: &Case,
-        wanted: Wanted<'_>,
-        result: &mut PunctureResult,
-        derivatives: &mut Vec<ParameterDerivative>,
-    ) {
-        let Some(across) = case.across() else { return };
-        let punctured = guarded(|| self.slopes(&across)).flatten().and_then(|slopes| {
-            let (puncture, of_across) = solved(|| sensitivity::across(case, wanted, &slopes))?;
-            derivatives.extend(of_across);
-            Ok(puncture)
-        });
-        add_across(case, result, AcrossForces::new(&punctured));
-        sensitivity::choose_direction(&result.measures, derivatives);
-    }
-
     /// Punctures the row on bodies between two radii, if requested.
     ///
     /// Adds the smallest force to a result, and returns the body, if all have a force.
@@ -416,39 +374,6 @@ impl Evaluator {
         let parameters = case.punctured();
         let punctured = solved(|| puncture::solve(design, &*substrate, common, &parameters))?;
         between::critical_force(&punctured)
-    }
-
-    /// Punctures the row across, if requested, and adds its force to a result.
-    fn puncture_across(&self, case: &Case, result: &mut PunctureResult) {
-        if let Some(across) = case.across() {
-            let forces = self.across_forces(&recorded(&across, PathDetail::Critical));
-            add_across(case, result, forces);
-        }
-    }
-
-    /// Solves a row across, unless it is one of the last ones.
-    fn across_forces(&self, across: &Case) -> AcrossForces {
-        let known = self.known_across().iter().find(|(case, _)| case == across).copied();
-        if let Some((_, forces)) = known {
-            return forces;
-        }
-        let Case { design, common, .. } = across;
-        let parameters = across.punctured();
-        let punctured = guarded(|| self.substrate(across)).flatten().and_then(|substrate| {
-            solved(|| puncture::solve(design, &*substrate, common, &parameters))
-        });
-        let forces = AcrossForces::new(&punctured);
-        // An interrupted path has no critical force and must not be used again.
-        if forces.critical.is_some() {
-            let mut known = self.known_across();
-            known.truncate(KNOWN_ACROSS - 1);
-            known.push_front((*across, forces));
-        }
-        forces
-    }
-
-    fn known_across(&self) -> MutexGuard<'_, VecDeque<(Case, AcrossForces)>> {
-        self.across.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Bends the design of `case`.
@@ -536,19 +461,6 @@ fn chain_fits(case: &Case) -> Result<(), Outcome> {
     if gaps > LONGEST_CHAIN { Err(Outcome::RowLimit) } else { Ok(()) }
 }
 
-/// Adds the critical force of the row across to the result of the row along.
-fn add_across(case: &Case, result: &mut PunctureResult, across: AcrossForces) {
-    result.across = Some(across.outcome);
-    let measures = &mut result.measures;
-    let along = match case.puncture.places {
-        Some(_) => measures.weakest.force,
-        None => measures.critical_force,
-    };
-    let [force, borne] =
-        [across.critical, across.borne].map(|force| Some(force? * case.across_factor()));
-    *measures = measures.with_across(force, borne, along);
-}
-
 fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {
     chain_fits(case)?;
     let bent = || samples::common(case, sample).and_then(|row| samples::bent(case, &row));
@@ -618,7 +530,7 @@ pub(super) fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, 
 }
 
 /// Calls `f`; returns [`Outcome::Internal`] if it panics.
-fn guarded<T>(f: impl FnOnce() -> T) -> Result<T, Outcome> {
+pub(super) fn guarded<T>(f: impl FnOnce() -> T) -> Result<T, Outcome> {
     // Data of a failed design is not used again, except for the calibrations,
     // which hold complete entries only.
     catch_unwind(AssertUnwindSafe(f)).map_err(|_| Outcome::Internal)

@@ -86,10 +86,11 @@ fn read_range(
     parameter.read(to)?;
     let [from, to, step] = [decimal(from), decimal(to), decimal(step)];
     let (from, to, step) = (from.map_err(&wrong)?, to.map_err(&wrong)?, step.map_err(&wrong)?);
-    let is_broken = |number: Decimal| number.to_usize().is_none();
+    let [broken_from, broken_to, broken_step] =
+        [from, to, step].map(|number| number.to_usize().is_none());
     // A step that is not positive is reported separately.
-    let has_broken_step = step.to_f64() > 0.0 && is_broken(step);
-    if parameter.takes_counts() && (is_broken(from) || is_broken(to) || has_broken_step) {
+    let has_broken_step = step.to_f64() > 0.0 && broken_step;
+    if parameter.takes_counts() && (broken_from || broken_to || has_broken_step) {
         return Err(wrong("has fractions, expected whole numbers".to_owned()));
     }
     let numbers = decimal::range(from, to, step).map_err(|problem| wrong(problem.to_string()))?;
@@ -106,13 +107,13 @@ fn range_values(entries: &KeyValues) -> Result<[&Value; 3], String> {
     if let Some(entry) = entries.iter().find(|entry| !KEYS.contains(&entry.key.as_str())) {
         return Err(format!("unknown key {}, expected from, to and step", entry.key));
     }
-    let value = |key: &str| {
+    let [from, to, step] = KEYS.map(|key| {
         let entry = entries.iter().find(|entry| entry.key == key);
         entry
             .map(|entry| &entry.value)
             .ok_or_else(|| format!("no `{key}`, expected from, to and step"))
-    };
-    Ok([value("from")?, value("to")?, value("step")?])
+    });
+    Ok([from?, to?, step?])
 }
 
 fn decimal(value: &Value) -> Result<Decimal, String> {
@@ -127,14 +128,13 @@ fn decimal(value: &Value) -> Result<Decimal, String> {
 /// Default axes come first (slowest), then the axes as written, and the slant last. A default axis
 /// may be replaced by another parameter, such as the gap by a pitch.
 pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
-    let says = |other: &Axis, parameter: &Parameter| {
-        let other = other.parameter();
-        other == parameter || other.said_in(base) == Some(parameter)
-    };
-    let mut axes: Vec<Axis> = paper()
-        .into_iter()
-        .filter(|axis| !written.iter().any(|other| says(other, axis.parameter())))
-        .collect();
+    let mut axes = paper();
+    axes.retain(|axis| {
+        !written
+            .iter()
+            .map(Axis::parameter)
+            .any(|other| other == axis.parameter() || other.said_in(base) == Some(axis.parameter()))
+    });
     axes.append(&mut written);
     // Stable sort: all other axes keep their order.
     axes.sort_by_key(|axis| axis.parameter().key == FASTEST);

@@ -80,12 +80,11 @@ fn check_one(
     grid: &Grid,
     variables: &[Variable],
 ) -> Result<(), Problem> {
-    let matters = |p: &Parameter| {
-        let is_pitch = given.key == key::PITCH;
+    let axes = grid.axes().iter().filter(|axis| {
+        let (p, is_pitch) = (axis.parameter(), given.key == key::PITCH);
         let makes_pitch = [key::GAP, key::LENGTH, "base"].iter().any(|key| p.is_or_says(key));
         p == given || p.key == unit || (is_pitch && makes_pitch)
-    };
-    let axes = grid.axes().iter().filter(|axis| matters(axis.parameter()));
+    });
     let axes: Vec<_> = axes.map(|axis| (axis.parameter(), ends(axis, variables))).collect();
     // Start from any design: all parameters that matter are overwritten.
     let mut corners = vec![grid.case(0)];

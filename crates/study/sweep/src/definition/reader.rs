@@ -147,13 +147,14 @@ impl Reader {
 
     fn read_deviation(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let key = format!("{}.{}", suggestion::TOLERANCE, entry.key);
-        let wrong = |problem| refuse(&entry.place, &key, problem);
-        let deviation = deviations::read(entry).map_err(wrong)?;
+        let deviation =
+            deviations::read(entry).map_err(|problem| refuse(&entry.place, &key, problem))?;
         // `gap_mm` and `gap_over_t` are the same deviation in two units.
         let other = self.deviations.iter().find(|(d, _)| d.parameter() == deviation.parameter());
         if let Some((other, place)) = other {
             let other = format!("{}.{}", suggestion::TOLERANCE, other.key());
-            return Err(wrong(Problem::Alternative { other, place: place.clone() }));
+            let problem = Problem::Alternative { other, place: place.clone() };
+            return Err(refuse(&entry.place, &key, problem));
         }
         self.deviations.push((deviation, entry.place.clone()));
         Ok(())
@@ -171,12 +172,13 @@ impl Reader {
         else {
             return Err(unknown(section, entry));
         };
-        let wrong = |problem| refuse(&entry.place, &key, problem);
         if section == "designs" {
-            let axis = axes::read(parameter, &entry.value).map_err(wrong)?;
+            let axis = axes::read(parameter, &entry.value);
+            let axis = axis.map_err(|problem| refuse(&entry.place, &key, problem))?;
             self.axes.push(WrittenAxis { axis, place: entry.place.clone() });
         } else {
-            let value = parameter.read(&entry.value).map_err(|problem| wrong(problem.into()))?;
+            let value = parameter.read(&entry.value);
+            let value = value.map_err(|problem| refuse(&entry.place, &key, problem))?;
             parameter.set(&mut self.case, value);
             self.shared.push((parameter, entry.place.clone()));
         }
@@ -197,9 +199,9 @@ impl Reader {
         let variables: Vec<_> = self.variables.into_iter().map(|(variable, _)| variable).collect();
         let deviations = self.deviations.into_iter().map(|(deviation, _)| deviation).collect();
         // A variable has the middle of its range until a search or a random draw sets it.
-        let middle = |v: &Variable| Axis::list(v.parameter(), vec![v.at(0.5)]);
+        let middles = variables.iter().map(|v| Axis::list(v.parameter(), vec![v.at(0.5)]));
         let axes = self.axes.into_iter().map(|written| written.axis);
-        let axes = axes::ordered(axes.chain(variables.iter().map(middle)).collect(), &self.case);
+        let axes = axes::ordered(axes.chain(middles).collect(), &self.case);
         let grid = Grid::new(axes, self.case).map_err(|error| refuse(file, "designs", error))?;
         for (key, parameter, place) in &written {
             let checked = lengths::check(parameter, &grid, &variables);
@@ -240,18 +242,16 @@ impl Reader {
             let parameter = variable.parameter();
             let others = parameter.others_in(&self.case).filter(|other| !self.leaves_open(other));
             let mut all = std::iter::once(parameter).chain(others);
-            // If two variables define the same quantity, only the later one is refused.
-            let earlier = |other: &Parameter| {
-                let (_, there) =
-                    self.variables[..k].iter().find(|(v, _)| v.parameter() == other)?;
-                Some((format!("{}.{}", suggestion::VARIABLES, other.key), there))
-            };
             let (fixed, (other, there)) = all.find_map(|fixed| {
                 let is_axis = self.axes.iter().any(|axis| axis.axis.parameter() == fixed);
                 let section = if is_axis { "designs" } else { fixed.section };
                 let given = self.place(fixed.key);
                 let given = given.map(|there| (format!("{section}.{}", fixed.key), there));
-                Some((fixed, given.or_else(|| earlier(fixed))?))
+                // If two variables define the same quantity, only the later one is refused.
+                let mut earlier = self.variables[..k].iter();
+                let earlier = earlier.find(|(variable, _)| variable.parameter() == fixed);
+                let key = format!("{}.{}", suggestion::VARIABLES, fixed.key);
+                Some((fixed, given.or_else(|| Some((key, &earlier?.1)))?))
             })?;
             let key = format!("{}.{}", suggestion::VARIABLES, parameter.key);
             Some(refuse(place, &key, conflict(parameter, fixed, other, there)))
@@ -305,16 +305,17 @@ impl Reader {
         };
         let needles = self.values(key::NEEDLE).map(|(needles, ..)| needles);
         let needles = needles.unwrap_or_else(|| vec![Scalar::Word("free")]);
-        let may_be = |needle| needles.contains(&Scalar::Word(needle));
+        let [may_be_free, may_be_guided] =
+            ["free", "guided"].map(|needle| needles.contains(&Scalar::Word(needle)));
         let refused = frictions.into_iter().find_map(|friction| {
             // Lists are ascending, so the first value is the smallest.
             let (is_list, least) = match friction {
                 Scalar::List(all) => (true, all.as_slice().first().copied()),
                 single => (false, single.number()),
             };
-            let expected = if is_list && may_be("guided") {
+            let expected = if is_list && may_be_guided {
                 "a number: a guided needle has a path for each friction, as an axis in [designs]"
-            } else if may_be("free") && least.is_some_and(|friction| friction < 1e-10) {
+            } else if may_be_free && least.is_some_and(|friction| friction < 1e-10) {
                 "a number of at least 1e-10: its arctangent is the critical tilt of a free needle"
             } else {
                 return None;

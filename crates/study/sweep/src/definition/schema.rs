@@ -79,15 +79,14 @@ fn names_schema(NameKey { section, key, known }: &NameKey) -> Value {
 
 /// Returns a regular expression of words in any case.
 fn in_any_case(words: &[&str]) -> String {
-    let letter = |c: char| {
+    let letters = words.join("|").chars().fold(String::new(), |letters, c| {
         if c.is_ascii_alphabetic() {
-            format!("[{}{}]", c.to_ascii_uppercase(), c.to_ascii_lowercase())
+            format!("{letters}[{}{}]", c.to_ascii_uppercase(), c.to_ascii_lowercase())
         } else {
-            c.to_string()
+            format!("{letters}{c}")
         }
-    };
-    let words: Vec<String> = words.iter().map(|word| word.chars().map(letter).collect()).collect();
-    format!("^({})$", words.join("|"))
+    });
+    format!("^({letters})$")
 }
 
 fn deviation(parameter: &Parameter) -> Value {

@@ -172,16 +172,17 @@ fn case_of(table: &KeyValues) -> Case {
     let mut written = Vec::new();
     for KeyValue { key: section, value, .. } in table {
         let Value::Table(entries) = value else { continue };
-        let named = |e: &KeyValue| {
-            Parameter::named(&e.key)
-                .filter(|p| ["designs", VARIABLES, p.section].contains(&&**section))
-        };
-        written.extend(entries.iter().filter_map(|e| Some((named(e)?, &e.value))));
+        written.extend(entries.iter().filter_map(|entry| {
+            let parameter = Parameter::named(&entry.key)
+                .filter(|p| ["designs", VARIABLES, p.section].contains(&&**section))?;
+            Some((parameter, &entry.value))
+        }));
     }
-    let says = |key| written.iter().any(|(parameter, _)| parameter.is_or_says(key));
     let mut case = Case::default();
     // In addition to a gap, the pitch determines a length.
-    case.in_mm.pitch_says_length = says(key::PITCH) && says(key::GAP);
+    case.in_mm.pitch_says_length = [key::PITCH, key::GAP]
+        .iter()
+        .all(|key| written.iter().any(|(parameter, _)| parameter.is_or_says(key)));
     // For a guided needle tilt and friction are independent.
     for (parameter, value) in written.iter().filter(|(p, _)| p.key == key::NEEDLE) {
         // An axis of needles has no single value, and an invalid one is refused when it is read.
@@ -238,66 +239,67 @@ mod tests {
 
     #[test]
     fn a_word_needs_no_quotes() {
-        let value = |text| Setting::parse(text).expect("valid").value;
-        assert_eq!(value("scale.base=2L"), Value::Text("2L".to_owned()));
-        assert_eq!(value("scale.base=\"2L\""), Value::Text("2L".to_owned()));
-        assert_eq!(value("contact.friction=.1"), Value::Number("0.1".to_owned()));
-        assert_eq!(value("puncture.scales = 41"), Value::Number("41".to_owned()));
+        for (text, value) in [
+            ("scale.base=2L", Value::Text("2L".to_owned())),
+            ("scale.base=\"2L\"", Value::Text("2L".to_owned())),
+            ("contact.friction=.1", Value::Number("0.1".to_owned())),
+            ("puncture.scales = 41", Value::Number("41".to_owned())),
+        ] {
+            assert_eq!(Setting::parse(text).expect("valid").value, value);
+        }
     }
 
     #[test]
     fn a_setting_replaces_adds_or_removes_values() {
-        let set = |file: &str, settings: &[&str]| {
+        for (file, settings, expected) in [
+            ("name = 'x'", "name=y", "{ name = \"y\" }"),
+            ("name = 'x'", "contact.c1=2", "{ name = \"x\", contact = { c1 = 2 } }"),
+            ("contact.c1 = 1", "designs.c1=[1, 2]", "{ contact = {}, designs = { c1 = [1, 2] } }"),
+            ("designs.c1 = [1, 2]", "contact.c1=3", "{ designs = {}, contact = { c1 = 3 } }"),
+            (
+                "flexure.membrane_length_over_t = 50",
+                "flexure.gaps=42",
+                "{ flexure = { gaps = 42 } }",
+            ),
+            (
+                "flexure.gaps = 42",
+                "designs.membrane_length_over_t=[50, 100]",
+                "{ flexure = {}, designs = { membrane_length_over_t = [50, 100] } }",
+            ),
+            // In addition to a gap, the pitch determines a length, so it stays. Alone it determines
+            // the gap.
+            (
+                "designs = { gap_mm = 0.3, pitch_mm = 2 }",
+                "designs.gap_over_t=0.2",
+                "{ designs = { pitch_mm = 2, gap_over_t = 0.2 } }",
+            ),
+            (
+                "designs = { gap_mm = 0.3, pitch_mm = 2 }",
+                "designs.length_mm=1",
+                "{ designs = { gap_mm = 0.3, length_mm = 1 } }",
+            ),
+            (
+                "designs = { length_mm = 1, pitch_mm = 2 }",
+                "designs.gap_mm=0.2",
+                "{ designs = { length_mm = 1, gap_mm = 0.2 } }",
+            ),
+            (
+                "designs = { pitch_mm = 2 }\ntolerance = { gap_mm = { batch_sd = 1 } }",
+                "designs.gap_mm=0.2",
+                "{ designs = { gap_mm = 0.2 }, tolerance = { gap_mm = { batch_sd = 1 } } }",
+            ),
+            ("variables.c1 = [1, 2]", "contact.c1=3", "{ variables = {}, contact = { c1 = 3 } }"),
+            (
+                "",
+                "contact.c1=3; designs.c1=[1, 2]",
+                "{ contact = { c1 = 3 }, designs = { c1 = [1, 2] } }",
+            ),
+        ] {
             let mut table = toml_source::parse(file, "x.toml").expect("TOML");
-            for setting in settings {
+            for setting in settings.split("; ") {
                 Setting::parse(setting).expect("valid").apply(&mut table);
             }
-            Value::Table(table).to_string()
-        };
-        assert_eq!(set("name = 'x'", &["name=y"]), "{ name = \"y\" }");
-        assert_eq!(set("name = 'x'", &["contact.c1=2"]), "{ name = \"x\", contact = { c1 = 2 } }");
-        assert_eq!(
-            set("contact.c1 = 1", &["designs.c1=[1, 2]"]),
-            "{ contact = {}, designs = { c1 = [1, 2] } }"
-        );
-        assert_eq!(
-            set("designs.c1 = [1, 2]", &["contact.c1=3"]),
-            "{ designs = {}, contact = { c1 = 3 } }"
-        );
-        assert_eq!(
-            set("flexure.membrane_length_over_t = 50", &["flexure.gaps=42"]),
-            "{ flexure = { gaps = 42 } }"
-        );
-        assert_eq!(
-            set("flexure.gaps = 42", &["designs.membrane_length_over_t=[50, 100]"]),
-            "{ flexure = {}, designs = { membrane_length_over_t = [50, 100] } }"
-        );
-        // In addition to a gap, the pitch determines a length, so it stays. Alone it determines the
-        // gap.
-        assert_eq!(
-            set("designs = { gap_mm = 0.3, pitch_mm = 2 }", &["designs.gap_over_t=0.2"]),
-            "{ designs = { pitch_mm = 2, gap_over_t = 0.2 } }"
-        );
-        assert_eq!(
-            set("designs = { gap_mm = 0.3, pitch_mm = 2 }", &["designs.length_mm=1"]),
-            "{ designs = { gap_mm = 0.3, length_mm = 1 } }"
-        );
-        assert_eq!(
-            set("designs = { length_mm = 1, pitch_mm = 2 }", &["designs.gap_mm=0.2"]),
-            "{ designs = { length_mm = 1, gap_mm = 0.2 } }"
-        );
-        let tolerance = "designs = { pitch_mm = 2 }\ntolerance = { gap_mm = { batch_sd = 1 } }";
-        assert_eq!(
-            set(tolerance, &["designs.gap_mm=0.2"]),
-            "{ designs = { gap_mm = 0.2 }, tolerance = { gap_mm = { batch_sd = 1 } } }"
-        );
-        assert_eq!(
-            set("variables.c1 = [1, 2]", &["contact.c1=3"]),
-            "{ variables = {}, contact = { c1 = 3 } }"
-        );
-        assert_eq!(
-            set("", &["contact.c1=3", "designs.c1=[1, 2]"]),
-            "{ contact = { c1 = 3 }, designs = { c1 = [1, 2] } }"
-        );
+            assert_eq!(Value::Table(table).to_string(), expected);
+        }
     }
 }

@@ -35,14 +35,14 @@ fn between(
     {
         return Err(wrong(format!("unknown key {}, expected from and to", entry.key)));
     }
-    let bound = |key: &str| {
+    let [from, to] = ["from", "to"].map(|key| {
         let entry = entries.iter().find(|entry| entry.key == key);
         let entry =
             entry.ok_or_else(|| wrong(format!("`{key}` is missing, expected from and to")))?;
         let number = parameter.read(&entry.value)?.number();
         number.ok_or_else(|| wrong(format!("{} is not a number", entry.value)))
-    };
-    let (from, to) = (bound("from")?, bound("to")?);
+    });
+    let (from, to) = (from?, to?);
     if from < to {
         Ok(VariableValues::Between(from, to))
     } else {

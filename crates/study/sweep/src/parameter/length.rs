@@ -157,10 +157,10 @@ fn restate(case: &mut Case, moved: &Parameter) {
 /// Returns the case with another thickness and unchanged lengths in mm.
 pub(crate) fn with_thickness(case: &Case, thickness: f64) -> Option<Case> {
     let factor = case.material.thickness_mm? / thickness;
-    // `settle` updates the lengths that follow from a length in mm.
-    let stays = |p: &&Parameter| p.has(Role::Continuous) && p.unit == "t" && !p.follows(case);
+    let lengths = PARAMETERS.iter().filter(|p| p.has(Role::Continuous) && p.unit == "t");
     let mut moved = *case;
-    for parameter in PARAMETERS.iter().filter(stays) {
+    // `settle` updates the lengths that follow from a length in mm.
+    for parameter in lengths.filter(|parameter| !parameter.follows(case)) {
         if let Some(length) = parameter.get(case).number() {
             parameter.assign(&mut moved, Scalar::Number(length + (factor - 1.0) * length));
         }

@@ -87,9 +87,12 @@ impl Parameter {
         // Cached, because a definition requests this thousands of times and the search by key is
         // slow.
         static ORIGINS: LazyLock<Vec<(&str, &str)>> = LazyLock::new(|| {
-            let next = |key: &&'static str| Parameter::named(key)?.stands_for();
-            let origin = |p: &Parameter| std::iter::successors(p.stands_for(), next).last();
-            PARAMETERS.iter().filter_map(|p| Some((p.key, origin(p)?))).collect()
+            let origins = PARAMETERS.iter().filter_map(|p| {
+                let next = p.stands_for();
+                let all = std::iter::successors(next, |key| Parameter::named(key)?.stands_for());
+                Some((p.key, all.last()?))
+            });
+            origins.collect()
         });
         match self.stands_for() {
             Some(of) => {

@@ -86,11 +86,11 @@ impl Parameter {
 impl Range {
     /// Returns the range of the negative numbers.
     fn negative(self) -> Self {
-        let turned = |bound| match bound {
+        let [low, high] = [self.high, self.low].map(|bound| match bound {
             Bound::Included(number) => Bound::Included(-number),
             Bound::Excluded(number) => Bound::Excluded(-number),
-        };
-        Self { low: turned(self.high), high: turned(self.low) }
+        });
+        Self { low, high }
     }
 }
 

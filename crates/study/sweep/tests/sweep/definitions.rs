@@ -40,20 +40,15 @@ fn a_definition_reads_back_from_its_complete_form() {
 
 #[test]
 fn axes_vary_in_written_order_with_the_slant_fastest() {
-    let keys = |text: &str| {
-        let sweep = sweep(text);
-        let keys: Vec<_> = sweep.grid().axes().iter().map(|axis| axis.parameter().key).collect();
-        keys.join(" ")
-    };
-    assert_eq!(keys("name = 'x'"), "gap_over_t length_over_t slant_deg");
-    assert_eq!(
-        keys("name = 'x'\n[designs]\nslant_deg = 0\nlength_over_t = 1\ngap_over_t = 1"),
-        "length_over_t gap_over_t slant_deg"
-    );
-    assert_eq!(
-        keys("name = 'x'\n[designs]\nc2 = [0.23, 1.1]\nslant_deg = 0\nc1 = 1"),
-        "gap_over_t length_over_t c2 c1 slant_deg"
-    );
+    for (axes, keys) in [
+        ("", "gap_over_t length_over_t slant_deg"),
+        ("slant_deg = 0\nlength_over_t = 1\ngap_over_t = 1", "length_over_t gap_over_t slant_deg"),
+        ("c2 = [0.23, 1.1]\nslant_deg = 0\nc1 = 1", "gap_over_t length_over_t c2 c1 slant_deg"),
+    ] {
+        let sweep = sweep(&format!("name = 'x'\n[designs]\n{axes}"));
+        let found: Vec<_> = sweep.grid().axes().iter().map(|axis| axis.parameter().key).collect();
+        assert_eq!(found.join(" "), keys);
+    }
 }
 
 #[test]
@@ -100,10 +95,10 @@ fn load_position_and_depth_are_written_back_in_their_notation() {
     let text = "puncture = { load_inset_over_t = 0.05, depth_mm = 1 }\nmaterial.thickness_mm = 2\n\
         designs.length_over_t = [0.08, 0.5]";
     let sweep = read(text).unwrap();
-    let at = |index| sweep.grid().case(index).punctured();
-    assert_eq!((at(0).load_position, at(0).depth), (0.5, Some(0.5)));
     let last = sweep.grid().len() - 1;
-    assert!((at(last).load_position - 0.9).abs() < 1e-15);
+    let [first, final_case] = [0, last].map(|index| sweep.grid().case(index).punctured());
+    assert_eq!((first.load_position, first.depth), (0.5, Some(0.5)));
+    assert!((final_case.load_position - 0.9).abs() < 1e-15);
     let again = Sweep::parse(&sweep.to_toml(), "again.toml", &[]).unwrap();
     assert_eq!(again.grid().case(last), sweep.grid().case(last));
     let refused = |text: &str| read(text).unwrap_err().to_string();
@@ -210,16 +205,16 @@ fn tilt_and_friction_of_a_guided_needle_are_independent() {
 /// A needle radius needs a guided needle. It may vary, and may be given in mm.
 #[test]
 fn a_needle_radius_requires_a_guided_needle() {
-    let radius = |text: &str| read(text).unwrap().grid().case(0).puncture.needle_radius;
-    assert_eq!(radius("puncture.needle = 'guided'"), None);
-    assert_eq!(radius("puncture = { needle = 'guided', needle_radius_over_t = 0.5 }"), Some(0.5));
-    let axis = "puncture.needle = 'guided'\ndesigns.needle_radius_over_t = [0.5, 1]";
-    assert_eq!(radius(axis), Some(0.5));
-    let in_mm = "puncture = { needle = 'guided', needle_radius_mm = 1 }\nmaterial.thickness_mm = 2";
-    assert_eq!(radius(in_mm), Some(0.5));
-    let rubs =
-        "puncture = { needle = 'guided', needle_friction = 0.3, needle_radius_over_t = 0.5 }";
-    assert_eq!(radius(rubs), Some(0.5));
+    for (text, radius) in [
+        ("", None),
+        ("puncture.needle_radius_over_t = 0.5", Some(0.5)),
+        ("designs.needle_radius_over_t = [0.5, 1]", Some(0.5)),
+        ("puncture.needle_radius_mm = 1\nmaterial.thickness_mm = 2", Some(0.5)),
+        ("puncture.needle_friction = 0.3\npuncture.needle_radius_over_t = 0.5", Some(0.5)),
+    ] {
+        let sweep = read(&format!("puncture.needle = 'guided'\n{text}")).unwrap();
+        assert_eq!(sweep.grid().case(0).puncture.needle_radius, radius);
+    }
     for (text, needed) in [
         ("puncture.needle_radius_over_t = 0.5", "needs puncture.needle = \"guided\""),
         ("designs.needle_radius_over_t = [0.5, 1]", "needs puncture.needle = \"guided\""),
@@ -241,8 +236,9 @@ fn a_load_between_two_scales_requires_a_round_tip() {
     let grid = "designs = { gap_over_t = [0.1, 0.5], length_over_t = 1 }\n";
     let round = "puncture = { needle = 'guided', needle_radius_over_t = 0.5, load_position = 1.3 }";
     let sweep = read(&format!("{grid}{round}")).unwrap();
-    let position = |index| sweep.grid().case(index).punctured().load_position;
-    assert_eq!([position(0), position(sweep.grid().len() - 1)], [1.1, 1.3]);
+    let positions =
+        [0, sweep.grid().len() - 1].map(|index| sweep.grid().case(index).punctured().load_position);
+    assert_eq!(positions, [1.1, 1.3]);
     for sharp in [
         "puncture.load_position = 1.3",
         "puncture.needle = 'guided'\ndesigns.load_position = [0.5, 1.3]",
@@ -357,14 +353,11 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
 
 #[test]
 fn a_tissue_modulus_in_kpa_or_pa_raises_a_note() {
-    let question = |modulus: &str| {
+    let [soft, stiff, wrong] = ["0.31", "1000", "[0.31, 310000]"].map(|modulus| {
         sweep(&format!("name = 'x'\ndesigns.substrate_modulus_MPa = {modulus}")).notes().pop()
-    };
-    assert_eq!(
-        (question("0.31"), question("1000"), sweep("name = 'x'").notes().pop()),
-        (None, None, None)
-    );
-    insta::assert_snapshot!(question("[0.31, 310000]").expect("a question"), @"material.substrate_modulus_MPa is 310000 MPa, 310 GPa: soft tissue has 0.001 to 10 MPa; check that the unit is MPa, not kPa or Pa");
+    });
+    assert_eq!((soft, stiff, sweep("name = 'x'").notes().pop()), (None, None, None));
+    insta::assert_snapshot!(wrong.expect("a question"), @"material.substrate_modulus_MPa is 310000 MPa, 310 GPa: soft tissue has 0.001 to 10 MPa; check that the unit is MPa, not kPa or Pa");
     let variable = "name = 'x'\nvariables.substrate_modulus_MPa = { from = 1, to = 2000 }";
     assert!(!sweep(variable).notes().is_empty());
 }
@@ -374,8 +367,8 @@ fn a_tissue_modulus_in_kpa_or_pa_raises_a_note() {
 fn the_size_of_a_parameter_that_may_be_zero_is_at_least_one() {
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 0.5\nslant_deg = 0.25";
     let case = sweep(text).grid().case(0);
-    let size = |key| sweep::Parameter::named(key).expect("a parameter").size(&case);
-    let found = ["gap_over_t", "length_over_t", "membrane_thickness_over_t", "slant_deg"].map(size);
+    let found = ["gap_over_t", "length_over_t", "membrane_thickness_over_t", "slant_deg"]
+        .map(|key| sweep::Parameter::named(key).expect("a parameter").size(&case));
     assert_eq!(found[..2], [Some(0.1), Some(0.5)]);
     assert!(found[2].is_some_and(|size| size < 1.0) && found[3] == Some(1.0), "{found:?}");
 }
@@ -467,17 +460,17 @@ fn a_setting_in_mm_replaces_the_length_over_the_thickness() {
 
 #[test]
 fn lengths_in_mm_are_short_decimals_over_the_thickness() {
-    let gaps = |text: &str| {
-        let text =
-            format!("name = 'x'\nmaterial.thickness_mm = 3\n[designs]\nslant_deg = 0\n{text}");
-        let sweep = Sweep::parse(&text, "x.toml", &[]).expect("valid");
-        let grid = sweep.grid();
-        (0..grid.len()).map(|index| grid.case(index).design.gap).collect::<Vec<_>>()
-    };
     let tenths = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
-    assert_eq!(gaps("gap_mm = { from = 0.3, to = 3, step = 0.3 }\nlength_mm = 3"), tenths);
-    // Base 3 mm plus the gap.
-    assert_eq!(gaps("pitch_mm = { from = 3.3, to = 6, step = 0.3 }\nlength_mm = 3"), tenths);
+    for axis in [
+        "gap_mm = { from = 0.3, to = 3, step = 0.3 }",
+        // Base 3 mm plus the gap.
+        "pitch_mm = { from = 3.3, to = 6, step = 0.3 }",
+    ] {
+        let designs = format!("[designs]\nslant_deg = 0\nlength_mm = 3\n{axis}");
+        let sweep = read(&format!("material.thickness_mm = 3\n{designs}")).expect("valid");
+        let grid = sweep.grid();
+        assert!((0..grid.len()).map(|index| grid.case(index).design.gap).eq(tenths), "{axis}");
+    }
 }
 
 #[test]

@@ -8,15 +8,16 @@ use crate::sweep;
 fn the_paper_sweep_is_numbered_as_in_its_tables() {
     let grid = sweep("name = 'x'").grid().clone();
     assert_eq!(grid.len(), 720);
-    let values = |number| {
+    for (number, values) in [
+        ("0001", [0.1, 0.025, 0.0]),
+        ("2", [0.1, 0.025, 15.0]),
+        ("0007", [0.1, 0.05, 0.0]),
+        ("0073", [0.2, 0.025, 0.0]),
+        ("0720", [1.0, 1.0, 75.0]),
+    ] {
         let design = grid.case(grid.parse_number(number).expect("a number")).design;
-        format!("{} {} {}", design.gap, design.length, design.slant_deg)
-    };
-    assert_eq!(values("0001"), "0.1 0.025 0");
-    assert_eq!(values("2"), "0.1 0.025 15");
-    assert_eq!(values("0007"), "0.1 0.05 0");
-    assert_eq!(values("0073"), "0.2 0.025 0");
-    assert_eq!(values("0720"), "1 1 75");
+        assert_eq!([design.gap, design.length, design.slant_deg], values);
+    }
     assert_eq!(grid.number(0).to_string(), "0001");
     for wrong in ["0", "721", "-1", "x", ""] {
         assert!(grid.parse_number(wrong).is_err());

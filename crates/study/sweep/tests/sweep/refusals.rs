@@ -321,17 +321,17 @@ fn a_definition_with_millions_of_values_is_refused_before_parsing() {
 /// bounds.
 #[test]
 fn invalid_scale_moduli_are_refused() {
-    let with = |text: &str| format!("material.scale_modulus_MPa = 3000\n{text}");
+    let scales = "material.scale_modulus_MPa = 3000\n";
     let both = "material.substrate_modulus_MPa = 0.3\nmaterial.membrane_modulus_MPa = 4.5\n";
     let texts = [
-        with(""),
-        with("material.substrate_modulus_MPa = 0.3"),
-        with(&format!("{both}puncture.contact_modulus_over_substrate = 9677")),
-        with(&format!("{both}designs.contact_modulus_over_membrane = [600, 700]")),
-        with(&format!(
-            "{both}variables.contact_modulus_over_membrane = {{ from = 600, to = 700 }}"
-        )),
-        with(&both.replace("0.3", "4000")),
+        scales.to_owned(),
+        format!("{scales}material.substrate_modulus_MPa = 0.3"),
+        format!("{scales}{both}puncture.contact_modulus_over_substrate = 9677"),
+        format!("{scales}{both}designs.contact_modulus_over_membrane = [600, 700]"),
+        format!(
+            "{scales}{both}variables.contact_modulus_over_membrane = {{ from = 600, to = 700 }}"
+        ),
+        format!("{scales}{}", both.replace("0.3", "4000")),
         format!("{both}designs.scale_modulus_MPa = [1, 3000]"),
     ];
     insta::assert_snapshot!(all(&texts.each_ref().map(String::as_str)));

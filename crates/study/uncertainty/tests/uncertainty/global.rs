@@ -25,8 +25,8 @@ fn indices_of_coverage_match_the_closed_form() {
     // Means of d, d², cot α and cot² α.
     let (from, to) = (30.0_f64.to_radians(), 45.0_f64.to_radians());
     let gap = [0.3, (0.5_f64.powi(3) - 0.1_f64.powi(3)) / 3.0 / 0.4];
-    let antiderivatives = |a: f64| [a.sin().ln(), -1.0 / a.tan() - a];
-    let cot = [0, 1].map(|k| (antiderivatives(to)[k] - antiderivatives(from)[k]) / (to - from));
+    let [start, end] = [from, to].map(|a| [a.sin().ln(), -1.0 / a.tan() - a]);
+    let cot = [0, 1].map(|k| (end[k] - start[k]) / (to - from));
     let all = gap[1] * cot[1] - (gap[0] * cot[0]).powi(2);
     let of_gap = (gap[1] - gap[0].powi(2)) * cot[0].powi(2) / all;
     let of_slant = gap[0].powi(2) * (cot[1] - cot[0].powi(2)) / all;

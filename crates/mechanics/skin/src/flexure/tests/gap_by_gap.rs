@@ -114,17 +114,16 @@ fn equal_gaps_match_the_even_strip() {
     let (common, parameters) = (Common::default(), parameters());
     let even = FlexureProblem::even(&design(60.0), &common, &parameters).unwrap().solve().unwrap();
     assert_eq!(even.gaps, 6);
-    let measures = |flexure: &Flexure| {
+    let [(ours, our_shape), (theirs, their_shape)] = [uneven, even].map(|flexure| {
         let m = flexure.measures;
-        [m.compliance, m.first_contact_curvature, m.max_moment, m.axial_energy_share]
-    };
-    for (ours, theirs) in measures(&uneven).into_iter().zip(measures(&even)) {
+        let measures =
+            [m.compliance, m.first_contact_curvature, m.max_moment, m.axial_energy_share];
+        (measures, flexure.shape(flexure.path.len() - 1).unwrap())
+    });
+    for (ours, theirs) in ours.into_iter().zip(theirs) {
         assert_relative_eq!(ours.unwrap(), theirs.unwrap(), max_relative = 1e-7);
     }
-    let last = |flexure: &Flexure| flexure.shape(flexure.path.len() - 1).unwrap();
-    for (ours, theirs) in last(&uneven).into_iter().zip(last(&even)) {
-        for (a, b) in ours.into_iter().zip(theirs) {
-            assert_relative_eq!(a, b, epsilon = 1e-7);
-        }
+    for (ours, theirs) in our_shape.into_iter().flatten().zip(their_shape.into_iter().flatten()) {
+        assert_relative_eq!(ours, theirs, epsilon = 1e-7);
     }
 }

@@ -53,13 +53,13 @@ fn forces_stay_within_the_friction_cone() {
             let contacts = path.system().contacts.closed_contacts(&to.state);
             let friction_angle = friction.atan();
             for contact in contacts {
-                let pose = |scale: usize| path.system().contacts.pose(&to.state.z, scale).rotation;
                 let name = contact.corner_edge.name();
                 let of_right = name == "TR on left edge" || name == "BR on left edge";
                 if !of_right && name != "TL on right edge" && name != "BL on right edge" {
                     continue;
                 }
-                let turned = pose(contact.left + usize::from(of_right));
+                let scale = contact.left + usize::from(of_right);
+                let turned = path.system().contacts.pose(&to.state.z, scale).rotation;
                 let normal = std::f64::consts::PI - design.slant_deg.to_radians() + turned;
                 let [x, y] = contact.force;
                 if x.hypot(y) < 1e-6 {

@@ -52,10 +52,10 @@ fn tangent_at_rest_is_symmetric() {
         let (chain, state) = (path.system(), &path.point().state);
         let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
         chain.tangent(state, &mut tangent);
-        let at = |scale: usize, direction: usize| chain.layout.scale(scale) + direction;
-        assert!(tangent.get(at(4, 0), at(4, 2)) < 0.0, "{case:?}");
-        for row in (0..3).map(|k| at(4, k)) {
-            for column in (3..6).flat_map(|scale| (0..3).map(move |k| at(scale, k))) {
+        let first = chain.layout.scale(4);
+        assert!(tangent.get(first, first + 2) < 0.0, "{case:?}");
+        for row in first..first + 3 {
+            for column in (3..6).map(|scale| chain.layout.scale(scale)).flat_map(|at| at..at + 3) {
                 assert_eq!(tangent.get(row, column), tangent.get(column, row), "{case:?}");
             }
         }

@@ -205,18 +205,14 @@ fn negative_eigenvalues_match_the_dense_stiffness() {
                 return assert_eq!(chain.instability(state), None);
             }
             let dense = dense_stiffness(chain, state);
-            let unit = |entry: usize| {
+            let ridges = chain.contacts.ridges(state);
+            let [depth, tilt] = [dense.nrows() - 1, 3 * chain.layout.left + 2].map(|entry| {
                 let mut unit = DVector::zeros(dense.nrows());
                 unit[entry] = 1.0;
-                unit
-            };
-            let ridges = chain.contacts.ridges(state);
-            let held = |entry| negative_eigenvalues(&dense, Some(&unit(entry))) + ridges;
-            let expected = Instability {
-                load: negative_eigenvalues(&dense, None) + ridges,
-                depth: held(dense.nrows() - 1),
-                tilt: held(3 * chain.layout.left + 2),
-            };
+                negative_eigenvalues(&dense, Some(&unit)) + ridges
+            });
+            let load = negative_eigenvalues(&dense, None) + ridges;
+            let expected = Instability { load, depth, tilt };
             let falls =
                 [chain.load(), chain.load() + 1].map(|unknown| point.leaving[unknown] < 0.0);
             assert_eq!(falls, [expected.load, expected.depth].map(|count| count % 2 == 1));
@@ -277,17 +273,16 @@ fn an_isolated_scale_matches_a_scalar_equation() {
     let springs = springs(&design);
     let puncture = puncture::solve(&design, &springs, &Common::default(), &parameters).unwrap();
     let direct = RowStiffness::from(&springs).with_lengths_over(design.half_base()).direct;
-    let [(sin, cos), turn] =
-        [((-10.0_f64).to_radians().sin_cos()), ((-10.0_f64).to_radians(), 0.0)];
-    let push = |arm: f64| -direct[2] * turn.0 / arm;
-    // The force on the scale is −N n, with n = (−sin φ, cos φ).
-    let off = |arm: f64| arm * cos - sin - (0.5 - push(arm) * sin / direct[0]);
+    let rotation = (-10.0_f64).to_radians();
+    let (sin, cos) = rotation.sin_cos();
     let (mut low, mut high) = (0.01, 1.0);
     for _ in 0..200 {
-        let middle = f64::midpoint(low, high);
-        *(if off(middle) > 0.0 { &mut high } else { &mut low }) = middle;
+        let arm = f64::midpoint(low, high);
+        // The force on the scale is −N n, with n = (−sin φ, cos φ).
+        let x = -direct[2] * rotation / arm * sin / direct[0];
+        *(if arm * cos - sin > 0.5 - x { &mut high } else { &mut low }) = arm;
     }
-    let expected = push(low) * cos / design.length;
+    let expected = -direct[2] * rotation / low * cos / design.length;
     assert_relative_eq!(puncture.measures.critical_force.unwrap(), expected, max_relative = 1e-9);
 }
 
@@ -463,6 +458,12 @@ fn derivatives_account_for_history_variables() {
     assert_eq!(ends, [false, true].into());
 }
 
+fn moved(input: &puncture::PunctureInput, change: Change, step: f64) -> puncture::PunctureInput {
+    let mut input = input.clone();
+    change(&mut input, step);
+    input
+}
+
 /// Compares every derivative of a puncture with differences of whole solutions.
 fn derivatives_are_differences(
     design: Design,
@@ -477,24 +478,20 @@ fn derivatives_are_differences(
         parameters: PunctureParameters { depth: Some(0.15), ..parameters },
         odd: None,
     };
-    let moved = |change: Change, step: f64| {
-        let mut input = input.clone();
-        change(&mut input, step);
-        input
-    };
     let variations: Vec<_> = changes
         .iter()
-        .map(|&(change, step)| crate::Neighbours {
-            below: moved(change, -step),
-            above: moved(change, step),
-            step,
+        .map(|&(change, step)| {
+            let [below, above] = [-step, step].map(|step| moved(&input, change, step));
+            crate::Neighbours { below, above, step }
         })
         .collect();
     let (puncture, derivatives) = puncture::differentiate(&input, &variations).unwrap();
     for (parameter, &(change, step)) in changes.iter().enumerate() {
-        let solved = |step: f64| puncture::differentiate(&moved(change, step), &[]).unwrap().0;
         // A step large compared with round-off, small compared with the curvature.
-        let [below, above] = [-50.0, 50.0].map(|times| solved(times * step).measures);
+        let [below, above] = [-50.0, 50.0].map(|times| {
+            let input = moved(&input, change, times * step);
+            puncture::differentiate(&input, &[]).unwrap().0.measures
+        });
         let mut compared = 0;
         for (name, value) in MEASURES {
             let Some([above, below]) = value(&above).zip(value(&below)).map(<[f64; 2]>::from)

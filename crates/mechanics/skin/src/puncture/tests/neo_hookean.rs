@@ -54,16 +54,14 @@ fn work_of_the_load_equals_stored_energy() {
 /// At rest the neo-Hookean law has the tangent of the linear springs.
 #[test]
 fn at_rest_bars_match_the_springs() {
-    let tangent = |chain: &Chain| {
+    let linear = path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0);
+    let bars = bar_path(&LIVELY, Law::PRINTED, Coupling::Nearest);
+    let [linear, bars] = [linear.system(), bars.system()].map(|chain| {
         let mut matrix = BandMatrix::new(chain.size(), chain.half_bandwidth());
         chain.tangent(&SkinState::at_rest(chain), &mut matrix);
         matrix
-    };
-    let linear = path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0);
-    let bars = bar_path(&LIVELY, Law::PRINTED, Coupling::Nearest);
-    let (linear, bars) = (tangent(linear.system()), tangent(bars.system()));
-    let rows = 0..path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0).system().size();
-    for row in rows {
+    });
+    for row in 0..linear.size() {
         for column in linear.columns(row) {
             assert_relative_eq!(linear.get(row, column), bars.get(row, column), epsilon = 1e-14);
         }
@@ -77,38 +75,35 @@ fn mirrored_rows_have_mirrored_forces() {
     let last = layout.scales() - 1;
     let stiffness =
         RowStiffness::compute(&LIVELY.footprint(0.5).unwrap(), Coupling::Nearest).unwrap();
-    let chain = |slant_deg: f64, of_substrate: SubstrateLaw| {
-        let scale = Parallelogram::leaning(LIVELY.half_base(), slant_deg).unwrap();
-        let row = Arrangement::Even(Row::new(scale, LIVELY.gap).unwrap());
-        let law = law(&LIVELY, Law::PRINTED, HARD);
-        let parameters =
-            PunctureParameters { substrate_law: of_substrate, ..PunctureParameters::default() };
-        let beyond = RowExterior::default();
-        Chain::new(row, &stiffness, law, layout, beyond, &parameters, &LIVELY)
-    };
-    let forces = |chain: &Chain, displacement: &dyn Fn(usize) -> [f64; 3]| {
-        let (mut state, mut residual) = (SkinState::at_rest(chain), Residual::new(chain.size()));
-        for scale in 0..=last {
-            state.z[layout.scale(scale)..][..3].copy_from_slice(&displacement(scale));
-        }
-        chain.residual(&state, &mut residual);
-        let force =
-            |scale: usize| -> Vec<f64> { residual.value[layout.scale(scale)..][..3].into() };
-        ((0..=last).map(force).collect::<Vec<_>>(), chain.substrate_energy(&state))
-    };
-    let displacement = |scale: usize| {
-        let k = scale as f64;
-        [0.2 * LIVELY.gap * (3.0 * k).sin(), 0.1 * (5.0 * k).cos(), 0.3 * (2.0 * k).sin()]
-    };
-    let reflected = |[x, y, rotation]: [f64; 3]| [-x, y, -rotation];
     let mut energies = Vec::new();
-    for of_substrate in [SubstrateLaw::Linear, SubstrateLaw::NeoHookean] {
-        let [right, left] = [1.0, -1.0].map(|side| chain(side * LIVELY.slant_deg, of_substrate));
-        let (ours, energy) = forces(&right, &displacement);
-        let (theirs, mirrored) = forces(&left, &|scale| reflected(displacement(last - scale)));
-        for (scale, ours) in ours.iter().enumerate() {
-            let image = reflected(theirs[last - scale].clone().try_into().unwrap());
-            assert_relative_eq!(ours[..], image[..], max_relative = 1e-12, epsilon = 1e-14);
+    for substrate_law in [SubstrateLaw::Linear, SubstrateLaw::NeoHookean] {
+        let parameters = PunctureParameters { substrate_law, ..PunctureParameters::default() };
+        // The mirror image leans to the left, with the scales in reverse order.
+        let [(ours, energy), (theirs, mirrored)] = [1.0, -1.0].map(|side| {
+            let scale =
+                Parallelogram::leaning(LIVELY.half_base(), side * LIVELY.slant_deg).unwrap();
+            let row = Arrangement::Even(Row::new(scale, LIVELY.gap).unwrap());
+            let law = law(&LIVELY, Law::PRINTED, HARD);
+            let exterior = RowExterior::default();
+            let chain = Chain::new(row, &stiffness, law, layout, exterior, &parameters, &LIVELY);
+            let places = (0..=last).map(|k| layout.scale(if side > 0.0 { k } else { last - k }));
+            let mut state = SkinState::at_rest(&chain);
+            for (k, at) in places.clone().enumerate() {
+                let k = k as f64;
+                state.z[at] = side * 0.2 * LIVELY.gap * (3.0 * k).sin();
+                state.z[at + 1] = 0.1 * (5.0 * k).cos();
+                state.z[at + 2] = side * 0.3 * (2.0 * k).sin();
+            }
+            let mut residual = Residual::new(chain.size());
+            chain.residual(&state, &mut residual);
+            let forces = places.map(|at| {
+                let [x, y, moment] = [0, 1, 2].map(|k| residual.value[at + k]);
+                [side * x, y, side * moment]
+            });
+            (forces.collect::<Vec<_>>(), chain.substrate_energy(&state))
+        });
+        for (ours, theirs) in ours.iter().zip(&theirs) {
+            assert_relative_eq!(ours[..], theirs[..], max_relative = 1e-12, epsilon = 1e-14);
         }
         assert_relative_eq!(energy, mirrored, max_relative = 1e-12);
         energies.push(energy);

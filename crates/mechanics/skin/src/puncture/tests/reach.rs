@@ -63,11 +63,11 @@ fn distant_contacts_conserve_energy_and_match_differences() {
     let law = law(design, Law::PRINTED, HARD);
     let layout = RowLayout { left: 20, right: 20, needle: 0, contacts: 2 * pair_constraints(&law) };
     let chain = whole(&full(design), design, law, layout, &PunctureParameters::default());
-    let path = || Continuation::new(chain.clone(), SkinState::at_rest(&chain), Settings::default());
-    let Balance { work, off, .. } = balance(path());
+    let path = Continuation::new(chain.clone(), SkinState::at_rest(&chain), Settings::default());
+    let Balance { work, off, .. } = balance(path.clone());
     assert!(off < 1e-6 * work, "{:e}", off / work);
     let mut met = 0;
-    for_segments(path(), |path, from, to| {
+    for_segments(path, |path, from, to| {
         let state = path.between(from, to, 0.5).unwrap().state;
         let contacts = path.system().contacts.closed_contacts(&state);
         let beyond = contacts.iter().filter(|contact| contact.right == contact.left + 2).count();

@@ -1,0 +1,149 @@
+//! Parameters of a puncture.
+
+use geometry::{Body, OutOfRange};
+use substrate::SubstrateLaw;
+
+use super::{Needle, NumberList, Strengths};
+
+/// Response of the scales to the forces on them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bending {
+    /// Scales are rigid, as in the paper.
+    #[default]
+    Rigid,
+    /// Scales bend as linear beams with the modulus `E_ct`.
+    ///
+    /// The path ends where a tip has turned by 5° relative to its base.
+    Elastic,
+}
+
+/// Number of scales in the row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowLength {
+    /// A row without ends.
+    ///
+    /// The scales within reach of contact are unknowns, more as contact spreads along the path; the
+    /// scales beyond follow in closed form as a linear chain. Without such a closed form the row
+    /// grows until its ends move by at most `1e-6`.
+    Auto,
+    /// This many, with the middle one (the left of two) punctured.
+    Scales(usize),
+}
+
+/// Parameters of a puncture other than design and substrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PunctureParameters {
+    /// Poisson's ratio `ν` of the substrate.
+    pub poisson_ratio: f64,
+    /// `E_ct / E_s`.
+    pub contact_modulus_over_substrate: f64,
+    /// Row length.
+    pub scales: RowLength,
+    /// Load position on the top of the punctured scale: 0 the left, 1 the right corner.
+    ///
+    /// A round tip may be beyond, between two scales.
+    pub load_position: f64,
+    /// Critical tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
+    pub critical_tilt_deg: f64,
+    /// Constitutive law of the substrate surface between two bases.
+    pub substrate_law: SubstrateLaw,
+    /// Smaller critical tilts at which measures are also taken, degrees.
+    ///
+    /// `critical_tilt_deg` is added to them. `None`: no measures at tilts.
+    pub tilts_before_deg: Option<NumberList>,
+    /// Constraint on the needle.
+    pub needle: Needle,
+    /// Tip radius of a guided needle, over `t`; `None` for a sharp one.
+    pub needle_radius: Option<f64>,
+    /// Depth `u*` at which to report the force as well.
+    pub depth: Option<f64>,
+    /// Force `F*` at which to report the pressure on the tissue as well.
+    pub force: Option<f64>,
+    /// True to remove the load again at the end.
+    pub unload: bool,
+    /// Strengths of scales and bonds, if the first failure is sought.
+    pub failure: Option<Strengths>,
+    /// Number of load positions to compare, at least two.
+    ///
+    /// They span the top from its left to its right corner, or one pitch for a round tip.
+    pub places: Option<usize>,
+    /// Curvature `t/R` of the body below: positive for a convex one, 0 for a flat one.
+    pub curvature: f64,
+    /// Rigid or elastic scales.
+    pub bending: Bending,
+}
+
+impl Default for PunctureParameters {
+    /// Values of Shafiei et al. (2021).
+    ///
+    /// `E_ct = 3 GPa` on a substrate of `E_s = 310 kPa`.
+    fn default() -> Self {
+        Self {
+            poisson_ratio: 0.5,
+            contact_modulus_over_substrate: 9677.0,
+            scales: RowLength::Auto,
+            load_position: 1.0,
+            critical_tilt_deg: 10.0,
+            substrate_law: SubstrateLaw::Linear,
+            tilts_before_deg: None,
+            needle: Needle::Free,
+            needle_radius: None,
+            depth: None,
+            force: None,
+            unload: false,
+            failure: None,
+            places: None,
+            curvature: 0.0,
+            bending: Bending::Rigid,
+        }
+    }
+}
+
+impl PunctureParameters {
+    /// Returns the body below the row.
+    pub(crate) fn body(&self) -> Body {
+        Body { curvature: self.curvature }
+    }
+
+    /// Iterates over the measured tilts, degrees, with the critical one last.
+    pub fn tilts_deg(&self) -> impl Iterator<Item = f64> {
+        let before = self.tilts_before_deg.iter().flat_map(NumberList::as_slice).copied();
+        before.chain(self.tilts_before_deg.map(|_| self.critical_tilt_deg))
+    }
+
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        let scales = match self.scales {
+            RowLength::Auto => 1.0,
+            RowLength::Scales(scales) => scales as f64,
+        };
+        let tilt = self.critical_tilt_deg;
+        let (ratio, position) = (self.poisson_ratio, self.load_position);
+        let depth = self.depth.unwrap_or(1.0);
+        let force = self.force.unwrap_or(1.0);
+        let radius = self.needle_radius.unwrap_or(0.0);
+        let places = self.places.unwrap_or(2) as f64;
+        let curvature = self.curvature;
+        // Each rule states the valid range, so that NaN violates it.
+        let rules = [
+            (tilt > 0.0 && tilt < 90.0, "critical tilt", tilt, "an angle between 0° and 90°"),
+            ((0.0..=0.5).contains(&ratio), "poisson's ratio", ratio, "a ratio from 0 to 0.5"),
+            (position.is_finite(), "load position", position, "a number"),
+            (depth > 0.0, "depth", depth, "a length above 0"),
+            (force > 0.0, "force", force, "a force above 0"),
+            (radius >= 0.0, "needle radius", radius, "a length"),
+            (
+                radius == 0.0 || self.needle.is_guided(),
+                "needle radius",
+                radius,
+                "0 unless the needle is guided",
+            ),
+            (places >= 2.0, "number of places", places, "at least 2"),
+            (scales >= 1.0, "number of scales", scales, "at least 1"),
+            (curvature.is_finite(), "curvature of the body", curvature, "a number"),
+        ];
+        let mut rules = rules.into_iter();
+        rules.try_for_each(|(holds, quantity, value, expected)| {
+            OutOfRange::unless(holds, quantity, value, expected)
+        })
+    }
+}

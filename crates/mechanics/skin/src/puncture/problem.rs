@@ -1,0 +1,452 @@
+//! Setup of a puncture and the solution of its path.
+
+use contact::ContactLaw;
+use geometry::{OutOfRange, Row};
+use solver::{Continuation, Settings, Termination};
+use substrate::{FarField, RowStiffness, SubstrateLaw};
+
+use super::adaptive_row::AdaptiveRowPath;
+use super::bending::BENDING_UNKNOWNS;
+use super::needle::{self, NEEDLE_UNKNOWNS};
+use super::observers::PathObservers;
+use super::point::scales;
+use super::row_exterior::{Beyond, RowExterior};
+use super::surface_fold::FoldObserver;
+use super::system::{Chain, RowLayout};
+use super::{
+    At, Bending, DIRECT_STIFFNESS, FailureMode, LONGEST_ROW, Passage, PerturbedScale, Puncture,
+    PunctureEnd, PunctureMeasures, PunctureParameters, PuncturePoint, RowLength, TIP_REACH,
+    TiltMeasures, ending, failure, overlaps_at_rest,
+};
+use crate::arrangement::Arrangement;
+use crate::contacts::pair_constraints;
+use crate::record::{PathFunction, Record};
+use crate::{Common, Design, PathDetail, Sample, Status, Unloading};
+
+/// Tilt below which a scale under a guided needle counts as not tilted, degrees.
+///
+/// It covers the round-off of a symmetric row.
+const STRAIGHT_DEG: f64 = 1e-6;
+
+/// Factors on the largest step with which a path is followed again, in turn.
+const FINER_STEPS: [f64; 2] = [0.25, 0.05];
+
+/// Depth, relative to the largest one, below which a path is back at rest.
+const NEAR_REST: f64 = 0.01;
+
+/// Largest distance in pitches of touching scales.
+///
+/// None beyond 3 were observed, and each pitch adds six unknowns per scale.
+const FARTHEST_CONTACT: usize = 8;
+
+/// Source of rows of any length.
+#[derive(Clone, Copy)]
+pub(super) enum Rows<'a> {
+    Even(Row),
+    Odd(Row, PerturbedScale),
+    Sample(&'a Sample),
+}
+
+impl Rows<'_> {
+    pub(super) fn row(self, layout: RowLayout) -> Result<Arrangement, OutOfRange> {
+        Ok(match self {
+            Self::Even(row) => Arrangement::Even(row),
+            Self::Odd(row, odd) => Arrangement::Uneven(odd.within(&row, layout)?),
+            Self::Sample(sample) => Arrangement::Uneven(sample.row(layout.left, layout.right)?),
+        })
+    }
+}
+
+/// A path followed to its end.
+pub(super) struct Followed {
+    pub(super) watch: PathObservers,
+    pub(super) passage: Passage,
+    pub(super) path: Continuation<Chain>,
+    pub(super) status: Status,
+}
+
+impl Followed {
+    /// Returns true if the path ended where it began.
+    fn is_back_at_rest(&self) -> bool {
+        if !matches!(self.status, Status::Stopped(Termination::Unloaded | Termination::Jumps)) {
+            return false;
+        }
+        let path = &self.watch.record.path;
+        let farthest = path.iter().map(|point| point.displacement.abs()).fold(0.0, f64::max);
+        path.last().is_some_and(|last| last.displacement.abs() <= NEAR_REST * farthest)
+    }
+
+    /// Builds the result of the puncture.
+    ///
+    /// With `unload` also follows the unloading path.
+    pub(super) fn puncture(self, unload: bool) -> Puncture {
+        let Self { watch, passage, mut path, status } = self;
+        let PathObservers { record, needle, folds, failure, tilts, depth, force, .. } = watch;
+        let at_tip = watch.passage;
+        let FoldObserver { folds, .. } = folds;
+        let path = &mut path;
+        let mut measures = PunctureMeasures::new(&record, &folds, path);
+        measures.passage = passage;
+        if let Some(failure) = failure {
+            let at_end = passage.critical_event.map_or(FailureMode::Tilt, FailureMode::from);
+            let at_end = match status {
+                Status::Complete => Some(at_end),
+                Status::Bent => Some(FailureMode::Bend),
+                _ => None,
+            };
+            measures.failure = failure.measures(path, at_end);
+        }
+        let loaded = force.points.first().and_then(Option::as_ref);
+        measures.tissue_pressure_at_force =
+            loaded.map(|point| path.system().tissue_pressure(&point.state));
+        // The outer option tells whether a depth was requested, the inner one whether it was
+        // reached.
+        let deep = depth.points.first().map(|found| found.as_ref().map(|deep| &deep.state));
+        // A skin that fails before this depth carries no more than its final force.
+        let end = Some(&path.point().state).filter(|_| status == Status::Complete);
+        measures.force_at_depth = deep.and_then(|deep| Some(path.system().force(deep.or(end)?)));
+        let (instability, snaps) = if path.system().is_critical_only() {
+            (Vec::new(), Vec::new())
+        } else {
+            needle.finish(path, &mut measures)
+        };
+        let mut measures = match status {
+            Status::Complete => measures,
+            _ => measures.without_final_values(),
+        };
+        let chain = path.system();
+        let scales = scales(chain, &path.point().state);
+        // Observers record points when the path leaves them, so the last point is missing.
+        let mut tip_forces = at_tip.tip_forces;
+        tip_forces.extend(chain.tip_forces(&path.point().state));
+        let at_tilts = tilts
+            .points
+            .into_iter()
+            .map(|point| Some(TiltMeasures::new(chain, &point?.state)))
+            .collect();
+        let Record { path: points, events, history, work, .. } = record;
+        // Unload last: unloading moves the path away from the end, which has been evaluated above.
+        let unloading =
+            (unload && status == Status::Complete).then(|| Unloading::follow(path, work));
+        if let Some(unloading) = &unloading {
+            measures.remains = unloading.remains(|point: &PuncturePoint| point.displacement);
+        }
+        Puncture {
+            status,
+            measures,
+            at_tilts,
+            path: points,
+            instability,
+            tip_forces,
+            events,
+            snaps,
+            folds,
+            scales,
+            history,
+            unloading,
+            places: Vec::new(),
+            end: None,
+        }
+    }
+}
+
+pub(super) struct Problem<'a> {
+    pub(super) rows: Rows<'a>,
+    pub(super) design: &'a Design,
+    pub(super) stiffness: RowStiffness,
+    /// Far field beyond the solved part of an endless row, lengths over `t`.
+    ///
+    /// `None` for a finite row.
+    pub(super) endless: Option<FarField>,
+    pub(super) law: ContactLaw,
+    pub(super) settings: Settings,
+    pub(super) detail: PathDetail,
+    pub(super) parameters: &'a PunctureParameters,
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(
+        rows: Rows<'a>,
+        design: &'a Design,
+        stiffness: RowStiffness,
+        common: &Common,
+        parameters: &'a PunctureParameters,
+    ) -> Result<Self, OutOfRange> {
+        parameters.check()?;
+        let (curvature, overlap) =
+            (parameters.curvature, overlaps_at_rest(design, parameters.body())?);
+        let expected = "a curvature at which neighbouring scales do not overlap at rest";
+        OutOfRange::unless(!overlap, "curvature of the body", curvature, expected)?;
+        let is_rigid = parameters.bending == Bending::Rigid;
+        let friction = common.friction;
+        let expected = "0 for elastic scales";
+        OutOfRange::unless(is_rigid || friction == 0.0, "friction of scales", friction, expected)?;
+        let is_guided = parameters.needle.is_guided();
+        let (name, expected) = ("guided needle on elastic scales", "0, a free needle");
+        OutOfRange::unless(is_rigid || !is_guided, name, f64::from(is_guided), expected)?;
+        Self::unchecked(rows, design, stiffness, common, parameters)
+    }
+
+    /// Sets up the problem with parameters that may slightly exceed their ranges.
+    pub(super) fn unchecked(
+        rows: Rows<'a>,
+        design: &'a Design,
+        stiffness: RowStiffness,
+        common: &Common,
+        parameters: &'a PunctureParameters,
+    ) -> Result<Self, OutOfRange> {
+        // The modulus ratio refers to `E_s`, forces to `E* = E_s/(1 − ν²)`.
+        let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
+        let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
+        let law = ContactLaw::new(common.law, design.length, design.width, modulus)?
+            .with_friction(common.friction)?;
+        let endless = match parameters.scales {
+            RowLength::Auto => Some(far_field(design, &stiffness, None).ok_or(OutOfRange {
+                quantity: DIRECT_STIFFNESS,
+                value: stiffness.direct[0],
+                expected: "more than its couplings with all neighbours together",
+            })?),
+            RowLength::Scales(_) => None,
+        };
+        let Common { solver: settings, detail, .. } = *common;
+        let problem = Self { rows, design, stiffness, endless, law, settings, detail, parameters };
+        let radius = parameters.needle_radius;
+        let is_in_reach = radius.is_none() || problem.reach().is_some();
+        let expected = "at most 62 pitches of the row";
+        OutOfRange::unless(is_in_reach, TIP_REACH, radius.unwrap_or(0.0), expected)?;
+        Ok(problem)
+    }
+
+    pub(super) fn solve(&self) -> Result<Puncture, OutOfRange> {
+        self.result(self.follow(&[], &[])?)
+    }
+
+    /// Builds the result of a path that was followed from rest.
+    pub(super) fn result(&self, followed: Followed) -> Result<Puncture, OutOfRange> {
+        let end = PunctureEnd::new(self, &followed);
+        let puncture = followed.puncture(self.parameters.unload);
+        Ok(Puncture { end, ..puncture }.with_places(self.load_positions()?))
+    }
+
+    /// Builds the initial system; returns it with the longest row it may grow to.
+    ///
+    /// A scale may touch up to `contact_reach` scales on its right.
+    pub(super) fn start(&self, contact_reach: usize) -> Result<(Chain, usize), OutOfRange> {
+        let contacts = contact_reach * pair_constraints(&self.law);
+        let Some(whole) = self.whole() else {
+            let first = self.endless.as_ref().map(|far| self.first_layout(far, contacts));
+            return Ok((self.part(first.unwrap_or_default())?, LONGEST_ROW));
+        };
+        // The far fields of bars and of springs agree only approximately, and far couplings have
+        // no closed form in front of an end.
+        let is_linear = self.parameters.substrate_law == SubstrateLaw::Linear;
+        let far = self.far_field(Some(1)).filter(|_| is_linear);
+        let layout = far.map_or(whole, |far| self.first_layout(&far, contacts).within(whole));
+        Ok((self.part(RowLayout { contacts, ..layout })?, whole.scales()))
+    }
+
+    /// Returns the initial layout in front of a far field.
+    fn first_layout(&self, far: &FarField, contacts: usize) -> RowLayout {
+        let (neighbours, law) = (self.stiffness.neighbours.len(), self.parameters.substrate_law);
+        let layout = RowLayout::first(far, neighbours, law);
+        let layout = layout.at_least(self.reach().map_or(0, |reach| reach + 1));
+        RowLayout { needle: self.needle_unknowns(), contacts, ..layout }
+    }
+
+    /// Counts the unknowns of the needle behind the load.
+    fn needle_unknowns(&self) -> usize {
+        match self.reach() {
+            Some(reach) => needle::unknowns(reach, self.parameters.needle.has_friction()),
+            None if self.parameters.needle.is_guided() => NEEDLE_UNKNOWNS,
+            None if self.parameters.bending == Bending::Elastic => BENDING_UNKNOWNS,
+            None => 0,
+        }
+    }
+
+    /// Returns the number of scales on each side that a round tip may reach.
+    ///
+    /// `None` for other needles.
+    pub(super) fn reach(&self) -> Option<usize> {
+        self.parameters.needle_radius.and_then(|radius| needle::reach(radius, self.pitch()))
+    }
+
+    /// Returns the distance of two nodes along the body, over `t`.
+    pub(super) fn pitch(&self) -> f64 {
+        2.0 * self.design.half_base() + self.design.gap
+    }
+
+    /// Returns the layout of a whole finite row.
+    ///
+    /// A row ends at the latest where a curved body turns away.
+    pub(super) fn whole(&self) -> Option<RowLayout> {
+        let on_body = self.parameters.body().scales_beside(self.pitch());
+        let sides = match self.parameters.scales {
+            RowLength::Scales(scales) => {
+                // With an even number one more scale is on the right.
+                let left = (scales - 1) / 2;
+                let right = scales - 1 - left;
+                let on_body = on_body.unwrap_or(scales);
+                Some([left.min(on_body), right.min(on_body)])
+            }
+            // A body with more scales than the longest row counts as endless.
+            RowLength::Auto => on_body.filter(|side| 2 * side < LONGEST_ROW).map(|side| [side; 2]),
+        };
+        let (needle, contacts) = (self.needle_unknowns(), 0);
+        sides.map(|[left, right]| RowLayout { left, right, needle, contacts })
+    }
+
+    /// Follows the path of the puncture, with smaller steps if it turns around.
+    ///
+    /// Only one branch leaves the state at rest, so a path that returns there has turned around at
+    /// an event, where round-off decided on its direction.
+    pub(super) fn follow(
+        &self,
+        functions: &[PathFunction<Chain>],
+        places: &[At],
+    ) -> Result<Followed, OutOfRange> {
+        let mut followed = self.follow_once(functions, places)?;
+        for factor in FINER_STEPS {
+            if !followed.is_back_at_rest() {
+                break;
+            }
+            let max_step = factor * self.settings.max_step;
+            let settings = Settings { max_step, ..self.settings };
+            let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
+            let finer = Problem { stiffness, endless, settings, ..*self };
+            followed = finer.follow_once(functions, places)?;
+        }
+        Ok(followed)
+    }
+
+    /// Follows the path until it ends, and locates the points requested in `places`.
+    ///
+    /// Initially each scale may touch its direct neighbours. If the audit finds overlap with a more
+    /// distant scale, which happens in at most one row in a hundred, the path is followed again
+    /// with a larger contact reach. Using the larger reach from the start would multiply the run
+    /// time of every path.
+    fn follow_once(
+        &self,
+        functions: &[PathFunction<Chain>],
+        places: &[At],
+    ) -> Result<Followed, OutOfRange> {
+        let mut contact_reach = 1;
+        loop {
+            let (start, longest) = self.start(contact_reach)?;
+            let followed = self.follow_row(start, longest, functions, places)?;
+            let path = &followed.path;
+            let beyond = match followed.status {
+                Status::Interpenetration => {
+                    path.system().contacts.meeting_beyond(&path.point().state)
+                }
+                _ => None,
+            };
+            match beyond.filter(|&pitches| pitches <= FARTHEST_CONTACT) {
+                // Overlaps found lie beyond the reach, so it grows in every iteration.
+                Some(pitches) => contact_reach = pitches,
+                None => return Ok(followed),
+            }
+        }
+    }
+
+    /// Returns true if the load is in the middle of a scale of an even, upright row.
+    ///
+    /// It pushes the scale straight down. Beyond a bifurcation the path may leave the symmetric
+    /// branch, but only by round-off.
+    fn is_balanced(&self) -> bool {
+        matches!(self.rows, Rows::Even(_))
+            && self.design.slant_deg == 0.0
+            && self.parameters.load_position == 0.5
+    }
+
+    /// Follows the path of a row until it ends.
+    ///
+    /// The solved part may grow up to `longest`.
+    pub(super) fn follow_row(
+        &self,
+        chain: Chain,
+        longest: usize,
+        functions: &[PathFunction<Chain>],
+        places: &[At],
+    ) -> Result<Followed, OutOfRange> {
+        let mut growing = AdaptiveRowPath::new(self, chain, longest);
+        let mut watch = PathObservers::new(&growing.path, self.parameters, functions, places);
+        let mut is_bent = false;
+        while let Some(mut segment) = growing.next()? {
+            if let Some(bent) = failure::bent_within(&mut growing.path, &segment) {
+                let chain = growing.path.system().clone();
+                growing.path.continue_with(chain, bent);
+                (segment.to, is_bent) = (growing.path.point().clone(), true);
+            }
+            watch.follow(&mut growing.path, &segment);
+            if is_bent {
+                break;
+            }
+        }
+        // Extend the points recorded on shorter rows, because they are evaluated on the final row
+        // from here on.
+        watch.lengthen(&growing);
+        let path = growing.path;
+        let mut passage = watch.passage.finish(path.system(), &path.point().state);
+        let is_untilted = self.is_balanced()
+            || (self.parameters.needle.is_guided() && passage.critical_event.is_none());
+        // At some load the path of a scale pushed in its middle bifurcates.
+        let points = &watch.record.path;
+        let is_straight =
+            || points.len() > 1 && points.iter().all(|at| at.tilt_deg.abs() < STRAIGHT_DEG);
+        let status = match Status::of(&path, path.termination().unwrap_or(Termination::Reached)) {
+            // A row that should have grown further has no valid end.
+            _ if !growing.has_room => Status::RowLimit,
+            _ if is_bent => Status::Bent,
+            Status::Complete if path.system().ends_at_a_corner(&path.point().state) => {
+                Status::OffEdge
+            }
+            // An upright scale loaded in its middle does not tilt even in the first step.
+            Status::Stopped(Termination::Singular) if watch.record.path.len() == 1 => {
+                Status::Untilted
+            }
+            Status::Complete if is_untilted => Status::Untilted,
+            Status::Stopped(Termination::NoConvergence | Termination::Jumps)
+                if passage.critical_event.is_none() && is_straight() =>
+            {
+                Status::Untilted
+            }
+            status => ending::classify(status, &watch.record.path),
+        };
+        // A load that vanishes at the foot of a face ends the path before the needle is through.
+        passage.critical_event = passage.critical_event.filter(|_| status == Status::Complete);
+        Ok(Followed { watch, passage, path, status })
+    }
+
+    /// Builds the system of a part of the row.
+    pub(super) fn part(&self, layout: RowLayout) -> Result<Chain, OutOfRange> {
+        let whole = self.whole();
+        let scales = [
+            whole.map(|whole| whole.left - layout.left),
+            whole.map(|whole| whole.right - layout.right),
+        ];
+        let beyond = scales.map(|scales| match scales {
+            Some(0) => None,
+            _ => Some(Beyond { far: self.far_field(scales)?, scales }),
+        });
+        let Self { design, stiffness, law, parameters, .. } = self;
+        let exterior = RowExterior::new(self.rows, layout, beyond, parameters.body())?;
+        let row = self.rows.row(layout)?;
+        let mut chain = Chain::new(row, stiffness, *law, layout, exterior, parameters, design);
+        chain.detail = self.detail;
+        Ok(chain)
+    }
+
+    /// Computes the far field of `scales` scales beyond an end, or of an infinite row.
+    pub(super) fn far_field(&self, scales: Option<usize>) -> Option<FarField> {
+        match scales {
+            // The infinite far field does not depend on the solved part, so it is computed once.
+            None => self.endless.clone(),
+            _ => far_field(self.design, &self.stiffness, scales),
+        }
+    }
+}
+
+/// Computes the far field with lengths over `t`, of a finite or infinite row.
+fn far_field(design: &Design, stiffness: &RowStiffness, scales: Option<usize>) -> Option<FarField> {
+    stiffness.with_lengths_over(design.half_base()).far_field(scales)
+}
