@@ -34,8 +34,8 @@ impl SurfaceStrip {
     /// Computes the stretch `g` of the strip between two poses `(x, y, φ)`.
     pub fn stretch(&self, left: [f64; 3], right: [f64; 3]) -> f64 {
         // 1 − cos φ without cancellation.
-        let [one, other] = [left[2], right[2]].map(|rotation| 2.0 * (0.5 * rotation).sin().powi(2));
-        self.stretch_by(right[0] - left[0], one + other)
+        let (one, other) = ((0.5 * left[2]).sin(), (0.5 * right[2]).sin());
+        self.stretch_by(right[0] - left[0], 2.0 * one.powi(2) + 2.0 * other.powi(2))
     }
 
     /// Computes the stretch `g` from relative displacement and base shortening.

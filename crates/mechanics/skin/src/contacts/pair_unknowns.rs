@@ -124,8 +124,12 @@ impl PairUnknowns {
                 for (i, row) in scales.into_iter().enumerate() {
                     for (j, column) in scales.into_iter().enumerate() {
                         let (k, l) = (3 * i, 3 * j);
-                        let block = [k, k + 1, k + 2]
-                            .map(|k| [slopes[k][l], slopes[k][l + 1], slopes[k][l + 2]]);
+                        // Written out: closures over arrays are not inlined here in test builds.
+                        let block = [
+                            [slopes[k][l], slopes[k][l + 1], slopes[k][l + 2]],
+                            [slopes[k + 1][l], slopes[k + 1][l + 1], slopes[k + 1][l + 2]],
+                            [slopes[k + 2][l], slopes[k + 2][l + 1], slopes[k + 2][l + 2]],
+                        ];
                         matrix.add_block(row, column, &block);
                     }
                 }

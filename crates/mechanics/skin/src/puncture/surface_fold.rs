@@ -231,8 +231,8 @@ impl Chain {
         direction: &[f64],
         scale: usize,
     ) -> f64 {
-        let [poses, rates] =
-            [&state.z, direction].map(|z| [scale, scale + 1].map(|i| self.displacement(z, i)));
+        let poses = [self.displacement(&state.z, scale), self.displacement(&state.z, scale + 1)];
+        let rates = [self.displacement(direction, scale), self.displacement(direction, scale + 1)];
         self.strip(scale).stretch_rate(poses, rates)
     }
 

@@ -113,9 +113,10 @@ impl<S: System> Continuation<S> {
             }
         }
         let lengths = [0, 1, 2].map(|k| products[k][k].sqrt());
-        let [turn, from_leaving, from_arriving] =
-            [(0, 1), (0, 2), (1, 2)].map(|(a, b)| products[a][b] / (lengths[a] * lengths[b]));
-        let off_mean = from_leaving + from_arriving < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
+        let turn = products[0][1] / (lengths[0] * lengths[1]);
+        let along =
+            products[0][2] / (lengths[0] * lengths[2]) + products[1][2] / (lengths[1] * lengths[2]);
+        let off_mean = along < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
         // A hidden path is longer than its length in the controls.
         lengths[2] > SHORT * lengths[0].max(1.0) && (turn < STRAIGHT_IN_ALL || off_mean)
     }
