@@ -9,7 +9,7 @@ use results::{Column, DesignRow, SlopeSide};
 use sweep::{Measure, Parameter, Role};
 
 use crate::error;
-use crate::skin::{Asked, Skin, evaluator, unknown};
+use crate::skin::{RequestedMeasures, Skin, evaluator, unknown};
 use crate::solved::reason;
 
 /// Step of finite differences along extrapolated rows, which have only the round-off of a formula.
@@ -41,7 +41,7 @@ pub fn gradients(
     // Solves only the measures that the columns need.
     let needed = asked.iter().map(|c| measure_of(&c.name).unwrap_or(Measure::Coverage));
     let needed: BTreeSet<_> = needed.chain([Measure::Sensitivity]).collect();
-    let needed = Asked { measures: Vec::from_iter(needed), columns: measures };
+    let needed = RequestedMeasures { measures: Vec::from_iter(needed), columns: measures };
     let (evaluator, number) = (evaluator(needed), of.sweep.grid().number(0));
     let row = py.detach(|| evaluator.row(number, &of.case()));
     let fold = columns.iter().find(|c| {

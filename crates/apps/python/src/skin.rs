@@ -106,14 +106,14 @@ fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
 
 /// The measures that a call asks for, and the columns if it names nothing but columns.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Asked {
+pub struct RequestedMeasures {
     pub measures: Vec<Measure>,
     pub columns: Vec<String>,
 }
 
 /// Parses measures: a name, a column, a list, or "all" (all without derivatives).
-pub fn asked(of: Option<&Bound<'_, PyAny>>) -> PyResult<Asked> {
-    let whole = |measures: Vec<Measure>| Asked { measures, columns: Vec::new() };
+pub fn asked(of: Option<&Bound<'_, PyAny>>) -> PyResult<RequestedMeasures> {
+    let whole = |measures: Vec<Measure>| RequestedMeasures { measures, columns: Vec::new() };
     let Some(of) = of.filter(|of| !of.is_none()) else {
         return Ok(whole(Measure::USUAL.to_vec()));
     };
@@ -140,14 +140,14 @@ pub fn asked(of: Option<&Bound<'_, PyAny>>) -> PyResult<Asked> {
         } else {
             Vec::new()
         };
-    Ok(Asked { columns, ..whole(measures) })
+    Ok(RequestedMeasures { columns, ..whole(measures) })
 }
 
 /// Returns the cached evaluator for these measures, which keeps its springs.
-pub fn evaluator(asked: Asked) -> Arc<Evaluator> {
-    static KNOWN: Mutex<BTreeMap<Asked, Arc<Evaluator>>> = Mutex::new(BTreeMap::new());
+pub fn evaluator(asked: RequestedMeasures) -> Arc<Evaluator> {
+    static KNOWN: Mutex<BTreeMap<RequestedMeasures, Arc<Evaluator>>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    Arc::clone(known.entry(asked).or_insert_with_key(|Asked { measures, columns }| {
+    Arc::clone(known.entry(asked).or_insert_with_key(|RequestedMeasures { measures, columns }| {
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         Arc::new(if columns.is_empty() {
             Evaluator::new(measures)

@@ -115,7 +115,9 @@ pub fn watched<T: Send + 'static>(
             Ok(done) => return Ok(done),
             // The thread ended without a result, so it panicked.
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(PyRuntimeError::new_err("squama is at fault; please report the call"));
+                return Err(PyRuntimeError::new_err(
+                    "internal error of squama; please report the call",
+                ));
             }
             Err(RecvTimeoutError::Timeout) => {}
         }

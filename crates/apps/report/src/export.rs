@@ -142,7 +142,7 @@ fn write(
     for file in results.tables().into_iter().chain(all) {
         let table = file.trim_end_matches(".csv").to_owned();
         let path = results.path().join(&file);
-        let (profiles, values) = look_over((&path, results.file(&file)?))?;
+        let (profiles, values) = profile_of_table((&path, results.file(&file)?))?;
         if file == ResultsFolder::DESIGNS {
             best = values;
         }
@@ -184,7 +184,9 @@ fn unreadable(path: &Path, reason: String) -> ExportError {
 }
 
 /// Reads a table once: returns the profiles of its columns and its best values.
-fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), ExportError> {
+fn profile_of_table(
+    (path, file): (&Path, File),
+) -> Result<(TableProfile, BestValues), ExportError> {
     let (format, mut csv) = open(file).map_err(|error| unreadable(path, reason(&error)))?;
     let header = csv.headers().map_err(|error| unreadable(path, words(error)))?.clone();
     let (mut columns, mut best) =

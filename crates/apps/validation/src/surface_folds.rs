@@ -67,7 +67,7 @@ fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
         [what.to_owned(), a, b, c, d]
     };
     let mut rows = vec![
-        of_each("designs whose surface folds over before 10°", |study| {
+        of_each("designs with a surface fold before 10°", |study| {
             study.designs.iter().filter(|design| folds(design)).count().to_string()
         }),
         of_each("of the 60 with the largest `F_c*`", |study| {

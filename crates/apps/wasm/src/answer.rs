@@ -1,6 +1,6 @@
 //! The response to a request.
 
-pub(crate) mod written;
+pub(crate) mod definition;
 
 use ranking::Requirement;
 use results::columns::{Goal, plain_goal};

@@ -9,7 +9,7 @@ use skin::flexure::{self, Flexure};
 use skin::puncture::{self, PunctureParameters};
 use sweep::{Case, Measure, Sweep};
 
-use crate::answer::{Answer, Required, Slope, Units, Value, written};
+use crate::answer::{Answer, Required, Slope, Units, Value, definition};
 use crate::follow::follow;
 use crate::path::{BentStrip, PuncturedRow};
 use crate::request::Request;
@@ -52,7 +52,7 @@ impl Solver {
         // Omit imperfect samples, which take hundreds of times as long.
         let base = Case { imperfection: Imperfection::default(), ..sweep.grid().case(0) };
         let case = request.case(&base)?;
-        let own = written::alone(&sweep, &base, &case)?;
+        let own = definition::alone(&sweep, &base, &case)?;
         let requirements = request.require.iter().map(|text| text.parse());
         let requirements: Vec<Requirement> = requirements
             .collect::<Result<_, ranking::InvalidRequirement>>()
@@ -108,9 +108,9 @@ impl Solver {
             puncture,
             flexure,
             slopes: row.result.sensitivity.iter().map(Slope::new).collect(),
-            closest: written::closest(&sweep, &case),
-            settings: written::settings(&sweep, &base, &case),
-            toml: written::definition(&own, &requirements),
+            closest: definition::closest(&sweep, &case),
+            settings: definition::settings(&sweep, &base, &case),
+            toml: definition::definition(&own, &requirements),
             follow: walk.transpose()?,
         })
     }

@@ -40,7 +40,7 @@ impl OutputError {
 
     /// Creates the error for a folder that another process is writing to.
     pub fn in_use(path: &Path) -> Self {
-        let (reason, advice) = ("another squama is writing there", "wait for it to end");
+        let (reason, advice) = ("another squama process is writing there", "wait for it to end");
         Self { path: path.to_owned(), reason: reason.to_owned(), advice }
     }
 

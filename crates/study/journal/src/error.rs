@@ -33,7 +33,7 @@ pub enum JournalError {
     #[error("{}: holds no journal, expected the folder of a run", .0.display())]
     Missing(PathBuf),
     /// Another process is writing to the journal.
-    #[error("{}: another squama is writing there; wait until it ends", .0.display())]
+    #[error("{}: another squama process is writing there; wait until it ends", .0.display())]
     InUse(PathBuf),
     /// The path is not a regular file.
     #[error("{}: is not a regular file, expected a journal that squama writes", .0.display())]

@@ -83,7 +83,7 @@ impl<D: Designs> JournalHeader<D> {
         let read: Result<BTreeMap<String, Self>, _> = serde_json::from_slice(object);
         let mut read = read.map_err(|error| refuse(one_line(&error.to_string())))?;
         let header = read.remove(R::KEY).filter(Self::is_sound);
-        header.ok_or_else(|| refuse("squama writes no such line there".to_owned()))
+        header.ok_or_else(|| refuse("expected the header that squama writes".to_owned()))
     }
 
     /// Returns the seal of the lines after the first.

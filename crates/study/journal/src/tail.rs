@@ -21,7 +21,7 @@ pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, OutputErr
     let copied = io::copy(&mut journal, &mut copy).and_then(|_| copy.sync_all());
     copied.map_err(|error| OutputError::file(&name, &error))?;
     Ok(Some(format!(
-        "{}: {torn} bytes at its end are damaged and cut off, a copy of them is in {}",
+        "{}: {torn} damaged bytes at its end were cut off; a copy of them is in {}",
         path.display(),
         name.display()
     )))

@@ -48,7 +48,7 @@ pub(crate) fn answer(
     let mut agreement = Agreement::of(&[]);
     for target in &targets {
         let units = plan.evaluations() * search.evaluation_units(target);
-        search.progress.begin(SearchPart::Climb, plan.tasks(), units);
+        search.progress.begin(SearchPart::LocalSearches, plan.tasks(), units);
         let Improved { evaluated, mut ends } = improved(search, history, target, plan)?;
         history.extend(evaluated);
         history.extend(restarted(search, history, target, &mut ends, plan.restarts)?);

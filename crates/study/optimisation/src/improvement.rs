@@ -61,7 +61,7 @@ impl Plan {
     /// Returns the expected number of evaluations for a target.
     pub fn evaluations(self) -> u64 {
         let Self { regions, starts, finalists, .. } = self;
-        (regions + starts) as u64 * Effort::CLIMB.evaluations
+        (regions + starts) as u64 * Effort::GRADIENT.evaluations
             + finalists as u64 * Effort::WHOLE.evaluations
     }
 
@@ -105,7 +105,7 @@ pub(crate) fn improved_from(
     // Successive halving: a few steps show which regions are worth a longer search.
     let full = if near.is_some() { Effort::NEAR } else { Effort::WHOLE };
     let stages =
-        [(plan.regions, Effort::PROBE), (plan.starts, Effort::CLIMB), (plan.finalists, full)];
+        [(plan.regions, Effort::PROBE), (plan.starts, Effort::GRADIENT), (plan.finalists, full)];
     for (count, effort) in stages {
         // Each search depends on its start only, so results are independent of the order of
         // completion.

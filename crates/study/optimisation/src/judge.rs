@@ -85,7 +85,7 @@ impl Judge {
     }
 
     /// Returns true if designs with a folded surface are excluded.
-    pub(crate) fn wants_sound(&self) -> bool {
+    pub(crate) fn requires_unfolded(&self) -> bool {
         self.soundness.is_some()
     }
 
@@ -142,7 +142,9 @@ impl Judge {
         match worth {
             // Only for otherwise feasible designs: the shortfall of infeasible ones still guides a
             // search, folded or not.
-            Ok(worth) if worth.met && self.wants_sound() && has_folded(row) => Judgement::Folded,
+            Ok(worth) if worth.met && self.requires_unfolded() && has_folded(row) => {
+                Judgement::Folded
+            }
             Ok(worth) => Judgement::Judged(worth),
             Err(column) => Judgement::Missing(column),
         }
@@ -157,7 +159,7 @@ impl Judge {
         }
         let margin = bounds.margin(values.iter().copied());
         // As for sampled designs: other shortfalls are reported first.
-        if margin >= 0.0 && self.wants_sound() && has_folded(row) {
+        if margin >= 0.0 && self.requires_unfolded() && has_folded(row) {
             return Judgement::Folded;
         }
         let required = values.into_iter().flatten().collect();

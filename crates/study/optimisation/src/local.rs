@@ -85,7 +85,7 @@ pub(crate) struct Effort {
     /// Maximum evaluations of a gradient search, per variable.
     ///
     /// Smooth problems need fewer; searches that need more zigzag across a ridge.
-    pub looks: u64,
+    pub gradient_evaluations: u64,
     /// Maximum number of coverage branches in a gradient search.
     pub pieces: usize,
     /// Maximum number of rounds.
@@ -102,13 +102,26 @@ pub(crate) struct Effort {
 
 impl Effort {
     /// A few gradient steps, enough to compare regions.
-    pub const PROBE: Self = Self { looks: 4, pieces: 1, ..Self::CLIMB };
+    pub const PROBE: Self = Self { gradient_evaluations: 4, pieces: 1, ..Self::GRADIENT };
     /// Gradient search alone.
-    pub const CLIMB: Self =
-        Self { looks: 15, pieces: 2, rounds: 0, reach: 0.0, ridge: 0, polish: 0, evaluations: 12 };
+    pub const GRADIENT: Self = Self {
+        gradient_evaluations: 15,
+        pieces: 2,
+        rounds: 0,
+        reach: 0.0,
+        ridge: 0,
+        polish: 0,
+        evaluations: 12,
+    };
     /// Full local search, to convergence.
-    pub const WHOLE: Self =
-        Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, evaluations: 70, ..Self::CLIMB };
+    pub const WHOLE: Self = Self {
+        rounds: ROUNDS,
+        reach: 0.06,
+        ridge: 20,
+        polish: 8,
+        evaluations: 70,
+        ..Self::GRADIENT
+    };
 
     /// Local search from a design that is probably near the best.
     ///
@@ -121,7 +134,7 @@ impl Effort {
     /// Each evaluation costs as many solutions as there are samples.
     fn on_samples(self) -> Self {
         Self {
-            looks: self.looks.min(8),
+            gradient_evaluations: self.gradient_evaluations.min(8),
             rounds: self.rounds.min(2),
             ridge: self.ridge / 2,
             polish: self.polish / 2,
@@ -293,7 +306,7 @@ impl Search<'_> {
         if effort.rounds > 0 && walk.is_certain()? {
             return Ok(walk.log.take());
         }
-        walk.climb(effort)?;
+        walk.gradient_search(effort)?;
         for _ in 0..effort.rounds {
             if walk.is_certain()? {
                 break;
@@ -308,7 +321,7 @@ impl Search<'_> {
             if !gained(before, walk.best_merit(), self.fineness().gain) {
                 break;
             }
-            walk.climb(effort)?;
+            walk.gradient_search(effort)?;
             reach *= 0.3;
         }
         walk.follow_best()?;

@@ -16,7 +16,7 @@ pub enum SearchPart {
     #[default]
     Sample,
     /// Local searches from the best of them.
-    Climb,
+    LocalSearches,
     /// Restarts near the best, because the local searches disagree.
     Restart,
     /// Searching the points of a front.
@@ -67,7 +67,7 @@ impl SearchPart {
     pub fn words(self) -> &'static str {
         match self {
             Self::Sample => "filling the space",
-            Self::Climb => "climbing from the best",
+            Self::LocalSearches => "local searches from the best",
             Self::Restart => "again near the best",
             Self::Front => "points of the front",
             Self::Samples => "first samples",
@@ -186,29 +186,35 @@ impl Drop for SearchTask<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::SearchPart::{Check, Climb, Front, Restart, Sample};
+    use super::SearchPart::{Check, Front, LocalSearches, Restart, Sample};
     use super::*;
 
     #[test]
     fn tasks_are_counted_per_part_and_units_over_all_parts() {
         let progress = SearchProgress::default();
         assert_eq!(progress.share(), 0.0);
-        progress.expect(vec![(Sample, 12), (Climb, 24), (Front, 36), (Climb, 24), (Check, 24)]);
+        progress.expect(vec![
+            (Sample, 12),
+            (LocalSearches, 24),
+            (Front, 36),
+            (LocalSearches, 24),
+            (Check, 24),
+        ]);
         progress.begin(Sample, 12, 12);
         drop(progress.task(1));
         progress.evaluate();
         assert_eq!((progress.progress(), progress.designs()), ((Sample, 1, 12), 1));
         assert_eq!(progress.share(), 1.0 / 120.0);
         (0..11).for_each(|_| drop(progress.task(1)));
-        progress.begin(Climb, 4, 24);
+        progress.begin(LocalSearches, 4, 24);
         let task = progress.task(6);
         task.count(4);
-        assert_eq!((progress.progress(), progress.share()), ((Climb, 0, 4), 16.0 / 120.0));
+        assert_eq!((progress.progress(), progress.share()), ((LocalSearches, 0, 4), 16.0 / 120.0));
         // Units beyond the expected number are not counted.
         task.count(400);
         assert_eq!(progress.share(), 18.0 / 120.0);
         drop(task);
-        assert_eq!((progress.progress(), progress.share()), ((Climb, 1, 4), 18.0 / 120.0));
+        assert_eq!((progress.progress(), progress.share()), ((LocalSearches, 1, 4), 18.0 / 120.0));
     }
 
     #[test]
@@ -229,10 +235,10 @@ mod tests {
     #[test]
     fn the_fraction_follows_parts_that_end_early_or_were_not_expected() {
         let progress = SearchProgress::default();
-        progress.expect(vec![(Sample, 10), (Climb, 40), (Restart, 50), (Check, 20)]);
+        progress.expect(vec![(Sample, 10), (LocalSearches, 40), (Restart, 50), (Check, 20)]);
         progress.begin(Sample, 1, 10);
         drop(progress.task(10));
-        progress.begin(Climb, 2, 40);
+        progress.begin(LocalSearches, 2, 40);
         drop(progress.task(20));
         // Restarts that are not needed and local searches that are skipped do not count as work.
         progress.begin(Check, 1, 20);
@@ -241,8 +247,8 @@ mod tests {
         assert_eq!(progress.share(), 30.0 / 60.0);
         // Expected restarts of later local searches are not used up by an unexpected restart.
         let progress = SearchProgress::default();
-        progress.expect(vec![(Climb, 20), (Climb, 40), (Restart, 50)]);
-        progress.begin(Climb, 1, 20);
+        progress.expect(vec![(LocalSearches, 20), (LocalSearches, 40), (Restart, 50)]);
+        progress.begin(LocalSearches, 1, 20);
         drop(progress.task(20));
         progress.begin(Restart, 1, 30);
         assert_eq!(progress.share(), 20.0 / 140.0);

@@ -170,7 +170,7 @@ fn find(
         rounding = limits.round(&nominal, best, &mut history)?;
         best.checks = DesignChecks::solve(goal, best);
     }
-    // The search measures only what the goal is about.
+    // The search measures only the columns of the goal.
     answer.best_mut().par_iter_mut().try_for_each(|best| {
         best.row = evaluations.reported_row(&best.candidate.point)?;
         Ok(())
@@ -386,7 +386,7 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
         let each = evaluation_units(samples);
         let mut parts = Vec::new();
         for objective in &goal.objectives {
-            parts.push((SearchPart::Climb, plan.evaluations() * each));
+            parts.push((SearchPart::LocalSearches, plan.evaluations() * each));
             // Local searches seldom agree on the largest slope of a path. For other objectives
             // restarts are the exception.
             if &*objective.column == name::MAX_STIFFNESS {
@@ -395,7 +395,8 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
             }
         }
         if goal.objectives.len() > 1 {
-            // Half of the points, then the points between them.
+            // The first half of the points is searched from many designs, the second half between
+            // them.
             let half = points.div_ceil(2) as u64;
             let plans = [plan.of_a_point(), plan.between_points()];
             parts.extend(
@@ -460,7 +461,9 @@ impl LeftOutDesigns {
                 Judgement::Folded => left_out.folded += 1,
                 // A design folded at the end is judged as infeasible, and counted here as folded
                 // too.
-                Judgement::Judged(_) | Judgement::Nominal(_) if search.judge.wants_sound() => {
+                Judgement::Judged(_) | Judgement::Nominal(_)
+                    if search.judge.requires_unfolded() =>
+                {
                     let row = search.evaluations.row(0, &candidate.point, &candidate.result);
                     left_out.folded += usize::from(has_folded(&row));
                 }

@@ -53,7 +53,7 @@ pub enum InvalidComparison {
     Results(#[from] InvalidResults),
     /// Two designs differ only in a parameter that the other run does not record.
     #[error(
-        "{file}: designs {first} and {second} differ only in something that one of the runs does not record; \
+        "{file}: designs {first} and {second} differ only in a parameter that one of the runs does not record; \
          each table needs its run.toml"
     )]
     Ambiguous {

@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn fronts_of_few_points_ties_and_zeros() {
+    fn small_fronts_treat_ties_and_signed_zeros_as_equal() {
         assert_eq!(pareto_front(&[]), [] as [bool; 0]);
         assert_eq!(pareto_front(&[[1.0; 4]]), [true]);
         let equal = [[1.0, 2.0, 3.0, 4.0]; 3];

@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn the_documented_limits_are_those_of_the_list() {
+    fn the_documented_pressure_limits_match_the_list() {
         let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/bodies.md");
         let page = std::fs::read_to_string(page).expect("readable");
         let rows = page.lines().filter(|line| line.starts_with("| `pain "));

@@ -175,11 +175,11 @@ pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
 /// several tilts, values in physical units. In a sweep with a thickness, lengths in mm come before
 /// the geometry, and values in physical units before the dimensionless values that they replace.
 fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
-    let standing = COLUMNS.iter().filter(|column| column.stands(sweep, table));
+    let standing = COLUMNS.iter().filter(|column| column.is_available(sweep, table));
     let (physical, values): (Vec<_>, Vec<_>) = standing.partition(|column| column.is_physical());
     let (leading, others): (Vec<_>, Vec<_>) = values.into_iter().partition(|column| match table {
         Some(table) => column.name == table,
-        None => column.leads(),
+        None => column.names_a_table(),
     });
     let has_thickness = sweep.gives(key::THICKNESS);
     let (leading, after_axes, last) = if has_thickness {

@@ -70,7 +70,7 @@ impl Contents {
         // Numbers and texts always have a TOML form, so serialization cannot fail.
         let table = toml::to_string(self).unwrap_or_default();
         let text = format!(
-            "# What this folder held when its tables were written. Commands that read it check every file against this.\n\
+            "# Checksums of the files in this folder. Commands that read the folder verify its files against them.\n\
              {table}"
         );
         // Hash the text, not the parsed values: an edit that keeps the values must be detected too.

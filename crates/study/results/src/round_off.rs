@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_values_become_the_best_of_them() {
+    fn values_equal_up_to_round_off_are_replaced_by_the_best() {
         let mut values = [0.5, 0.8, 0.8 - 1e-12, 0.3, 0.8 + 1e-12, 0.5 + 1e-15];
         merge_equal(&mut values, Goal::Maximize);
         assert_eq!(values, [0.5 + 1e-15, 0.8 + 1e-12, 0.8 + 1e-12, 0.3, 0.8 + 1e-12, 0.5 + 1e-15]);

@@ -35,7 +35,7 @@ const LONGEST_CHAIN: usize = 1000;
 
 /// The second method for solving a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SecondWay {
+pub enum SecondMethod {
     /// With steps a tenth as large.
     SmallerSteps,
     /// As a chain of all gaps.
@@ -48,7 +48,7 @@ pub struct LargestDifference {
     /// Column of `designs.csv`.
     pub column: String,
     /// Second method.
-    pub way: SecondWay,
+    pub way: SecondMethod,
     /// Difference relative to the larger value.
     pub relative: f64,
     /// Design with this difference.
@@ -110,12 +110,12 @@ impl Audit {
                     audit.compare(
                         &columns,
                         [&archive.row(entry), &audited.finer],
-                        SecondWay::SmallerSteps,
+                        SecondMethod::SmallerSteps,
                     );
                     audit.designs += 1;
                 }
                 if let Some([cell, chain]) = &audited.chain {
-                    audit.compare(&columns, [cell, chain], SecondWay::Chain);
+                    audit.compare(&columns, [cell, chain], SecondMethod::Chain);
                 }
                 Ok(())
             },
@@ -125,7 +125,7 @@ impl Audit {
     }
 
     /// Adds the differences between two rows of one design.
-    fn compare(&mut self, columns: &[Column<DesignRow>], rows: [&DesignRow; 2], way: SecondWay) {
+    fn compare(&mut self, columns: &[Column<DesignRow>], rows: [&DesignRow; 2], way: SecondMethod) {
         for column in columns.iter().filter(|column| is_physical(&column.name)) {
             let design = rows[0].number;
             match rows.map(|row| column.cell(row)) {
@@ -258,9 +258,9 @@ mod tests {
         let mut audit = Audit::default();
         for (index, values) in [(0, [0.5, 0.4]), (1, [0.5, 0.25]), (2, [0.5, 0.5])] {
             let rows = values.map(|coverage| row(index, Some(coverage)));
-            audit.compare(&columns, [&rows[0], &rows[1]], SecondWay::SmallerSteps);
+            audit.compare(&columns, [&rows[0], &rows[1]], SecondMethod::SmallerSteps);
         }
-        audit.compare(&columns, [&row(3, Some(0.5)), &row(3, None)], SecondWay::SmallerSteps);
+        audit.compare(&columns, [&row(3, Some(0.5)), &row(3, None)], SecondMethod::SmallerSteps);
         let found: Vec<_> =
             audit.differences.iter().filter(|found| found.column == "coverage").collect();
         assert_eq!((found.len(), found[0].relative), (1, 0.5));

@@ -41,7 +41,7 @@ impl Estimate {
         // Time on one thread; callers divide it by the number of threads.
         for index in spread(grid.len()) {
             let row = evaluator.row(grid.number(index), &grid.case(index));
-            bytes += room(sweep, &row);
+            bytes += disk_space(sweep, &row);
             solved += 1;
             if begun.elapsed() > PATIENCE {
                 break;
@@ -62,7 +62,7 @@ fn spread(designs: u64) -> impl Iterator<Item = u64> {
 }
 
 /// Returns the bytes of a design in journal and tables.
-fn room(sweep: &Sweep, row: &DesignRow) -> usize {
+fn disk_space(sweep: &Sweep, row: &DesignRow) -> usize {
     let (design, result) = (row.number.index() + 1, row.result.clone());
     // Times of six digits are typical.
     let entry = JournalEntry { design, rerun: 0, at: 0.123_456, seconds: 0.123_456, result };
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn designs_of_all_parts_of_a_grid_are_solved() {
+    fn estimates_sample_all_parts_of_a_grid() {
         let chosen: Vec<_> = spread(16_000).collect();
         assert_eq!(chosen.len(), 48);
         // Slow designs leave time for only a few, so the first ones are from different parts.
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn twice_as_many_designs_need_twice_the_space() {
+    fn estimated_disk_space_is_proportional_to_the_number_of_designs() {
         let bytes = |values: u32| {
             let text = format!(
                 "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = {{ from = 1, to = {values}, step = 1 }}"

@@ -23,7 +23,7 @@
 //! | [`RunStatus`] | numbers of finished, failed and missing designs |
 //! | [`merge()`] | merges shards |
 //! | [`Estimate`] | estimated time and disk space of a sweep |
-//! | [`Audit`], [`LargestDifference`], [`SecondWay`] | some designs solved again by a second method |
+//! | [`Audit`], [`LargestDifference`], [`SecondMethod`] | designs solved again by another method |
 //! | [`Summary`], [`Best`] | counts and best values |
 //! | [`GapChange`], [`MeasureChange`] | the measures of a design with a gap 10 % smaller and larger |
 //! | [`CouplingChange`], [`CoupledMeasure`] | the measures of a design with full coupling |
@@ -75,7 +75,7 @@ mod tables;
 mod warnings;
 mod weakest_place;
 
-pub use audit::{Audit, LargestDifference, SecondWay};
+pub use audit::{Audit, LargestDifference, SecondMethod};
 pub use bare_needle::{BareNeedle, bare_needle};
 pub use coupling_change::{CoupledMeasure, CouplingChange};
 pub use curved_body::{curved_body_warning, flat_design_warning};

@@ -33,7 +33,7 @@ pub enum MergeError {
     #[error(transparent)]
     Run(#[from] RunError),
     /// Two shards have different results for the same design.
-    #[error("{}: design {design} differs from that in {}; solve it again in one of them with squama rerun", second.display(), first.display())]
+    #[error("{}: the result of design {design} differs from the result in {}; solve it again in one of them with squama rerun", second.display(), first.display())]
     Conflict {
         /// Number of the design.
         design: u64,

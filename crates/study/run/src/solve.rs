@@ -1,7 +1,6 @@
 //! Solves designs, one by one or in parallel.
 
 mod across;
-mod between;
 pub mod curve;
 pub mod evaluator;
 pub mod groups;
@@ -13,3 +12,4 @@ mod sensitivity;
 pub mod task;
 pub mod work;
 pub mod workers;
+mod worst_body;

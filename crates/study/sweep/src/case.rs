@@ -70,7 +70,7 @@ pub struct Millimetres {
     /// Pitch: base plus gap.
     pub pitch: Option<f64>,
     /// Whether the pitch determines the length of a scale instead of the gap.
-    pub pitch_says_length: bool,
+    pub pitch_determines_length: bool,
     /// Width of the scales.
     pub width: Option<f64>,
     /// Thickness of the substrate.

@@ -185,7 +185,8 @@ impl Sweep {
     /// Returns a note on a convex body that is narrow for the pitch of the scales.
     fn narrow_body(&self) -> Option<String> {
         // Most sweeps are flat, and creating all their cases takes time.
-        let axis = self.grid.axis_saying(key::CURVATURE).or(self.grid.axis_saying(key::RADIUS));
+        let axis =
+            self.grid.axis_in_any_unit(key::CURVATURE).or(self.grid.axis_in_any_unit(key::RADIUS));
         if axis.is_none() && self.grid.base().body().is_flat() {
             return None;
         }
@@ -245,7 +246,9 @@ impl Sweep {
                 self.grid.axis(parameter.key).is_none()
                     && parameter.is_given(self.grid.base())
                     && !parameter.follows(self.grid.base())
-                    && !alone.iter().any(|other| parameter.is_said_by(other, self.grid.base()))
+                    && !alone
+                        .iter()
+                        .any(|other| parameter.is_determined_by(other, self.grid.base()))
             })
             .map(|p| (p, p.get(self.grid.base())))
     }

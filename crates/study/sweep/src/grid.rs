@@ -111,8 +111,8 @@ impl Grid {
     }
 
     /// Returns the axis of the parameter `key`, directly or in mm.
-    pub fn axis_saying(&self, key: &str) -> Option<&Axis> {
-        self.axes.iter().find(|axis| axis.parameter.is_or_says(key))
+    pub fn axis_in_any_unit(&self, key: &str) -> Option<&Axis> {
+        self.axes.iter().find(|axis| axis.parameter.is_or_determines(key))
     }
 
     /// Returns the case shared by all designs.

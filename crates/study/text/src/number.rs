@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_numbers_have_one_position() {
+    fn numbers_equal_up_to_round_off_share_a_position() {
         let distinct: DistinctNumbers = [0.3, 0.1 + 0.2, 0.1, -0.0, 0.0, 0.7].into_iter().collect();
         assert_eq!(distinct.as_slice(), [0.0, 0.1, 0.3, 0.7]);
         let positions = [0.1 + 0.2, 0.3, 0.0, 0.7 - 1e-16, 0.4].map(|x| distinct.position(x));

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use run::{Audit, LargestDifference, SecondWay};
+use run::{Audit, LargestDifference, SecondMethod};
 
 use crate::print::{aligned, counted, digits};
 
@@ -40,8 +40,8 @@ pub fn report(audit: &Audit) -> String {
 
 fn row(found: &LargestDifference) -> [String; 5] {
     let way = match found.way {
-        SecondWay::SmallerSteps => "steps a tenth as large",
-        SecondWay::Chain => "chain against unit cell",
+        SecondMethod::SmallerSteps => "steps a tenth as large",
+        SecondMethod::Chain => "chain against unit cell",
     };
     let [first, second] = found.values.map(digits);
     let values = format!("{first} against {second}");

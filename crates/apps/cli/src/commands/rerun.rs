@@ -6,7 +6,7 @@ use clap::Args;
 use run::{Filter, Rerun};
 
 use super::options::{RunOptions, TableFormat};
-use super::run::{behind_bar, conclude, exit_code, summary};
+use super::run::{conclude, exit_code, summary, with_progress_bar};
 use super::source::{results_folder, settings};
 use super::{DONE, PROGRAM};
 use crate::interrupt::Interrupt;
@@ -76,7 +76,8 @@ pub fn rerun(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8>
         return Ok(DONE);
     }
     let how = (&arguments.work, &arguments.format);
-    let finished = behind_bar(how, interrupt, |options, show| rerun.run(options, &PROGRAM, show))?;
+    let finished =
+        with_progress_bar(how, interrupt, |options, show| rerun.run(options, &PROGRAM, show))?;
     conclude(&folder, &finished);
     if !arguments.work.quiet {
         let threads = arguments.work.threads.count();

@@ -98,7 +98,7 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     note_variables(&sweep);
     let (subset, start) = (subset(arguments), arguments.earlier.start());
     let how = (&arguments.work, &arguments.format);
-    let (finished, audited) = behind_bar(how, interrupt, |options, show| {
+    let (finished, audited) = with_progress_bar(how, interrupt, |options, show| {
         let finished = run::run(&sweep, subset, &folder, start, options, &PROGRAM, show)?;
         // No audit after an interruption.
         let share = arguments.audit.filter(|_| interrupt.exit_code().is_none());
@@ -158,7 +158,7 @@ fn subset(arguments: &Arguments) -> Subset {
 }
 
 /// Solves designs with a progress bar.
-pub(super) fn behind_bar<T>(
+pub(super) fn with_progress_bar<T>(
     (work, format): (&RunOptions, &TableFormat),
     interrupt: &Interrupt,
     solve: impl FnOnce(&Options<'_>, &dyn Fn(Progress)) -> T,

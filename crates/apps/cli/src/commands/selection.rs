@@ -181,7 +181,7 @@ fn by_values(
         let note = if text.contains(',') && whole { " (several values)" } else { "" };
         let option = format!("{option} {text}{note}");
         // A range selects among the values of the definition, in the unit of their axis.
-        let axis = written.grid().axis_saying(key);
+        let axis = written.grid().axis_in_any_unit(key);
         let key = axis.map_or(key, |axis| axis.parameter().key);
         let values = values(text, axis).context(option.clone())?;
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);

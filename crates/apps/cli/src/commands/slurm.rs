@@ -99,9 +99,9 @@ fn settings(sweep: &Sweep, shards: u64) -> anyhow::Result<String> {
     // The environment may override the path, because nodes may differ.
     let program = std::env::current_exe().context("the path of squama is not known")?;
     Ok(format!(
-        "# What the scripts in this folder run: the sweep of sweep.toml. Written by squama slurm.\n\
+        "# Settings of the scripts in this folder for the sweep in sweep.toml. Written by squama slurm.\n\
          NAME={}\n\
-         # Shards keep their results only as long as this does not change.\n\
+         # Shards can be resumed only while this number is unchanged.\n\
          SHARDS={shards}\n\
          # The program, on the nodes.\n\
          SQUAMA=${{SQUAMA:-{}}}\n",

@@ -352,10 +352,10 @@ fn lost_lines_of_a_journal_are_detected() {
     fs::write(place.path("r/journal.jsonl"), &journal[..end]).expect("writable");
     let message = place.refused("rank r");
     assert!(message.contains("is not the journal from which the tables beside it"), "{message}");
-    insta::assert_snapshot!(place.refused("merge r --out all"), @"error: r/journal.jsonl: 1 of the 12 lines are missing that it had when its tables were written; restore them from a copy of the journal, or solve them again with squama run --resume");
+    insta::assert_snapshot!(place.refused("merge r --out all"), @"error: r/journal.jsonl: 1 of the 12 lines from which the tables were written are missing; restore them from a copy of the journal, or solve them again with squama run --resume");
     let run = place.squama("run x.toml -q --resume --out r").assert().code(0);
     let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
-    assert!(said.starts_with("note: r/journal.jsonl: 1 of the 12 lines are missing"), "{said}");
+    assert!(said.starts_with("note: r/journal.jsonl: 1 of the 12 lines from which"), "{said}");
     place.prints("rank r");
 }
 

@@ -58,7 +58,7 @@ fn a_torn_last_line_is_solved_again() {
     let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
     let tail = torn.rsplit('\n').next().expect("a tail");
     let expected = format!(
-        "note: b/journal.jsonl: {} bytes at its end are damaged and cut off, a copy of them is in b/journal.cut-1\n",
+        "note: b/journal.jsonl: {} damaged bytes at its end were cut off; a copy of them is in b/journal.cut-1\n",
         tail.len()
     );
     assert_eq!(said, expected);
@@ -149,7 +149,7 @@ fn a_second_run_on_a_folder_is_rejected() {
     let slow = "run x.toml -q --threads 1 --resume --set solver.max_step=0.0005";
     let mut first = place.spawn(slow);
     first.until(|| place.lines("results/many/journal.jsonl") >= 3);
-    insta::assert_snapshot!(place.refused(slow), @"error: results/many: another squama is writing there; wait until it ends");
+    insta::assert_snapshot!(place.refused(slow), @"error: results/many: another squama process is writing there; wait until it ends");
     let status = place.squama("status results/many").assert().code(1).get_output().stdout.clone();
     let status = String::from_utf8_lossy(&status).into_owned();
     assert!(

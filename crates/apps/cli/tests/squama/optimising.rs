@@ -339,7 +339,7 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
         (text, found["measures"][name].as_f64().expect("a number"))
     };
     let (text, weakest) = told(goal, "weakest_force");
-    let (_, line) = text.split_once("Weakest place, ").expect("a sentence");
+    let (_, line) = text.split_once("Weakest load position, ").expect("a sentence");
     let force =
         line.split_once("critical_force = ").and_then(|(_, rest)| rest.split_once(" there, "));
     let printed: f64 = force.expect("a force").0.parse().expect("a number");
@@ -348,9 +348,9 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
     let weakest = goal.replace("critical_force", "weakest_force");
     let (text, _) =
         told(&weakest.replace("[puncture]\n", "[puncture]\nplaces = 11\n"), "weakest_force");
-    assert!(!text.contains("Weakest place"), "{text}");
+    assert!(!text.contains("Weakest load position"), "{text}");
     let (text, _) = told(&goal.replace("'guided'", "'free'"), "weakest_force");
-    assert!(!text.contains("Weakest place"), "{text}");
+    assert!(!text.contains("Weakest load position"), "{text}");
 }
 
 /// A failure force is judged at every load position with full coupling, in one check.

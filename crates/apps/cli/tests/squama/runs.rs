@@ -151,14 +151,20 @@ fn a_resumed_run_reuses_the_designs_of_a_shorter_axis() {
         String::from_utf8(run.get_output().stderr.clone()).expect("text")
     };
     let message = resume("longer.toml");
-    assert!(message.contains("8 solved designs are in both and stay"), "{message}");
+    assert!(
+        message.contains("8 solved designs belong to both definitions and are kept"),
+        "{message}"
+    );
     assert_eq!(solved(&place), 24, "the other 16 are solved");
     place.squama("run longer.toml -q --out fresh").assert().code(0);
     for table in ["designs.csv", "critical_force.csv", "compliance.csv", "failures.csv"] {
         assert_eq!(place.read(&format!("r/{table}")), place.read(&format!("fresh/{table}")));
     }
     let message = resume("list.toml");
-    assert!(message.contains("24 solved designs are in both and stay"), "{message}");
+    assert!(
+        message.contains("24 solved designs belong to both definitions and are kept"),
+        "{message}"
+    );
     assert_eq!(solved(&place), 24, "nothing is solved again");
     assert_eq!(place.read("r/designs.csv"), place.read("fresh/designs.csv"));
     // Solved designs are never dropped, and other parameters give other designs.

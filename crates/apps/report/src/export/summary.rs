@@ -60,7 +60,7 @@ impl BestValues {
     }
 
     /// Returns the warning for a best design if a fold invalidates this measure.
-    fn doubt(&self, design: &str, measure: &str) -> &'static str {
+    fn fold_warning(&self, design: &str, measure: &str) -> &'static str {
         if is_invalid_after_fold(measure) && self.folded.contains(design) { DOUBT } else { "" }
     }
 
@@ -206,7 +206,7 @@ impl Sheet {
             let unit = explained("designs", column).map_or("-", |(unit, _)| unit);
             self.add(&[
                 &name,
-                &format!("{}{}{ties}", leader.first, best.doubt(&leader.first, column)),
+                &format!("{}{}{ties}", leader.first, best.fold_warning(&leader.first, column)),
                 &text::number::rounded(leader.value, 6),
                 unit,
             ])?;

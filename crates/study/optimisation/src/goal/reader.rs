@@ -98,7 +98,7 @@ impl DesignGoal {
             None
         });
         if refused.is_empty() {
-            refused.extend(senseless(&section, fitness.as_ref(), &sweep));
+            refused.extend(meaningless_keys(&section, fitness.as_ref(), &sweep));
         }
         let space = DesignSpace::new(sweep, section.round.as_ref().map(|(round, _)| *round));
         if refused.is_empty() {
@@ -222,7 +222,7 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
 /// Returns errors for meaningless keys of a goal.
 ///
 /// They are unknown columns, incomparable objectives and contradictory requirements.
-fn senseless(
+fn meaningless_keys(
     goal: &GoalSection,
     fitness: Option<&FitnessGoal>,
     sweep: &Sweep,
@@ -250,7 +250,7 @@ fn senseless(
             })
     });
     let found = columns.chain(incomparable).chain(contradictions(goal));
-    found.chain(out_of_reach(goal, sweep)).chain(statistics::senseless(goal)).collect()
+    found.chain(out_of_reach(goal, sweep)).chain(statistics::meaningless_keys(goal)).collect()
 }
 
 /// Returns the columns of a goal, with the criteria in place of the fitness.
@@ -292,7 +292,7 @@ fn contradictions(goal: &GoalSection) -> Vec<InvalidDefinition> {
     for (k, (upper, place)) in goal.requirements.iter().enumerate() {
         let mut earlier = goal.requirements[..k].iter().map(|(lower, _)| lower);
         if let Some(other) = earlier.find(|lower| exclude(lower, upper) || exclude(upper, lower)) {
-            let expected = format!("bounds that leave room beside {other}");
+            let expected = format!("a bound that is compatible with {other}");
             found.push(not_accepted(place, "goal.require", upper, expected));
         }
     }

@@ -78,7 +78,7 @@ pub(super) fn nearly(column: &str, known: &[&str]) -> Option<String> {
 }
 
 /// Returns errors for meaningless yields and for an unused number of samples.
-pub(super) fn senseless(goal: &GoalSection) -> Vec<InvalidDefinition> {
+pub(super) fn meaningless_keys(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let mut refused = Vec::new();
     for (requirement, place) in &goal.requirements {
         let is_bound = matches!(requirement.relation, Relation::AtLeast | Relation::Above);

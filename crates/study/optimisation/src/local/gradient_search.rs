@@ -26,13 +26,13 @@ impl LocalSearch<'_> {
     ///
     /// If the result is infeasible, it minimises the shortfall alone, and then returns to the
     /// objective.
-    pub(super) fn climb(&self, effort: Effort) -> Result<(), Halt> {
+    pub(super) fn gradient_search(&self, effort: Effort) -> Result<(), Halt> {
         let is_short = || matches!(self.best_merit(), Merit::Short(_));
-        self.climb_for(effort, false)?;
+        self.search_branches(effort, false)?;
         if is_short() {
-            self.climb_for(effort, true)?;
+            self.search_branches(effort, true)?;
             if !is_short() {
-                self.climb_for(effort, false)?;
+                self.search_branches(effort, false)?;
             }
         }
         Ok(())
@@ -41,16 +41,16 @@ impl LocalSearch<'_> {
     /// Runs gradient searches in successive coverage branches.
     ///
     /// Continues while the best design is on a border of another branch.
-    fn climb_for(&self, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
-        let mut climbed: Vec<Option<CoveragePiece>> = Vec::new();
-        while climbed.len() < effort.pieces {
+    fn search_branches(&self, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
+        let mut visited: Vec<Option<CoveragePiece>> = Vec::new();
+        while visited.len() < effort.pieces {
             // Recomputed each time: the best design may have reached the border of another branch.
             let pieces = self.pieces();
             // Visit each branch once; otherwise the search could alternate between two adjacent
             // branches.
-            let Some(&piece) = pieces.iter().find(|piece| !climbed.contains(piece)) else { break };
+            let Some(&piece) = pieces.iter().find(|piece| !visited.contains(piece)) else { break };
             self.climb_in(piece, effort, is_elastic)?;
-            climbed.push(piece);
+            visited.push(piece);
         }
         Ok(())
     }
@@ -90,7 +90,7 @@ impl LocalSearch<'_> {
         let start =
             SelectedFirstOrderState::new(self.best_shares().into_iter().chain(missed).collect());
         let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
-        let most = effort.looks * self.best_shares().len() as u64;
+        let most = effort.gradient_evaluations * self.best_shares().len() as u64;
         match Executor::new(problem, solver, start).max_cost_evals(most).run() {
             Err(ConstraintSolveError::Evaluation(halt)) if !matches!(halt, Halt::Stalled) => {
                 Err(halt)

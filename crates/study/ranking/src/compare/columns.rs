@@ -10,7 +10,7 @@ use super::{ColumnDifference, Difference, absolute, relative};
 pub static COMPARISON_COLUMNS: &[Column<ColumnDifference>] = &columns! { ColumnDifference:
     "column", "-", |c| c.name.clone(), "column of designs.csv";
     "compared", "-", |c| c.compared, "designs that have a value in both runs";
-    "differing", "-", |c| c.differing, "those whose values differ by more than the tolerance";
+    "differing", "-", |c| c.differing, "designs with values that differ by more than the tolerance";
     "only_first", "-", |c| c.only_first, "designs that have a value in the first run alone";
     "only_second", "-", |c| c.only_second, "designs that have a value in the second run alone";
     "largest_relative", "-", |c| c.relative.as_ref().map(|e| e.difference),

@@ -100,7 +100,7 @@ fn an_axis_of_one_run_may_be_a_constant_of_the_other() {
     // Without a record, the value of c2 in the second run is unknown.
     let message = compare(&wide, &results(narrow, None), 0.0).expect_err("ambiguous").to_string();
     let message = message.replace(&wide.folder().display().to_string(), "x");
-    insta::assert_snapshot!(message, @"x/designs.csv: designs 0001 and 0002 differ only in something that one of the runs does not record; each table needs its run.toml");
+    insta::assert_snapshot!(message, @"x/designs.csv: designs 0001 and 0002 differ only in a parameter that one of the runs does not record; each table needs its run.toml");
 }
 
 #[test]

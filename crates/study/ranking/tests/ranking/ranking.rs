@@ -315,7 +315,7 @@ fn preferences_are_written_beside_the_tables() {
     let (files, lock) = write_ranking(folder.path(), &ranking).expect("writable");
     // The lock prevents another ranking from removing the files before they are read.
     let refused = write_ranking(folder.path(), &ranking).expect_err("held").to_string();
-    assert!(refused.contains("another squama is writing there"), "{refused}");
+    assert!(refused.contains("another squama process is writing there"), "{refused}");
     drop(lock);
     assert_eq!(files, ["ranking.csv", "pareto.csv", "ranking.toml"]);
     assert!(!folder.path().join("quaternary.csv").exists(), "that of other criteria is gone");

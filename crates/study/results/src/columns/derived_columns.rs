@@ -74,9 +74,9 @@ fn statistics_columns(value: &'static MeasuredValue) -> Vec<ValueColumn> {
 fn in_physical_units() -> impl Iterator<Item = ValueColumn> {
     let mut values: Vec<_> = VALUES.iter().collect();
     // Stable sort: each of the three groups keeps the order of `designs.csv`.
-    values.sort_by_key(
-        |value| if value.leads() { 0 } else { 2 - usize::from(value.place.is_limit()) },
-    );
+    values.sort_by_key(|value| {
+        if value.names_a_table() { 0 } else { 2 - usize::from(value.place.is_limit()) }
+    });
     let nominal = |value: &&'static MeasuredValue| -> Vec<_> {
         value.physical.iter().map(|physical| physical_column(value, physical)).collect()
     };
@@ -152,7 +152,7 @@ impl ValueColumn {
         let of_value = COLUMNS.iter().filter(|column| {
             std::ptr::eq(column.value, dimensionless.value) && column.statistic.is_none()
         });
-        let mut standing = of_value.filter(|column| column.stands(sweep, None));
+        let mut standing = of_value.filter(|column| column.is_available(sweep, None));
         standing.clone().find(|column| column.quantity.is_some()).or_else(|| standing.next())
     }
 
@@ -211,7 +211,7 @@ impl ValueColumn {
     /// Returns true if designs of `sweep` have this column in `table`.
     ///
     /// `None` means in any table.
-    pub(super) fn stands(&self, sweep: &Sweep, table: Option<&str>) -> bool {
+    pub(super) fn is_available(&self, sweep: &Sweep, table: Option<&str>) -> bool {
         // The search for parameters by key is slow, so it comes last.
         table.is_none_or(|table| self.value.tables.contains(&table))
             && (sweep.is_imperfect() || !self.is_of_samples())
@@ -249,8 +249,8 @@ impl ValueColumn {
     }
 
     /// Returns true if a measure table is named after this column.
-    pub(super) fn leads(&self) -> bool {
-        self.quantity.is_none() && self.statistic.is_none() && self.value.leads()
+    pub(super) fn names_a_table(&self) -> bool {
+        self.quantity.is_none() && self.statistic.is_none() && self.value.names_a_table()
     }
 
     /// Returns the name without the suffix of the physical unit.

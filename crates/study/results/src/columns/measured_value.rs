@@ -268,7 +268,7 @@ impl MeasuredValue {
     }
 
     /// Returns true if a measure table is named after this value.
-    pub(super) fn leads(&self) -> bool {
+    pub(super) fn names_a_table(&self) -> bool {
         MEASURE_TABLES.iter().any(|(table, _)| *table == self.name)
     }
 

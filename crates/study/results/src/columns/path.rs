@@ -18,7 +18,7 @@ pub type StabilityPoint = (PuncturePoint, Instability);
 /// Returns the columns of `path.csv`.
 ///
 /// Some exist only for guided needles or scales with friction.
-pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> {
+pub fn path_columns(is_guided: bool, has_friction: bool) -> Vec<Column<StabilityPoint>> {
     let mut columns = Vec::from(columns! { StabilityPoint:
         "displacement", "t", |(p, _)| p.displacement,
             "downward displacement of the punctured point";
@@ -42,7 +42,7 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
                 "force of the guided needle on the scales along the row, to the right";
         });
     }
-    if rubs {
+    if has_friction {
         columns.extend(columns! { StabilityPoint:
             name::FRICTION_WORK, "E* t^3", |(p, _)| p.friction_work,
                 "work dissipated by friction between scales up to this point";
@@ -174,7 +174,7 @@ pub static STEPS: &[Column<Iteration>] = &columns! { Iteration:
 /// Returns the columns of `flexure_path.csv`.
 ///
 /// One exists only for scales with friction.
-pub fn flexure_path_columns(rubs: bool) -> Vec<Column<flexure::FlexurePoint>> {
+pub fn flexure_path_columns(has_friction: bool) -> Vec<Column<flexure::FlexurePoint>> {
     let mut columns = Vec::from(columns! { flexure::FlexurePoint:
         "curvature", "1/t", |p| p.curvature, "curvature of the strip";
         "moment", "E_m I_m/t", |p| p.moment, "bending moment";
@@ -188,7 +188,7 @@ pub fn flexure_path_columns(rubs: bool) -> Vec<Column<flexure::FlexurePoint>> {
         "membrane_strain", "-", |p| p.membrane_strain,
             "largest strain at the surface of the membrane";
     });
-    if rubs {
+    if has_friction {
         columns.extend(columns! { flexure::FlexurePoint:
             name::FRICTION_WORK, "E_m t^3", |p| p.friction_work,
                 "work dissipated by friction between scales up to this point, for the whole strip";

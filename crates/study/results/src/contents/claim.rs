@@ -190,6 +190,6 @@ mod tests {
         let folder = ResultsFolder::new(place.path());
         let _claim = Claim::take(&folder, Maker::Comparison).expect("a claim");
         let refused = Claim::take(&folder, Maker::Design).expect_err("in use").to_string();
-        assert!(refused.contains("another squama is writing there"), "{refused}");
+        assert!(refused.contains("another squama process is writing there"), "{refused}");
     }
 }

@@ -67,7 +67,7 @@ impl InvalidFolder {
 }
 
 /// Returns the command that rebuilds tables and contents from the journal.
-fn mend(folder: &Path) -> String {
+fn repair_command(folder: &Path) -> String {
     let folder = shell_word(&folder.display().to_string());
     format!("squama merge {folder} --out {folder}")
 }
@@ -114,8 +114,8 @@ impl VerifiedFolder {
     pub fn behind(&self) -> Option<InvalidFolder> {
         self.behind.then(|| {
             let problem = format!(
-                "the journal has more designs than the tables, because a run is going on or was ended before it wrote them; {} writes them, --partial uses the designs of the tables",
-                mend(self.path())
+                "the journal has more designs than the tables, because a run is in progress or was ended before it wrote them; {} writes them, --partial uses the designs of the tables",
+                repair_command(self.path())
             );
             InvalidFolder::new(self.path(), problem)
         })
@@ -298,7 +298,7 @@ impl VerifiedFolder {
     /// Returns the error of a file, with the command that writes the file again.
     fn refusal(&self, name: &str, maker: Maker, problem: &str) -> InvalidFolder {
         let again = match maker {
-            Maker::Run => mend(self.path()),
+            Maker::Run => repair_command(self.path()),
             Maker::Ranking => format!("squama rank {}", shell_word(&self.path().to_string_lossy())),
             // Without `--resume` a search refuses a folder that contains its journal.
             Maker::Search => "the same command with --resume".to_owned(),
@@ -353,22 +353,22 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     if sha256(found) == expected {
         return Ok(());
     }
-    let mend = mend(folder);
+    let repair_command = repair_command(folder);
     let problem = format!(
-        "was edited; copy it under another name to use it as a definition; {mend} writes it again"
+        "was edited; copy it under another name to use it as a definition; {repair_command} writes it again"
     );
     Err(InvalidFolder::new(folder.join(ResultsFolder::RUN_INFO), problem))
 }
 
 /// Reads the contents of `folder`. `None` if it holds tables alone.
 fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
-    let mend = mend(folder.path());
+    let repair_command = repair_command(folder.path());
     let path = folder.file(ResultsFolder::CONTENTS);
     let parsed = match read_text(&path) {
         Ok(text) => Contents::parse(&text),
         Err(error) if error.kind() == ErrorKind::NotFound && folder.journal().exists() => {
             let problem = format!(
-                "holds a journal but no {}, which a run writes last; {mend} writes the tables of the designs that are solved",
+                "holds a journal but no {}, which a run writes last; {repair_command} writes the tables of the designs that are solved",
                 ResultsFolder::CONTENTS
             );
             return Err(InvalidFolder::new(folder.path(), problem));
@@ -379,8 +379,9 @@ fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
         Err(error) => return Err(InvalidFolder::unreadable(&path, &reason(&error))),
     };
     parsed.map(Some).map_err(|problem| {
-        let problem =
-            format!("was changed after squama wrote it ({problem}); {mend} writes it again");
+        let problem = format!(
+            "was changed after squama wrote it ({problem}); {repair_command} writes it again"
+        );
         InvalidFolder::new(path, problem)
     })
 }
@@ -394,7 +395,7 @@ fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, Inv
     let refuse = |problem: &str| {
         let problem = format!(
             "is not the journal from which the tables beside it were written ({problem}); {} writes the tables of the designs that it has",
-            mend(folder.path())
+            repair_command(folder.path())
         );
         InvalidFolder::new(&path, problem)
     };

@@ -199,12 +199,13 @@ fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
 
 /// Returns outcome and measures.
 ///
-/// If a number is not finite: the reason, and only `few` measures.
+/// If a number is not finite, the outcome is [`Outcome::NotFinite`] unless the path stopped for
+/// another reason, and only the `few` measures are returned.
 fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
     match outcome {
         _ if finite => (outcome, measures),
         Outcome::Complete => (Outcome::NotFinite, few),
-        // The reason why the path stopped says more than `NotFinite`.
+        // Keep the reason why the path stopped: it is more specific than `NotFinite`.
         stopped => (stopped, few),
     }
 }
@@ -244,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn a_complete_puncture_that_is_not_finite_is_not_complete() {
+    fn a_puncture_with_nan_measures_is_not_complete() {
         let result = PunctureResult::new(&puncture(Status::Complete, f64::NAN), 0.0);
         assert_eq!(result.outcome, Outcome::NotFinite);
         assert_eq!(result.measures, PunctureMeasures { scales: 41, ..PunctureMeasures::default() });
@@ -256,13 +257,13 @@ mod tests {
     }
 
     #[test]
-    fn the_reason_of_a_puncture_that_stopped_is_kept() {
+    fn a_stopped_puncture_keeps_its_stop_reason() {
         let result = PunctureResult::new(&puncture(Status::RowLimit, f64::NAN), 0.0);
         assert_eq!(result.outcome, Outcome::RowLimit);
     }
 
     #[test]
-    fn an_error_that_is_not_finite_is_omitted() {
+    fn a_nan_error_estimate_is_omitted() {
         for error in [f64::NAN, f64::INFINITY] {
             let result = PunctureResult::new(&puncture(Status::Complete, 2.0), error);
             assert_eq!(result.calibration_error, None);

@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_short_table_is_kept_and_a_long_one_keeps_its_best() {
+    fn thinning_keeps_short_tables_and_the_best_rows_of_long_tables() {
         assert_eq!(thinned(3, 5), ["0", "1", "2"]);
         assert_eq!(thinned(20, 4), ["0", "5", "7", "10", "15"]);
     }

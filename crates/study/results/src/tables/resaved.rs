@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn another_value_is_a_change() {
+    fn a_resaved_table_with_another_value_is_refused() {
         let digest = sha256(WRITTEN);
         let changes =
             [("0.1", "0.2"), ("0.1", "0.10000000000000001e1"), ("2L", "L"), ("0003", "4")];

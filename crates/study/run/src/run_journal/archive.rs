@@ -158,9 +158,7 @@ impl Archive {
         // Tables state the number of whole lines; torn lines do not count.
         let stated = Contents::stated_in(folder)?.journal.lines;
         let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
-        Some(format!(
-            "{lost} of the {stated} lines are missing that it had when its tables were written"
-        ))
+        Some(format!("{lost} of the {stated} lines from which the tables were written are missing"))
     }
 
     /// Returns true if the valid line of a design is in the first `bytes` bytes.
@@ -276,10 +274,10 @@ impl Entries<'_> {
         let mut bytes = read.map_err(|error| self.archive.unreadable(&error))?;
         let problem = match self.archive.seal.read(&mut bytes) {
             Ok(Line::Design(entry)) => return Ok(*entry),
-            Ok(Line::Session(_)) => "it is no design any more".to_owned(),
+            Ok(Line::Session(_)) => "the line of a design is missing".to_owned(),
             Err(problem) => problem,
         };
-        let reason = format!("it has changed meanwhile, {problem}");
+        let reason = format!("it has changed while it was read, {problem}");
         Err(JournalError::Unreadable { path: self.archive.path.clone(), reason })
     }
 }

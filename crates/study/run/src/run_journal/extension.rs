@@ -50,7 +50,9 @@ pub(super) fn adopt(
     folder.remove_results();
     fs::rename(&rewritten, &path).map_err(|error| OutputError::file(&path, &error))?;
     let count = numbers.len();
-    Ok(Some(format!("the definition has changed; {count} solved designs are in both and stay")))
+    Ok(Some(format!(
+        "the definition has changed; {count} solved designs belong to both definitions and are kept"
+    )))
 }
 
 /// Returns true if only the axes and the name differ.

@@ -17,10 +17,10 @@ use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
 use sweep::{Case, DesignNumber, Measure, Parameter};
 
 use super::across::AcrossForces;
-use super::between::{self, WorstBody};
 use super::parts::Parts;
 use super::sensitivity::Wanted;
 use super::work::{DesignWork, WorkMeter};
+use super::worst_body::{self, WorstBody};
 use super::{samples, scatter, sensitivity};
 
 /// Maximum number of gaps of a chain, because longer paths do not fit into memory.
@@ -202,10 +202,10 @@ impl Evaluator {
             sensitivity.extend(guarded(|| sensitivity::coverage(case, wanted)).unwrap_or_default());
         }
         sensitivity.extend(derivatives);
-        let (puncture, puncture_path) = taken_apart(punctured, PunctureResult::without_path);
+        let (puncture, puncture_path) = split_solution(punctured, PunctureResult::without_path);
         let bent =
             self.measures(Measure::Flexure).then(|| self.flexure(case, wanted, &mut sensitivity));
-        let (flexure, flexure_path) = taken_apart(bent, FlexureResult::without_path);
+        let (flexure, flexure_path) = split_solution(bent, FlexureResult::without_path);
         let (samples, settings) = (self.samples(case, &work), String::new());
         let failures = Vec::new();
         // Values at further tilts are read from the same path.
@@ -352,11 +352,11 @@ impl Evaluator {
     /// Adds the smallest force to a result, and returns the body, if all have a force.
     fn puncture_between(&self, case: &Case, result: &mut PunctureResult) -> Option<WorstBody> {
         case.body_radius_to?;
-        let worst = between::worst_body(|fraction| {
+        let worst = worst_body::worst_body(|fraction| {
             let on_body = case.on_body_between(fraction).ok_or(Outcome::Internal)?;
             self.critical_force(&on_body)
         });
-        between::add_worst(case, result, worst);
+        worst_body::add_worst(case, result, worst);
         worst.ok()
     }
 
@@ -373,7 +373,7 @@ impl Evaluator {
         let substrate = guarded(|| self.substrate(case)).flatten()?;
         let parameters = case.punctured();
         let punctured = solved(|| puncture::solve(design, &*substrate, common, &parameters))?;
-        between::critical_force(&punctured)
+        worst_body::critical_force(&punctured)
     }
 
     /// Bends the design of `case`.
@@ -471,7 +471,7 @@ fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {
 /// Splits an evaluated measure into result and path.
 ///
 /// The path is `None` if the measure was not solved.
-fn taken_apart<R, P>(
+fn split_solution<R, P>(
     evaluated: Evaluated<R, P>,
     without_path: fn(Outcome) -> R,
 ) -> (Option<R>, Option<P>) {

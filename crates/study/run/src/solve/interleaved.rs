@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn huge_runs_start_at_once() {
+    fn the_order_of_a_huge_run_is_computed_lazily() {
         let first: Vec<_> = interleaved(vec![0..1_000_000_000_000; 1]).take(65).collect();
         assert_eq!((first[0], first[63]), (500_000_000_000, 500_000_000_063));
         assert!((110_000_000_000..120_000_000_000).contains(&first[64]), "{}", first[64]);

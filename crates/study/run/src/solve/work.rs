@@ -45,7 +45,7 @@ fn report_after<T>(
         let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.share + 0.0);
         let PathProgress { points, .. } = far;
         tell(format!(
-            "{design}: {seconds:.0} s so far, {points} points, at {share:.1} % of the last angle"
+            "{design}: {seconds:.0} s so far, {points} points, at {share:.1} % of the final angle"
         ));
     };
     report_progress(patience, words, work)

@@ -50,7 +50,7 @@ impl<'a> RunInfo<'a> {
         let started = archive.sessions().first().map(|session| session.started.as_str());
         let designs = archive.designs().len();
         let mut text = format!(
-            "# What this run was. This file is a sweep definition too: running it repeats the run.\n\
+            "# Record of a run. This file is also a sweep definition: running it repeats the run.\n\
              [run]\nversion = {}\ngit_revision = {}\nstarted = {}\nduration_s = {:.3}\nthreads = {}\n\
              sessions = {}\ndesigns = {designs}\ndone = {}\nfailed = {}\nmissing = {}\n",
             quoted(self.program.version),

@@ -52,7 +52,7 @@ struct Contest {
 }
 
 /// Measures of the summary: column names and labels.
-const TOLD: [(&str, &str); 5] = [
+const MEASURES: [(&str, &str); 5] = [
     (name::COVERAGE, "best coverage"),
     (name::CRITICAL_FORCE, "largest critical force"),
     (name::PENETRATION, "least penetration"),
@@ -78,7 +78,7 @@ impl Summary {
                 is_invalid_after_fold: is_invalid_after_fold(name),
             })
         };
-        Self { contests: TOLD.into_iter().filter_map(contest).collect(), ..Self::default() }
+        Self { contests: MEASURES.into_iter().filter_map(contest).collect(), ..Self::default() }
     }
 
     /// Counts a design.
@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn counts_and_best_values() {
+    fn the_summary_has_counts_and_best_values() {
         let sweep = Sweep::parse("name = 'x'", "x.toml", &[]).expect("a valid sweep");
         let text = "name = 'x'\ndesigns.critical_tilt_deg = [5, 10]";
         let tilts = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");

@@ -130,10 +130,9 @@ fn decimal(value: &Value) -> Result<Decimal, String> {
 pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
     let mut axes = paper();
     axes.retain(|axis| {
-        !written
-            .iter()
-            .map(Axis::parameter)
-            .any(|other| other == axis.parameter() || other.said_in(base) == Some(axis.parameter()))
+        !written.iter().map(Axis::parameter).any(|other| {
+            other == axis.parameter() || other.determines(base) == Some(axis.parameter())
+        })
     });
     axes.append(&mut written);
     // Stable sort: all other axes keep their order.

@@ -17,10 +17,10 @@ pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> R
     if given.key == key::LOAD_POSITION {
         return check_place(given, grid, variables);
     }
-    if given.is_or_says(key::RADIUS) || given.is_or_says(key::RADIUS_TO) {
+    if given.is_or_determines(key::RADIUS) || given.is_or_determines(key::RADIUS_TO) {
         check_radius(given, grid, variables)?;
     }
-    let length = given.said_in(grid.base()).map(|of| (of, key::THICKNESS));
+    let length = given.determines(grid.base()).map(|of| (of, key::THICKNESS));
     let mut all = length.into_iter().chain(given.ratios());
     all.try_for_each(|(of, unit)| check_one(given, (of, unit), grid, variables))
 }
@@ -82,7 +82,7 @@ fn check_one(
 ) -> Result<(), Problem> {
     let axes = grid.axes().iter().filter(|axis| {
         let (p, is_pitch) = (axis.parameter(), given.key == key::PITCH);
-        let makes_pitch = [key::GAP, key::LENGTH, "base"].iter().any(|key| p.is_or_says(key));
+        let makes_pitch = [key::GAP, key::LENGTH, "base"].iter().any(|key| p.is_or_determines(key));
         p == given || p.key == unit || (is_pitch && makes_pitch)
     });
     let axes: Vec<_> = axes.map(|axis| (axis.parameter(), ends(axis, variables))).collect();

@@ -11,7 +11,7 @@ use crate::case::Case;
 use crate::definition::Sweep;
 use crate::deviation::Deviation;
 use crate::grid::{Axis, Grid};
-use crate::named::{NAME_KEYS, NameKey, NamedValues, short_name_key};
+use crate::named_values::{NAME_KEYS, NameKey, NamedValues, short_name_key};
 use crate::parameter::{Parameter, Scalar, WrongValue, any_of, key};
 use crate::variable::{Variable, VariableValues};
 use text::number;
@@ -189,7 +189,7 @@ impl Reader {
     pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
         self.supply_named();
         // In addition to a gap, the pitch determines the length of a scale.
-        self.case.in_mm.pitch_says_length = self.says(key::PITCH) && self.says(key::GAP);
+        self.case.in_mm.pitch_determines_length = self.says(key::PITCH) && self.says(key::GAP);
         let wrong_together = self.wrong_together(file);
         self.refused.extend(wrong_together);
         // The following checks need designs, which exist only for keys without contradictions.
@@ -348,7 +348,7 @@ impl Reader {
     /// Refuses a needle radius without a guided needle.
     fn check_radius(&self) -> Result<(), InvalidDefinition> {
         let radius = self.written().find(|(_, parameter, _)| {
-            parameter.is_or_says(key::NEEDLE_RADIUS) && !self.leaves_open(parameter)
+            parameter.is_or_determines(key::NEEDLE_RADIUS) && !self.leaves_open(parameter)
         });
         let Some((key, _, place)) = radius else { return Ok(()) };
         // If the needle is an axis, some designs have a free needle, which cannot have a radius.
@@ -479,7 +479,7 @@ impl Reader {
 
     /// Returns true if the definition sets a parameter, directly or in mm.
     fn says(&self, key: &str) -> bool {
-        self.written().any(|(_, parameter, _)| parameter.is_or_says(key))
+        self.written().any(|(_, parameter, _)| parameter.is_or_determines(key))
     }
 
     /// Returns the position in the definition at which a parameter is set, if it is.

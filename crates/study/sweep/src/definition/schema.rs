@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::measure::Measure;
 use super::suggestion;
-use crate::named::{NAME_KEYS, NameKey, short_name_key};
+use crate::named_values::{NAME_KEYS, NameKey, short_name_key};
 use crate::parameter::{PARAMETERS, Parameter, Role};
 
 /// Returns the schemas of the top-level keys of a definition.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::suggestion::VARIABLES;
 use crate::case::Case;
-use crate::named::{NAME_KEYS, short_name_key};
+use crate::named_values::{NAME_KEYS, short_name_key};
 use crate::parameter::{Parameter, key};
 use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
@@ -66,10 +66,7 @@ impl Setting {
             return Err(refuse(format!("`{}` is not a key", key.trim())));
         }
         if path.len() > DEEPEST {
-            return Err(refuse(format!(
-                "a key of {} parts, and none has more than two",
-                path.len()
-            )));
+            return Err(refuse(format!("a key of {} parts, expected at most two", path.len())));
         }
         let value = toml_source::parse_argument(value, &place).map_err(|message| {
             refuse(format!("`{}` is not a TOML value ({message})", value.trim()))
@@ -180,9 +177,9 @@ fn case_of(table: &KeyValues) -> Case {
     }
     let mut case = Case::default();
     // In addition to a gap, the pitch determines a length.
-    case.in_mm.pitch_says_length = [key::PITCH, key::GAP]
+    case.in_mm.pitch_determines_length = [key::PITCH, key::GAP]
         .iter()
-        .all(|key| written.iter().any(|(parameter, _)| parameter.is_or_says(key)));
+        .all(|key| written.iter().any(|(parameter, _)| parameter.is_or_determines(key)));
     // For a guided needle tilt and friction are independent.
     for (parameter, value) in written.iter().filter(|(p, _)| p.key == key::NEEDLE) {
         // An axis of needles has no single value, and an invalid one is refused when it is read.
@@ -230,7 +227,7 @@ mod tests {
         let tpu = case(&["material.scale=TPU"]);
         assert_ne!(tpu.material.scale_strength_mpa, Some(50.0));
         assert_eq!(tpu, case(&["material.scale=tpu"]));
-        // Values that are set, too, have precedence.
+        // Values that are set explicitly take precedence over the values of the name.
         let both = case(&["material.scale=TPU", "material.scale_strength_MPa=7"]);
         assert_eq!(both.material.scale_strength_mpa, Some(7.0));
         let both = case(&["body.radius_mm=30", "body=finger"]);

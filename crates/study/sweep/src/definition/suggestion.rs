@@ -2,7 +2,7 @@
 
 use text::nearest;
 
-use crate::named::NAME_KEYS;
+use crate::named_values::NAME_KEYS;
 use crate::parameter::{PARAMETERS, Parameter, key};
 
 /// Section of the axes.
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_are_unique_and_sections_contiguous() {
+    fn parameter_keys_are_unique_and_sections_contiguous() {
         let mut keys: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.key).collect();
         keys.sort_unstable();
         keys.dedup();

@@ -35,7 +35,7 @@ impl Parameter {
     }
 
     /// Returns true if it is the parameter `key`, or the same length in mm.
-    pub(crate) fn is_or_says(&self, key: &str) -> bool {
+    pub(crate) fn is_or_determines(&self, key: &str) -> bool {
         // Exclude the pitch: counted as a gap, it would itself make `says(GAP)` true, and so always
         // determine a length.
         let is_other_way = self.key != key::PITCH;
@@ -43,14 +43,14 @@ impl Parameter {
     }
 
     /// Returns the parameter that this length in mm determines in `case`.
-    pub(crate) fn said_in(&self, case: &Case) -> Option<&'static Self> {
-        let says_length = self.key == key::PITCH && case.in_mm.pitch_says_length;
+    pub(crate) fn determines(&self, case: &Case) -> Option<&'static Self> {
+        let says_length = self.key == key::PITCH && case.in_mm.pitch_determines_length;
         if says_length { Self::named(key::LENGTH) } else { self.over_t() }
     }
 
     /// Returns true if it follows from a length in mm or from a modulus.
     pub fn follows(&self, case: &Case) -> bool {
-        given(case).any(|(in_mm, ..)| in_mm.said_in(case).is_some_and(|of| of == self))
+        given(case).any(|(in_mm, ..)| in_mm.determines(case).is_some_and(|of| of == self))
             || self.follows_modulus(case)
     }
 
@@ -93,7 +93,7 @@ pub(super) fn settle(case: &mut Case) {
     if let Some(pitch) = case.in_mm.pitch {
         let (pitch, design) = (quotient(pitch, thickness), &mut case.design);
         let base = 2.0 * design.half_base();
-        if case.in_mm.pitch_says_length {
+        if case.in_mm.pitch_determines_length {
             // Scale the length, because the base is `L` or `2L`. A base of zero, from a pitch that
             // equals the gap, stays zero and is refused; scaling it again would give NaN.
             if base != 0.0 {

@@ -49,16 +49,16 @@ impl Parameter {
     ///
     /// A definition gives only one of them.
     pub(crate) fn others_in(&self, case: &Case) -> impl Iterator<Item = &'static Self> {
-        PARAMETERS.iter().filter(|other| self.is_said_by(other, case))
+        PARAMETERS.iter().filter(|other| self.is_determined_by(other, case))
     }
 
     /// Returns true if `other` is an alternative of this parameter in a case.
     ///
     /// For a guided needle tilt and friction are independent. In addition to a gap, the pitch
     /// determines a length.
-    pub(crate) fn is_said_by(&self, other: &Self, case: &Case) -> bool {
+    pub(crate) fn is_determined_by(&self, other: &Self, case: &Case) -> bool {
         let origin = |parameter: &Self| {
-            let says_length = parameter.key == key::PITCH && case.in_mm.pitch_says_length;
+            let says_length = parameter.key == key::PITCH && case.in_mm.pitch_determines_length;
             if says_length { key::LENGTH } else { parameter.origin() }
         };
         // Alternatives are in one section. Comparing sections first saves most searches by key.
@@ -127,7 +127,7 @@ mod tests {
             let key = parameter.key;
             let case = Case::default();
             let mut others = parameter.others_in(&case);
-            assert!(others.all(|other| other.is_said_by(parameter, &case)), "{key}");
+            assert!(others.all(|other| other.is_determined_by(parameter, &case)), "{key}");
             let origin = Parameter::named(parameter.origin()).expect("a parameter");
             assert_eq!(origin.section, parameter.section, "{key}");
             if let Some(instead) = parameter.instead() {

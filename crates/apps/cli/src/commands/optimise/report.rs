@@ -341,7 +341,7 @@ fn weakest_place(place: &WeakestPlace) -> Option<String> {
     let weakest = place.weakest.filter(|weakest| *weakest < WEAKER * place.requested)?;
     let failure = place.failure.as_ref().map(|mode| format!(" ({mode})")).unwrap_or_default();
     Some(format!(
-        "\nWeakest place, with full substrate coupling: {}\n  {} = {}{failure} there, {} at the place of the search\n",
+        "\nWeakest load position, with full substrate coupling: {}\n  {} = {}{failure} there, {} at the position of the search\n",
         described(place.place),
         place.column,
         digits(weakest),

@@ -19,7 +19,7 @@ const HALVINGS: usize = 3;
 pub(super) struct WorstBody {
     /// Position in the range of curvatures, from 0 to 1.
     pub fraction: f64,
-    /// `F*` there.
+    /// `F*` on this body.
     pub force: f64,
 }
 
@@ -51,9 +51,9 @@ pub(super) fn worst_body(
 }
 
 impl WorstBody {
-    /// Returns the body with the smaller force; of equally weak ones this one.
+    /// Returns the body with the smaller force, or this body if both forces are equal.
     ///
-    /// Scales that do not touch do not depend on the curvature.
+    /// Forces are equal if scales do not touch, because they then do not depend on the curvature.
     fn or_smaller(self, other: Self) -> Self {
         if other.force < self.force * (1.0 - TIE) { other } else { self }
     }
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_without_a_force_leaves_the_smallest_one_open() {
+    fn the_worst_force_is_unknown_if_a_body_has_no_force() {
         let force =
             |fraction: f64| if fraction < 0.9 { Ok(1.0) } else { Err(Outcome::Overlapping) };
         assert_eq!(worst_body(force), Err(Outcome::Overlapping));

@@ -13,7 +13,7 @@ const OPTIONS: [(&str, &str); 3] =
 /// Returns the options with which `squama design` solves `case` instead of `base`.
 pub(crate) fn settings(sweep: &Sweep, base: &Case, case: &Case) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
-    let by_option = OPTIONS.map(|(key, _)| sweep.grid().axis_saying(key).map(Axis::parameter));
+    let by_option = OPTIONS.map(|(key, _)| sweep.grid().axis_in_any_unit(key).map(Axis::parameter));
     for ((_, option), parameter) in OPTIONS.iter().zip(&by_option) {
         words.extend(parameter.map(|parameter| format!("{option} {}", parameter.get(case))));
     }
