@@ -1,14 +1,11 @@
 //! Benchmark of one factorisation and solve of the tangent of a row of scales.
 //!
-//! Compares block elimination, band LU, and the sparse LU of faer with its symbolic part reused.
+//! Compares block elimination and band LU.
 
 use std::hint::black_box;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
-use faer::prelude::*;
-use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
-use faer::sparse::{SparseColMat, Triplet};
 use solver::{BandLu, BandMatrix, BlockElimination, BlockMatrix, Blocks, Tangent};
 
 type Group<'a> = BenchmarkGroup<'a, WallTime>;
@@ -91,22 +88,6 @@ impl RowTangent {
             });
         });
     }
-
-    fn sparse(&self, group: &mut Group) {
-        let size = self.rhs.len();
-        let triplets: Vec<_> =
-            self.entries.iter().map(|&(i, j, value)| Triplet::new(i, j, value)).collect();
-        let sparse = SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &triplets)
-            .expect("a sparse matrix");
-        let symbolic = SymbolicLu::try_new(sparse.symbolic()).expect("a symbolic factorisation");
-        let column = Col::from_fn(size, |i| self.rhs[i]);
-        group.bench_function(BenchmarkId::new("faer sparse LU", self.scales), |bencher| {
-            bencher.iter(|| {
-                let lu = Lu::try_new_with_symbolic(symbolic.clone(), black_box(sparse.as_ref()));
-                lu.expect("a regular matrix").solve(&column)
-            });
-        });
-    }
 }
 
 fn linear(criterion: &mut Criterion) {
@@ -115,7 +96,6 @@ fn linear(criterion: &mut Criterion) {
         let problem = RowTangent::new(scales);
         problem.in_blocks(&mut group);
         problem.in_band(&mut group);
-        problem.sparse(&mut group);
     }
     group.finish();
 }

@@ -19,8 +19,7 @@
 //!
 //! for `u_x = 1`, `u_y = 1` and `u_y = x − x_m`, with `E* = a = 1`.
 
-use faer::linalg::solvers::Solve as _;
-use faer::{ColRef, Mat};
+use nalgebra::DMatrix;
 
 use crate::Footprint;
 use crate::half_space::{CornerLine, Influence};
@@ -98,9 +97,9 @@ pub fn row_reactions_at(
     n: usize,
 ) -> Result<Vec<RowReactions>, Unresolved> {
     let mesh = Mesh::row(footprint, neighbours, n);
-    // Check the mesh first: if round-off collapses cells or gaps, the solution is meaningless.
-    let reactions = mesh.is_resolved().then(|| mesh.reactions(footprint, poisson_ratios));
-    // A singular matrix gives non-finite results instead of an error.
+    // If round-off collapses cells or gaps, the solution is meaningless.
+    let reactions =
+        if mesh.is_resolved() { mesh.reactions(footprint, poisson_ratios) } else { None };
     reactions
         .filter(|rows| rows.iter().flat_map(RowReactions::numbers).all(f64::is_finite))
         .ok_or(Unresolved { footprint: *footprint, cells: n })
@@ -145,7 +144,14 @@ impl Load {
 }
 
 impl Mesh {
-    fn reactions(&self, footprint: &Footprint, poisson_ratios: &[f64]) -> Vec<RowReactions> {
+    /// Solves for the reactions, by Poisson's ratio.
+    ///
+    /// `None` if a matrix is singular.
+    fn reactions(
+        &self,
+        footprint: &Footprint,
+        poisson_ratios: &[f64],
+    ) -> Option<Vec<RowReactions>> {
         let equations = Equations::assemble(self, poisson_ratios);
         let push = self.imposed(&[Load { middle: ONE, neighbour: None }]);
         // With the rotation, a neighbour and its mirror image are displaced by 1 and −1. Half of
@@ -154,10 +160,14 @@ impl Mesh {
         let turn = Load { middle: ARM, neighbour: None };
         let opposed = (0..self.neighbours.len()).map(|k| Load { middle: ZERO, neighbour: Some(k) });
         let loads: Vec<_> = [turn].into_iter().chain(opposed).collect();
-        let normal = equations.normal.partial_piv_lu().solve(&push);
-        let odd = equations.rotation.partial_piv_lu().solve(self.imposed(&loads));
-        let shears = equations.shear.iter().map(|shear| shear.partial_piv_lu().solve(&push));
-        shears.map(|shear| self.sums(footprint, shear.col(0), normal.col(0), &odd)).collect()
+        let normal = equations.normal.lu().solve(&push)?;
+        let odd = equations.rotation.lu().solve(&self.imposed(&loads))?;
+        let mut reactions = Vec::with_capacity(poisson_ratios.len());
+        for matrix in equations.shear {
+            let shear = matrix.lu().solve(&push)?;
+            reactions.push(self.sums(footprint, shear.as_slice(), normal.as_slice(), &odd));
+        }
+        Some(reactions)
     }
 
     /// Sums the tractions to reactions.
@@ -166,11 +176,12 @@ impl Mesh {
     fn sums(
         &self,
         footprint: &Footprint,
-        shear: ColRef<'_, f64>,
-        normal: ColRef<'_, f64>,
-        odd: &Mat<f64>,
+        shear: &[f64],
+        normal: &[f64],
+        odd: &DMatrix<f64>,
     ) -> RowReactions {
-        let rotation = odd.col(0);
+        let columns: Vec<&[f64]> = odd.as_slice().chunks_exact(odd.nrows()).collect();
+        let rotation = columns[0];
         let (mut neighbours, mut cross) = (Vec::new(), Vec::new());
         for k in 0..self.neighbours.len() {
             let centre = (k + 1) as f64 * footprint.pitch_over_a();
@@ -179,7 +190,7 @@ impl Mesh {
                 self.neighbour_sum(k, normal, ONE),
                 self.neighbour_sum(k, rotation, |x| x - centre),
             ]);
-            let moment = 0.5 * self.middle_sum(odd.col(k + 1), ARM);
+            let moment = 0.5 * self.middle_sum(columns[k + 1], ARM);
             cross.push(CrossTerms { force: self.neighbour_sum(k, rotation, ONE), moment });
         }
         let direct = [
@@ -200,14 +211,14 @@ impl Mesh {
     }
 
     /// Returns the imposed displacements, one column per load.
-    pub(crate) fn imposed(&self, loads: &[Load]) -> Mat<f64> {
+    pub(crate) fn imposed(&self, loads: &[Load]) -> DMatrix<f64> {
         let depth = self.depth.cells();
         let points: Vec<(usize, f64)> = self
             .across()
             .enumerate()
             .flat_map(|(body, axis)| axis.points().iter().map(move |&x| (body, x)))
             .collect();
-        Mat::from_fn(self.unknowns(), loads.len(), |i, load| {
+        DMatrix::from_fn(self.unknowns(), loads.len(), |i, load| {
             let (body, x) = points[i / depth];
             loads[load].displacement(body, x)
         })
@@ -216,7 +227,7 @@ impl Mesh {
     /// Returns `∬ p arm(x)` over the middle rectangle.
     ///
     /// It is four times the integral over its quarter.
-    pub(crate) fn middle_sum(&self, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
+    pub(crate) fn middle_sum(&self, tractions: &[f64], arm: impl Fn(f64) -> f64) -> f64 {
         4.0 * self.sum(&self.middle, 0, tractions, arm)
     }
 
@@ -226,7 +237,7 @@ impl Mesh {
     pub(crate) fn neighbour_sum(
         &self,
         k: usize,
-        tractions: ColRef<'_, f64>,
+        tractions: &[f64],
         arm: impl Fn(f64) -> f64,
     ) -> f64 {
         let before = self.across().take(k + 1).map(GradedAxis::cells).sum::<usize>();
@@ -240,7 +251,7 @@ impl Mesh {
         &self,
         axis: &GradedAxis,
         first: usize,
-        tractions: ColRef<'_, f64>,
+        tractions: &[f64],
         arm: impl Fn(f64) -> f64,
     ) -> f64 {
         let (depth, mut sum) = (self.depth.cells(), 0.0);
@@ -254,15 +265,15 @@ impl Mesh {
 
 /// Matrices `G` of (S5) for the three loads; shear has one per Poisson's ratio.
 struct Equations {
-    shear: Vec<Mat<f64>>,
-    normal: Mat<f64>,
-    rotation: Mat<f64>,
+    shear: Vec<DMatrix<f64>>,
+    normal: DMatrix<f64>,
+    rotation: DMatrix<f64>,
 }
 
 impl Equations {
     fn assemble(mesh: &Mesh, poisson_ratios: &[f64]) -> Self {
         let n = mesh.unknowns();
-        let zeros = Mat::zeros(n, n);
+        let zeros = DMatrix::zeros(n, n);
         let shear = vec![zeros.clone(); poisson_ratios.len()];
         let mut equations = Self { shear, normal: zeros.clone(), rotation: zeros };
         let depth = mesh.depth.cells();

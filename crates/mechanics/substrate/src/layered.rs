@@ -15,8 +15,7 @@ use crate::row_stiffness::CAUTION;
 use crate::springs::extrapolation;
 use crate::{Coupling, Footprint, FootprintParameter, NEIGHBOURS, Neighbour, RowStiffness};
 
-use faer::linalg::solvers::Solve as _;
-use faer::{ColRef, Mat};
+use nalgebra::DMatrix;
 
 /// Cells per side of the meshes.
 ///
@@ -107,11 +106,12 @@ fn added(
     let mesh = Mesh::row(footprint, neighbours, n);
     let quadrature = Quadrature::new(&mesh, &Mesh::row(near, neighbours, n), near);
     let [along, across] = quadrature.equations(&mesh, footprint);
+    let unresolved = Unresolved { footprint: *footprint, cells: n };
     let solved = Tractions {
         mesh: &mesh,
         pitch: footprint.pitch_over_a(),
-        along: mesh.solve(&along, &[[Some(ONE), None], [None, Some(ARM)]]),
-        across: mesh.solve(&across, &[[None, Some(ONE)]]),
+        along: mesh.solve(along, &[[Some(ONE), None], [None, Some(ARM)]]).ok_or(unresolved)?,
+        across: mesh.solve(across, &[[None, Some(ONE)]]).ok_or(unresolved)?,
     };
     let middle = solved.middle();
     let mut numbers = middle.to_vec();
@@ -126,25 +126,29 @@ fn added(
         number.iter_mut().zip([x, y, turn, cross.force]).for_each(|(n, less)| *n -= less);
     }
     let addition = Added { numbers, sizes: [middle[0], middle[1], middle[2]] };
-    all_finite.then_some(addition).ok_or(Unresolved { footprint: *footprint, cells: n })
+    all_finite.then_some(addition).ok_or(unresolved)
 }
 
 impl Mesh {
     /// Solves for the tractions, `q` before `p`.
     ///
     /// `imposed` holds the displacements of the middle rectangle along and across the row; its
-    /// neighbours are fixed.
-    fn solve(&self, equations: &Mat<f64>, imposed: &[[Option<Profile>; 2]]) -> Mat<f64> {
+    /// neighbours are fixed. `None` if the matrix is singular.
+    fn solve(
+        &self,
+        equations: DMatrix<f64>,
+        imposed: &[[Option<Profile>; 2]],
+    ) -> Option<DMatrix<f64>> {
         let n = self.unknowns();
-        let mut right = Mat::zeros(2 * n, imposed.len());
+        let mut right = DMatrix::zeros(2 * n, imposed.len());
         for (load, parts) in imposed.iter().enumerate() {
             for (first, middle) in [0, n].into_iter().zip(parts) {
                 let Some(middle) = *middle else { continue };
                 let part = self.imposed(&[Load { middle, neighbour: None }]);
-                right.submatrix_mut(first, load, n, 1).copy_from(&part);
+                right.view_mut((first, load), (n, 1)).copy_from(&part);
             }
         }
-        equations.partial_piv_lu().solve(right)
+        equations.lu().solve(&right)
     }
 }
 
@@ -153,30 +157,35 @@ struct Tractions<'a> {
     mesh: &'a Mesh,
     pitch: f64,
     /// Tractions of a displacement along the row, and of a rotation.
-    along: Mat<f64>,
+    along: DMatrix<f64>,
     /// Tractions of a displacement across the row.
-    across: Mat<f64>,
+    across: DMatrix<f64>,
 }
 
 impl Tractions<'_> {
+    /// Returns the tractions of a displacement along the row, of a rotation, and of a displacement
+    /// across the row.
+    fn loads(&self) -> [&[f64]; 3] {
+        let (push, turn) = self.along.as_slice().split_at(self.along.nrows());
+        [push, turn, self.across.as_slice()]
+    }
+
     fn middle(&self) -> [f64; OWN] {
         let n = self.mesh.unknowns();
-        let (push, turn, lift) = (self.along.col(0), self.along.col(1), self.across.col(0));
-        let x = self.mesh.middle_sum(push.subrows(0, n), ONE);
-        let y = self.mesh.middle_sum(lift.subrows(n, n), ONE);
-        let moment = self.mesh.middle_sum(turn.subrows(n, n), ARM);
+        let [push, turn, lift] = self.loads();
+        let x = self.mesh.middle_sum(&push[..n], ONE);
+        let y = self.mesh.middle_sum(&lift[n..], ONE);
+        let moment = self.mesh.middle_sum(&turn[n..], ARM);
         // By reciprocity both are equal; collocation leaves a small difference, so take the mean.
         let roll = f64::midpoint(
-            self.mesh.middle_sum(turn.subrows(0, n), ONE),
-            self.mesh.middle_sum(push.subrows(n, n), ARM),
+            self.mesh.middle_sum(&turn[..n], ONE),
+            self.mesh.middle_sum(&push[n..], ARM),
         );
         [x, y, moment, roll]
     }
 
     fn neighbour(&self, k: usize) -> [f64; PER_NEIGHBOUR] {
-        let push = self.forces_on_neighbour(k, self.along.col(0));
-        let turn = self.forces_on_neighbour(k, self.along.col(1));
-        let lifted = self.forces_on_neighbour(k, self.across.col(0));
+        let [push, turn, lifted] = self.loads().map(|load| self.forces_on_neighbour(k, load));
         // The middle rectangle has two neighbours, its neighbours have one, so collocation gives
         // two values. An energy requires one value: take the mean.
         let lift = 0.5 * (push[1] - lifted[0]);
@@ -185,10 +194,10 @@ impl Tractions<'_> {
     }
 
     /// Sums the tractions on neighbour `k` to forces along and across, and moment.
-    fn forces_on_neighbour(&self, k: usize, tractions: ColRef<'_, f64>) -> [f64; 3] {
+    fn forces_on_neighbour(&self, k: usize, tractions: &[f64]) -> [f64; 3] {
         let n = self.mesh.unknowns();
         let centre = (k + 1) as f64 * self.pitch;
-        let [q, p] = [0, n].map(|first| tractions.subrows(first, n));
+        let (q, p) = tractions.split_at(n);
         [
             self.mesh.neighbour_sum(k, q, ONE),
             self.mesh.neighbour_sum(k, p, ONE),
@@ -220,10 +229,10 @@ impl Quadrature {
     /// Assembles the matrices of the two systems.
     ///
     /// The displacements along the row precede those across it, and `q` precedes `p`.
-    fn equations(&self, mesh: &Mesh, footprint: &Footprint) -> [Mat<f64>; 2] {
+    fn equations(&self, mesh: &Mesh, footprint: &Footprint) -> [DMatrix<f64>; 2] {
         let n = mesh.unknowns();
         let layer = Layer::with_poisson_ratio(footprint.poisson_ratio());
-        let mut systems = [Mat::zeros(2 * n, 2 * n), Mat::zeros(2 * n, 2 * n)];
+        let mut systems = [DMatrix::zeros(2 * n, 2 * n), DMatrix::zeros(2 * n, 2 * n)];
         let depth = mesh.depth.cells();
         let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
         for (k, &z) in mesh.depth.points().iter().enumerate() {
@@ -298,7 +307,7 @@ fn on_half_space(cell: Influence, poisson_ratio: f64) -> Displacements {
 ///
 /// `signs` are the signs of `q` and `p` in the image.
 fn fill(
-    matrix: &mut Mat<f64>,
+    matrix: &mut DMatrix<f64>,
     n: usize,
     [row, column]: [usize; 2],
     right: Displacements,

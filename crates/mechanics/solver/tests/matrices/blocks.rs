@@ -1,7 +1,6 @@
-//! Block elimination against faer.
+//! Block elimination against dense LU.
 
-use faer::prelude::*;
-use faer::{Col, Mat, Side};
+use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use solver::{BlockElimination, BlockMatrix, Blocks, FARTHEST_LINK, LINK, Tangent, UnsafeBlock};
 
@@ -64,7 +63,7 @@ fn chains() -> impl Strategy<Value = Chain> {
 }
 
 /// Converts a dense matrix without some rows and columns to blocks.
-fn in_blocks(chain: &Chain, dense: &Mat<f64>, left_out: &[bool]) -> BlockMatrix {
+fn in_blocks(chain: &Chain, dense: &DMatrix<f64>, left_out: &[bool]) -> BlockMatrix {
     let mut matrix = BlockMatrix::default();
     matrix.reshape(&chain.blocks(), left_out);
     for i in 0..chain.size() {
@@ -81,21 +80,23 @@ fn factorise(solver: &mut BlockElimination, matrix: BlockMatrix) -> Result<(), U
     solver.factorise()
 }
 
-/// Solves without some unknowns by faer's dense LU.
+/// Solves without some unknowns by dense LU.
 ///
 /// Also returns the smallest pivot relative to the largest.
-fn reference(dense: &Mat<f64>, left_out: &[bool], rhs: &[f64]) -> (Vec<f64>, f64, f64) {
+fn reference(dense: &DMatrix<f64>, left_out: &[bool], rhs: &[f64]) -> (Vec<f64>, f64, f64) {
     let kept: Vec<_> = (0..rhs.len()).filter(|&i| !left_out[i]).collect();
-    let part = Mat::from_fn(kept.len(), kept.len(), |i, j| dense[(kept[i], kept[j])]);
-    let lu = part.partial_piv_lu();
-    let x = lu.solve(Col::from_fn(kept.len(), |i| rhs[kept[i]]));
-    let pivots = (0..kept.len()).map(|i| lu.U()[(i, i)].abs());
+    let part = DMatrix::from_fn(kept.len(), kept.len(), |i, j| dense[(kept[i], kept[j])]);
+    let lu = part.lu();
+    let x = lu.solve(&DVector::from_fn(kept.len(), |i, _| rhs[kept[i]]));
+    let x = x.unwrap_or_else(|| DVector::from_element(kept.len(), f64::NAN));
+    let u = lu.u();
+    let pivots = (0..kept.len()).map(|i| u[(i, i)].abs());
     let (low, high) = pivots.fold((f64::INFINITY, 0.0), |(l, h), p| (p.min(l), p.max(h)));
     let mut full = vec![0.0; rhs.len()];
     for (&k, x) in kept.iter().zip(x.iter()) {
         full[k] = *x;
     }
-    (full, low / high, part.determinant())
+    (full, low / high, lu.determinant())
 }
 
 fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
@@ -118,7 +119,7 @@ proptest! {
     ) {
         let size = chain.size();
         let left_out: Vec<_> = (0..size).map(|i| !chain.is_link(i) && marks[i] == 0).collect();
-        let dense = Mat::from_fn(size, size, |i, j| {
+        let dense = DMatrix::from_fn(size, size, |i, j| {
             if chain.couples(i, j) { entries[72 * i + j] } else { 0.0 }
         });
         let (expected, pivots, determinant) = reference(&dense, &left_out, &rhs[..size]);
@@ -140,7 +141,7 @@ proptest! {
         chain in chains(), entries in prop::collection::vec(-1.0_f64..1.0, 72 * 72), which in 0_usize..72,
     ) {
         let size = chain.size();
-        let dense = Mat::from_fn(size, size, |i, j| match i == j {
+        let dense = DMatrix::from_fn(size, size, |i, j| match i == j {
             true => 20.0 + entries[i],
             false if chain.couples(i, j) => entries[72 * i + j],
             false => 0.0,
@@ -168,11 +169,11 @@ proptest! {
     ) {
         let chain = Chain { extras: vec![[0, 0]; count], root: root % count, reach: 1 };
         let size = chain.size();
-        let dense = Mat::from_fn(size, size, |i, j| {
+        let dense = DMatrix::from_fn(size, size, |i, j| {
             let value = if chain.couples(i, j) { entries[18 * i.min(j) + i.max(j)] } else { 0.0 };
             if i == j { shift + value } else { value }
         });
-        let eigenvalues = dense.self_adjoint_eigenvalues(Side::Lower).unwrap();
+        let eigenvalues = dense.symmetric_eigenvalues();
         prop_assume!(eigenvalues.iter().all(|value| value.abs() > 1e-6));
         let negative = eigenvalues.iter().filter(|value| **value < 0.0).count();
         let mut solver = BlockElimination::default();
@@ -189,7 +190,7 @@ proptest! {
 /// scales, the load after the displacements of the root.
 struct ContactRow {
     chain: Chain,
-    dense: Mat<f64>,
+    dense: DMatrix<f64>,
 }
 
 impl ContactRow {
@@ -208,7 +209,7 @@ impl ContactRow {
         let chain = Chain { extras: extras.collect(), root, reach: 1 };
         let links = chain.blocks().links;
         let mut number = || numbers.next().unwrap();
-        let mut row = Self { dense: Mat::zeros(chain.size(), chain.size()), chain };
+        let mut row = Self { dense: DMatrix::zeros(chain.size(), chain.size()), chain };
         for (i, &at) in links.iter().enumerate() {
             for (k, stiffness) in [2.7 * a, 3.4 * a, 2.5 * a.powi(3)].into_iter().enumerate() {
                 row.dense[(at + k, at + k)] += stiffness;
@@ -281,7 +282,7 @@ fn a_block_held_only_by_its_inner_neighbour_is_refused() {
     // The outer block is singular, but the matrix is regular.
     let chain = Chain { extras: vec![[0, 0]; 2], root: 1, reach: 1 };
     let dense =
-        Mat::from_fn(6, 6, |i, j| f64::from(u8::from(i % 3 == j % 3 && (i >= 3 || j >= 3))));
+        DMatrix::from_fn(6, 6, |i, j| f64::from(u8::from(i % 3 == j % 3 && (i >= 3 || j >= 3))));
     let mut solver = BlockElimination::default();
     let error = factorise(&mut solver, in_blocks(&chain, &dense, &[false; 6])).unwrap_err();
     assert_eq!((error.block, error.size), (0, 3));
@@ -291,7 +292,7 @@ fn a_block_held_only_by_its_inner_neighbour_is_refused() {
 fn blocks_with_nan_are_refused() {
     for value in [f64::NAN, f64::INFINITY] {
         let chain = Chain { extras: vec![[0, 0]; 2], root: 1, reach: 1 };
-        let dense = Mat::from_fn(6, 6, |i, j| match (i, j) {
+        let dense = DMatrix::from_fn(6, 6, |i, j| match (i, j) {
             (4, 4) => value,
             _ => f64::from(u8::from(i == j)),
         });
@@ -304,7 +305,7 @@ fn blocks_with_nan_are_refused() {
 #[test]
 fn blocks_that_are_too_large_are_refused() {
     let chain = Chain { extras: vec![[0, 8]], root: 0, reach: 1 };
-    let dense = Mat::identity(11, 11);
+    let dense = DMatrix::identity(11, 11);
     let mut solver = BlockElimination::default();
     let error = factorise(&mut solver, in_blocks(&chain, &dense, &[false; 11])).unwrap_err();
     assert_eq!(error.size, 11);
@@ -316,7 +317,7 @@ fn entries_are_stored_at_their_position() {
     let size = chain.size();
     let mut left_out = vec![false; size];
     left_out[5] = true;
-    let dense = Mat::from_fn(size, size, |i, j| (100 * i + j) as f64);
+    let dense = DMatrix::from_fn(size, size, |i, j| (100 * i + j) as f64);
     let mut matrix = in_blocks(&chain, &dense, &left_out);
     matrix.add_block(1, 6, &[[0.5; 3]; 3]);
     matrix.add_block(6, 6, &[[0.25; 4]; 1]);

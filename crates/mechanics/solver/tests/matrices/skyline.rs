@@ -1,15 +1,15 @@
 //! Inertia of symmetric matrices, against dense eigenvalues.
 
-use faer::{Mat, Side};
+use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use solver::SkylineMatrix;
 
 /// Returns a skyline matrix and the dense matrix with the same entries.
-fn matrices(size: usize, reach: usize, numbers: &[f64]) -> (SkylineMatrix, Mat<f64>) {
+fn matrices(size: usize, reach: usize, numbers: &[f64]) -> (SkylineMatrix, DMatrix<f64>) {
     let first =
         (0..size).map(|row| row.saturating_sub((7 * row) % (reach + 1))).collect::<Vec<_>>();
     let mut skyline = SkylineMatrix::new(first.clone());
-    let mut dense = Mat::zeros(size, size);
+    let mut dense = DMatrix::zeros(size, size);
     let mut numbers = numbers.iter().cycle();
     for row in 0..size {
         for column in first[row]..=row {
@@ -30,17 +30,17 @@ proptest! {
         numbers in prop::collection::vec(-1.0_f64..1.0, 97),
     ) {
         let (skyline, dense) = matrices(size, reach, &numbers);
-        let eigenvalues = dense.self_adjoint_eigenvalues(Side::Lower).unwrap();
+        let eigenvalues = dense.symmetric_eigenvalues();
         prop_assume!(eigenvalues.iter().all(|value| value.abs() > 1e-6));
         let factors = skyline.factorise().unwrap();
         let negative = eigenvalues.iter().filter(|value| **value < 0.0).count();
         prop_assert_eq!(factors.negative_eigenvalues(), negative);
         let mut x: Vec<f64> = (0..size).map(|row| 1.0 + row as f64).collect();
         factors.solve(&mut x);
-        let product = &dense * Mat::from_fn(size, 1, |row, _| x[row]);
+        let product = &dense * DVector::from_column_slice(&x);
         let largest = x.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         for row in 0..size {
-            prop_assert!((product[(row, 0)] - 1.0 - row as f64).abs() < 1e-6 * (1.0 + largest));
+            prop_assert!((product[row] - 1.0 - row as f64).abs() < 1e-6 * (1.0 + largest));
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Far field with coupling to several neighbours.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve as _;
+use nalgebra::DMatrix;
 
 use super::Relief;
 use crate::RowStiffness;
@@ -27,7 +26,7 @@ pub(super) struct CoupledRow {
     /// Number `m` of scales per block.
     scales: usize,
     /// `−(D − R)⁻¹ Uᵀ`, with the scales ordered from left to right.
-    transfer: Mat<f64>,
+    transfer: DMatrix<f64>,
 }
 
 impl CoupledRow {
@@ -39,17 +38,16 @@ impl CoupledRow {
         let diagonal = block(stiffness, 0);
         let next = block(stiffness, scales);
         let least = SETTLED * stiffness.direct.iter().copied().fold(0.0, f64::max);
-        let mut relief = Mat::zeros(3 * scales, 3 * scales);
+        let mut relief = DMatrix::zeros(3 * scales, 3 * scales);
         for _ in 0..BLOCKS {
-            let follows = (&diagonal - &relief).partial_piv_lu().solve(next.transpose());
+            let follows = (&diagonal - &relief).lu().solve(&next.transpose())?;
             let before = std::mem::replace(&mut relief, &next * &follows);
-            let change = (&relief - &before).norm_max();
-            if change <= least {
+            if relief.iter().any(|value| !value.is_finite()) {
+                break;
+            }
+            if (&relief - &before).amax() <= least {
                 let parts = parts(&relief, scales);
                 return Some((Self { scales, transfer: -follows }, parts));
-            }
-            if !change.is_finite() {
-                break;
             }
         }
         None
@@ -77,7 +75,7 @@ impl CoupledRow {
     /// Computes the displacements of the next block.
     fn next(&self, block: &[f64]) -> Vec<f64> {
         let mut next = vec![0.0; block.len()];
-        for (column, u) in self.transfer.col_iter().zip(block) {
+        for (column, u) in self.transfer.column_iter().zip(block) {
             for (next, factor) in next.iter_mut().zip(column.iter()) {
                 *next += factor * u;
             }
@@ -89,9 +87,9 @@ impl CoupledRow {
 /// Returns the stiffness of a block for the block `farther` scales to the right.
 ///
 /// It is `D` for 0.
-fn block(stiffness: &RowStiffness, farther: usize) -> Mat<f64> {
+fn block(stiffness: &RowStiffness, farther: usize) -> DMatrix<f64> {
     let size = 3 * stiffness.neighbours.len();
-    Mat::from_fn(size, size, |row, column| {
+    DMatrix::from_fn(size, size, |row, column| {
         let (force, displaced) = (row / 3, column / 3 + farther);
         let (k, l) = (row % 3, column % 3);
         // Seen from the right, force and displacement are exchanged.
@@ -106,7 +104,7 @@ fn block(stiffness: &RowStiffness, farther: usize) -> Mat<f64> {
 }
 
 /// Splits a reduction by scales from the end, and symmetrises it.
-fn parts(relief: &Mat<f64>, scales: usize) -> Vec<Relief> {
+fn parts(relief: &DMatrix<f64>, scales: usize) -> Vec<Relief> {
     let pairs = (0..scales).flat_map(|force| (0..scales).map(move |displaced| (force, displaced)));
     let parts = pairs.map(|(force, displacement)| {
         let [row, column] = [force, displacement].map(|scale| 3 * (scales - 1 - scale));

@@ -3,8 +3,7 @@
 use std::f64::consts::PI;
 
 use approx::assert_relative_eq;
-use faer::Mat;
-use faer::prelude::Solve;
+use nalgebra::{Matrix3, Matrix4, Vector4};
 use substrate::FootprintParameter::{Gap, PoissonRatio, Size, Thickness, Width};
 use substrate::layer::{Layer, beside_half_space};
 use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, StiffnessSlopes};
@@ -48,14 +47,14 @@ fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
         });
         fields.concat()
     });
-    let matrix = Mat::from_fn(4, 4, |row, field| match row {
+    let matrix = Matrix4::from_fn(|row, field| match row {
         0 | 1 => bottom[field][row],
         _ => top[field][row],
     });
     [[0.0, 1.0], [1.0, 0.0]].map(|traction| {
-        let right = Mat::from_fn(4, 1, |row, _| if row < 2 { 0.0 } else { traction[row - 2] });
-        let found = matrix.partial_piv_lu().solve(right);
-        [0, 1].map(|part| k * (0..4).map(|field| found[(field, 0)] * top[field][part]).sum::<f64>())
+        let right = Vector4::new(0.0, 0.0, traction[0], traction[1]);
+        let found = matrix.lu().solve(&right).unwrap();
+        [0, 1].map(|part| k * (0..4).map(|field| found[field] * top[field][part]).sum::<f64>())
     })
 }
 
@@ -189,13 +188,13 @@ fn the_stiffness_is_positive_definite() {
                     (lift, cross) = (lift + 2.0 * sin * n.lift, cross + 2.0 * sin * n.cross);
                 }
                 // Shifting y by a quarter wave makes the matrix real.
-                let matrix = Mat::from_fn(3, 3, |i, j| match (i.min(j), i.max(j)) {
+                let matrix = Matrix3::from_fn(|i, j| match (i.min(j), i.max(j)) {
                     (0, 1) => lift,
                     (0, 2) => roll,
                     (1, 2) => -cross,
                     _ => own[i],
                 });
-                let least = matrix.self_adjoint_eigenvalues(faer::Side::Lower).unwrap()[0];
+                let least = matrix.symmetric_eigenvalues().min();
                 assert!(least > 0.0, "{thickness} {coupling:?} {q} {least}");
             }
         }
