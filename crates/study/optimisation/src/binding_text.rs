@@ -68,44 +68,40 @@ impl<'a> BindingText<'a> {
     ///
     /// `None` if the multiplier is unknown.
     pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
-        if matches!(binding.limit, Limit::Requirement(k) if self.judge.is_yield(StatisticUse::Requirement(k)))
-        {
+        if binding.limit.is_yield(&self.judge) {
             return Some("no price: a share of samples moves in steps".to_owned());
         }
         let price = binding.price?;
         let objective = &self.goal.objectives[target.objective];
-        let harder = |size: f64, is_lower: bool, column: &str| {
-            let step = step(size);
-            let sense = if is_lower { "more" } else { "less" };
-            let (step_amount, costs) = (amount(step, column), verb(objective));
-            format!("{step_amount} {sense} {column} {costs} {}", amount_of(step * price, objective))
-        };
-        let wider = |j: usize, sense: &str| {
-            let interval = &self.goal.space.intervals()[j];
-            let step = step(interval.length());
-            let (key, gain) = (interval.parameter.key, amount_of(step * price, objective));
-            format!("{} {sense} {key} would gain {gain}", number::text(step))
-        };
         Some(match binding.limit {
             Limit::Requirement(k) if self.judge.is_soundness(k) => {
                 self.openness(k, price, objective)
             }
             Limit::Requirement(k) => {
                 let requirement = self.requirement(k)?;
-                harder(requirement.limit, requirement.direction() > 0.0, &requirement.column)
+                let column = &requirement.column;
+                stricter(requirement.limit, requirement.direction(), column, price, objective)
             }
             Limit::Floor(k) => {
                 let column = &self.goal.objectives[k].column;
-                harder(floor_of(target, k), self.judge.sign(k) > 0.0, column)
+                stricter(floor_of(target, k), self.judge.sign(k), column, price, objective)
             }
-            Limit::Lower(j) => wider(j, "less"),
-            Limit::Upper(j) => wider(j, "more"),
+            Limit::Lower(j) => self.wider(j, "less", price, objective),
+            Limit::Upper(j) => self.wider(j, "more", price, objective),
             Limit::Touch => {
                 // The limit is logarithmic: 0.01 is 1 % of the end rotation.
                 let costs = amount_of(0.01 * price, objective);
                 format!("1 % more end rotation without contact {} {costs}", verb(objective))
             }
         })
+    }
+
+    /// Describes the gain by one step beyond an end of interval `j`; `sense` is more or less.
+    fn wider(&self, j: usize, sense: &str, price: f64, objective: &Criterion) -> String {
+        let interval = &self.goal.space.intervals()[j];
+        let step = step(interval.length());
+        let (key, gain) = (interval.parameter.key, amount_of(step * price, objective));
+        format!("{} {sense} {key} would gain {gain}", number::text(step))
     }
 
     /// Describes the multiplier of requirement `k` for an unfolded surface.
@@ -136,6 +132,16 @@ impl<'a> BindingText<'a> {
     fn requirement(&self, k: usize) -> Option<&Requirement> {
         self.judge.requirements().nth(k)
     }
+}
+
+/// Describes the cost of one step by which the limit of a column becomes stricter.
+///
+/// The limit is a lower bound if `direction` is positive.
+fn stricter(limit: f64, direction: f64, column: &str, price: f64, objective: &Criterion) -> String {
+    let step = step(limit);
+    let sense = if direction > 0.0 { "more" } else { "less" };
+    let (step_amount, costs) = (amount(step, column), verb(objective));
+    format!("{step_amount} {sense} {column} {costs} {}", amount_of(step * price, objective))
 }
 
 /// Returns the lower bound of an objective.

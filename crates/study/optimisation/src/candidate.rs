@@ -123,10 +123,10 @@ mod tests {
     #[test]
     fn feasible_designs_are_better_than_infeasible_ones() {
         let merits = [Merit::None, Merit::Short(0.1), Merit::Short(0.2), Merit::Met(-5.0)];
-        let best_of = |merits: &[Merit]| best(merits.iter().copied());
-        assert_eq!(best_of(&merits), Some(3));
-        assert_eq!(best_of(&merits[..3]), Some(1));
-        assert_eq!(best_of(&merits[..1]), None);
-        assert_eq!(best_of(&[Merit::Met(1.0), Merit::Met(2.0), Merit::Met(2.0)]), Some(1));
+        assert_eq!(best(merits.into_iter()), Some(3));
+        assert_eq!(best(merits[..3].iter().copied()), Some(1));
+        assert_eq!(best(merits[..1].iter().copied()), None);
+        let equal = [Merit::Met(1.0), Merit::Met(2.0), Merit::Met(2.0)];
+        assert_eq!(best(equal.into_iter()), Some(1));
     }
 }

@@ -29,13 +29,19 @@ fn finite_contact_margin(case: &Case) -> Option<f64> {
 
 /// Returns the one-sided derivatives of the slack.
 pub(crate) fn contact_margin_slopes(case: &Case, parameter: &Parameter) -> Slopes {
-    let here = contact_margin(case);
-    let on = |sign: f64| {
-        let step = sign * STEP * parameter.size(case)?;
-        let at = |by| finite_contact_margin(&parameter.moved(case, by)?);
-        // One-sided difference of second order.
-        Some((4.0 * at(step)? - at(2.0 * step)? - 3.0 * here) / (2.0 * step))
-    };
-    let known = finite_contact_margin(case).is_some_and(|margin| margin < AMPLE);
-    if known { Slopes { left: on(-1.0), right: on(1.0) } } else { Slopes::FLAT }
+    if finite_contact_margin(case).is_none_or(|margin| margin >= AMPLE) {
+        return Slopes::FLAT;
+    }
+    Slopes {
+        left: one_sided_slope(case, parameter, -STEP),
+        right: one_sided_slope(case, parameter, STEP),
+    }
+}
+
+/// Returns a one-sided difference of second order, by steps relative to the parameter's size.
+fn one_sided_slope(case: &Case, parameter: &Parameter, relative_step: f64) -> Option<f64> {
+    let step = relative_step * parameter.size(case)?;
+    let near = finite_contact_margin(&parameter.moved(case, step)?)?;
+    let far = finite_contact_margin(&parameter.moved(case, 2.0 * step)?)?;
+    Some((4.0 * near - far - 3.0 * contact_margin(case)) / (2.0 * step))
 }

@@ -4,7 +4,6 @@
 
 use std::collections::BTreeMap;
 
-use ranking::Requirement;
 use results::DesignResult;
 use sweep::{Case, DesignNumber};
 
@@ -49,12 +48,7 @@ pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> 
 
 /// Returns the points on coverage peaks along one interval through `point`.
 fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<(u32, SpacePoint)> {
-    let at = |share: f64| {
-        let mut moved = point.clone();
-        moved.shares[interval] = share;
-        moved
-    };
-    let place = |share| coverage_piece::place(&space.case(&at(share)));
+    let place = |share| coverage_piece::place(&space.case(&point.with_share(interval, share)));
     let Some((first, last)) = place(0.0).zip(place(1.0)) else { return Vec::new() };
     let (low, high) = (first.min(last), first.max(last));
     // `S/p` is monotonic along an interval of any length parameter.
@@ -67,7 +61,7 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
                 let is_below = place(middle)? < f64::from(peak);
                 *(if is_below { &mut below } else { &mut above }) = middle;
             }
-            Some((peak, at(above)))
+            Some((peak, point.with_share(interval, above)))
         })
         .collect()
 }
@@ -79,18 +73,18 @@ fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
     let Some(open) = open_share(case) else { return f64::INFINITY };
     // On a peak the coverage is exactly `1 − d/p` (O8).
     let result = DesignResult { coverage: Some(1.0 - open), ..DesignResult::default() };
-    let margin = |(requirement, value): (&Requirement, Option<f64>)| {
+    let known = judge.known(case, number, result).into_iter().map(|(requirement, value)| {
         let is_compliance = COMPLIANCES.contains(&requirement.column.as_str());
         value
             .or_else(|| (is_compliance && requirement.direction() > 0.0).then_some(open))
             .map_or(0.0, |value| requirement.margin(value).min(0.0))
-    };
+    });
     // Contact in bending leaves no compliance.
     let touching = judge
         .requirements()
         .find(|r| r.column == COMPLIANCES[0] && r.direction() > 0.0)
         .map_or(0.0, |_| contact_margin(case).min(0.0));
-    -judge.known(case, number, result).into_iter().map(margin).sum::<f64>() - touching
+    -known.sum::<f64>() - touching
 }
 
 /// Selects the points with the least shortfall that are apart from each other.

@@ -105,10 +105,18 @@ pub(crate) fn search(
 fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
     let first = turned(search, &designs.first()?.candidate)?;
     let last = turned(search, &designs.last()?.candidate)?;
-    let beyond = |k: usize, from: &[f64], to: &[f64]| Spacing::between(from[k], to[k]).at(-NARROW);
-    let end = |objective, floor| Target { objective, floors: vec![(1 - objective, floor)] };
-    let floors = [beyond(1, &first, &last), beyond(0, &last, &first)];
-    (first.len() == 2 && designs.len() > 1).then(|| [end(0, floors[0]), end(1, floors[1])])
+    if first.len() != 2 || designs.len() < 2 {
+        return None;
+    }
+    // The other objective may fall just below its value at the exact end.
+    let floors = [Spacing::between(first[1], last[1]), Spacing::between(last[0], first[0])]
+        .map(|spacing| spacing.at(-NARROW));
+    Some(
+        [0, 1].map(|objective| Target {
+            objective,
+            floors: vec![(1 - objective, floors[objective])],
+        }),
+    )
 }
 
 /// Returns targets for missing points.
@@ -263,8 +271,9 @@ fn between_neighbours(
     target: &Target,
 ) -> Option<SpacePoint> {
     let [(objective, floor)] = target.floors[..] else { return None };
-    let value = |candidate: &Candidate| Some(turned(search, candidate)?[objective] - floor);
-    let beyond = front.iter().filter_map(|candidate| Some((value(candidate)?, candidate)));
+    let beyond = front
+        .iter()
+        .filter_map(|candidate| Some((turned(search, candidate)?[objective] - floor, candidate)));
     let above = beyond.clone().filter(|(value, _)| *value >= 0.0);
     let above = above.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
     let below = beyond.filter(|(value, _)| *value < 0.0);
@@ -365,14 +374,14 @@ fn target(floors: Vec<f64>) -> Target {
 
 /// Returns targets for a front of two objectives: its ends and points between.
 fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
-    let end = |k: usize| values.iter().max_by(|a, b| a[k].total_cmp(&b[k]));
-    let Some((first, last)) = end(0).zip(end(1)) else { return Vec::new() };
-    let between = |k: usize| Spacing::between(first[k], last[k]);
+    let ends = [0, 1].map(|k| values.iter().max_by(|a, b| a[k].total_cmp(&b[k])));
+    let [Some(first), Some(last)] = ends else { return Vec::new() };
+    let spacings = [0, 1].map(|k| Spacing::between(first[k], last[k]));
     // At an end the other objective decides, because many designs may share the optimum of one.
-    let first_end = Target { objective: 1, floors: vec![(0, between(0).at(BESIDE))] };
-    let last_end = target(vec![between(1).at(1.0 - BESIDE)]);
+    let first_end = Target { objective: 1, floors: vec![(0, spacings[0].at(BESIDE))] };
+    let last_end = target(vec![spacings[1].at(1.0 - BESIDE)]);
     let inner =
-        (1..points - 1).map(|k| target(vec![between(1).at(k as f64 / (points - 1) as f64)]));
+        (1..points - 1).map(|k| target(vec![spacings[1].at(k as f64 / (points - 1) as f64)]));
     [first_end].into_iter().chain(inner).chain([last_end]).collect()
 }
 
@@ -382,20 +391,19 @@ fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
 fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
     let front: Vec<&Vec<f64>> =
         values.iter().filter(|value| !values.iter().any(|other| dominates(other, value))).collect();
-    let span = |k: usize| {
+    let spans = (0..front.first().map_or(0, |value| value.len())).map(|k| {
         let all = front.iter().map(|value| value[k]);
         let (low, high) = all
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         if high > low { high - low } else { 1.0 }
-    };
-    let spans: Vec<f64> = (0..front.first().map_or(0, |value| value.len())).map(span).collect();
-    let apart = |a: &[f64], b: &[f64]| {
-        let pairs = a.iter().zip(b).zip(&spans);
-        pairs.map(|((a, b), span)| ((a - b) / span).powi(2)).sum::<f64>().sqrt()
-    };
+    });
+    let spans: Vec<f64> = spans.collect();
     let mut nearest: Vec<f64> = front
         .iter()
-        .map(|value| taken.iter().map(|other| apart(value, other)).fold(f64::INFINITY, f64::min))
+        .map(|value| {
+            let distances = taken.iter().map(|other| scaled_distance(value, other, &spans));
+            distances.fold(f64::INFINITY, f64::min)
+        })
         .collect();
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < count {
@@ -406,11 +414,17 @@ fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>
         let Some(farthest) = farthest else { break };
         chosen.push(farthest);
         for (distance, value) in nearest.iter_mut().zip(&front) {
-            *distance = distance.min(apart(value, front[farthest]));
+            *distance = distance.min(scaled_distance(value, front[farthest], &spans));
         }
     }
     chosen.sort_by(|&a, &b| front[b][0].total_cmp(&front[a][0]));
     chosen.into_iter().map(|k| front[k][1..].to_vec()).collect()
+}
+
+/// Returns the distance between two values, relative to the spans of the objectives.
+fn scaled_distance(a: &[f64], b: &[f64], spans: &[f64]) -> f64 {
+    let pairs = a.iter().zip(b).zip(spans);
+    pairs.map(|((a, b), span)| ((a - b) / span).powi(2)).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

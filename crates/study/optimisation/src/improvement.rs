@@ -112,9 +112,8 @@ pub(crate) fn improved_from(
         let known = history.iter().chain(&evaluated);
         // Gradient searches lead to feasible designs, and full searches improve them. Full searches
         // therefore start at feasible designs if there are any.
-        let is_feasible = |candidate: &Candidate| met(search, candidate, target).is_some();
-        let is_full = effort.rounds > 0 && known.clone().any(is_feasible);
-        let known = known.filter(|candidate| !is_full || is_feasible(candidate));
+        let is_full = effort.rounds > 0 && known.clone().any(|c| met(search, c, target).is_some());
+        let known = known.filter(|c| !is_full || met(search, c, target).is_some());
         let near = near.filter(|_| effort.rounds == 0 && count > 0);
         let count = if near.is_some() { count.min(ELSEWHERE) } else { count };
         let starts = starts(search, known, target, count);

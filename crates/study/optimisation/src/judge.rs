@@ -179,33 +179,38 @@ impl Judge {
 
     /// Returns the worth of a complete design, or the column without a value.
     fn worth(&self, row: &DesignRow, samples: &Samples) -> Result<Worth, String> {
-        let value = |source: &Source| self.value(source, row, samples);
-        let objectives = self.objectives.iter().map(|(_, source)| value(source));
+        let objectives = self.objectives.iter().map(|(_, source)| self.value(source, row, samples));
         let objectives: Vec<f64> = objectives.collect::<Result<_, _>>()?;
         let compared = self.objectives.iter().zip(&objectives);
         let compared = compared.map(|((_, source), value)| match source {
             Source::Statistic(q) => self.samples.compared(*q, samples).unwrap_or(*value),
             Source::Nominal(_) | Source::Margin => *value,
         });
-        let required = self.requirements.iter().map(|required| value(&required.column));
+        let required = self.requirements.iter();
+        let required = required.map(|required| self.value(&required.column, row, samples));
         let required: Vec<f64> = required.collect::<Result<_, _>>()?;
-        let margin = |(Bound { requirement, column }, value): (&Bound<Source>, &f64)| {
-            let of_samples = match column {
-                Source::Statistic(q) => self.samples.requirement_margin(*q, requirement, samples),
-                Source::Nominal(_) | Source::Margin => None,
-            };
-            of_samples.unwrap_or_else(|| requirement.margin(*value))
-        };
-        let all = || self.requirements.iter().zip(&required);
+        let bounds = self.requirements.iter().zip(&required);
         Ok(Worth {
-            margins: all().map(margin).collect(),
+            margins: bounds
+                .clone()
+                .map(|(bound, value)| self.margin(bound, *value, samples))
+                .collect(),
             // Compared by value: margins of strict limits become negative slightly before the
             // limit.
-            met: all().all(|(r, value)| r.requirement.is_met(*value)),
+            met: bounds.clone().all(|(bound, value)| bound.requirement.is_met(*value)),
             compared: compared.collect(),
             objectives,
             required,
         })
+    }
+
+    /// Returns the relative margin of a design with this value of a required column.
+    fn margin(&self, bound: &Bound<Source>, value: f64, samples: &Samples) -> f64 {
+        let of_samples = match bound.column {
+            Source::Statistic(q) => self.samples.requirement_margin(q, &bound.requirement, samples),
+            Source::Nominal(_) | Source::Margin => None,
+        };
+        of_samples.unwrap_or_else(|| bound.requirement.margin(value))
     }
 
     /// Returns a value of a design, or the name of the column without one.

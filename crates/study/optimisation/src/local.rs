@@ -208,8 +208,9 @@ impl Search<'_> {
     /// The slack is relative to the limits.
     pub fn merit_within(&self, candidate: &Candidate, target: &Target, slack: f64) -> Merit {
         let Judgement::Judged(worth) = &candidate.verdict else { return Merit::None };
-        let turned = |k: usize| self.judge.sign(k) * worth.objectives[k];
-        let short = target.floors.iter().map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
+        let short = target.floors.iter().map(|&(k, floor)| {
+            (floor - self.judge.sign(k) * worth.objectives[k]) / floor_size(floor)
+        });
         let floors = short.fold(0.0, f64::max);
         let is_met = worth.met || worth.shortfall() < slack;
         // Lower bounds tolerate round-off, as requirements do.
@@ -366,12 +367,12 @@ impl LocalSearch<'_> {
     ) -> Result<(Candidate, EvaluatedRow), Halt> {
         let chosen = self.best.borrow().point.chosen.clone();
         // Snap to the ends: tables should show 60, not 59.99999999999999.
-        let ended = |share: &f64| match *share {
+        let ended = shares.iter().map(|share| match *share {
             share if share < ROUND_OFF => 0.0,
             share if share > 1.0 - ROUND_OFF => 1.0,
             share => share,
-        };
-        let shares = shares.iter().map(ended).collect();
+        });
+        let shares = ended.collect();
         let point = SpacePoint { shares, chosen };
         let result = self.solved(&point, differentiated)?;
         let evaluated = self.search.judged(stage, &point, result, differentiated)?;
@@ -398,10 +399,9 @@ impl LocalSearch<'_> {
     }
 
     fn note(&self, candidate: &Candidate) {
-        let is_known = |other: &Candidate| other.point == candidate.point;
         // The solver requests cost, gradient and limits at the same point one after the other: log
         // the point once.
-        if self.log.borrow().iter().rev().take(3).any(is_known) {
+        if self.log.borrow().iter().rev().take(3).any(|other| other.point == candidate.point) {
             return;
         }
         self.task.count(self.units);

@@ -14,11 +14,12 @@ use crate::candidate::{Candidate, SearchStage, Target};
 use crate::contact_margin::{contact_margin, contact_margin_slopes};
 use crate::evaluated_row::{EvaluatedRow, StatisticUse};
 use crate::evaluations::Halt;
+use crate::judge::Judge;
 use crate::judgement::Judgement;
 use crate::local::{CLEAR, Search, floor_size};
 use crate::sample::MissedRequirement;
 use crate::slopes::Slopes;
-use crate::space::SpacePoint;
+use crate::space::{Interval, SpacePoint};
 
 /// Distance, relative to its size, within which a limit counts as binding.
 const NEAR: f64 = 1e-5;
@@ -69,6 +70,12 @@ pub enum Limit {
     Touch,
 }
 
+impl Limit {
+    /// Returns true for a yield: its multiplier is undefined, because it is a step function.
+    pub(crate) fn is_yield(&self, judge: &Judge) -> bool {
+        matches!(*self, Self::Requirement(k) if judge.is_yield(StatisticUse::Requirement(k)))
+    }
+}
 /// Returns the binding limits at `best` with their multipliers.
 pub(crate) fn bindings(
     search: &Search<'_>,
@@ -81,12 +88,11 @@ pub(crate) fn bindings(
     let is_whole = matches!(evaluated.verdict, Judgement::Judged(_));
     let prices = if is_whole { prices(search, &row, target, &limits, BALANCED) } else { None };
     let prices = each(prices, limits.len());
-    // A yield is a step function, so its multiplier is undefined.
-    let is_yield = |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(StatisticUse::Requirement(k)));
-    let bindings = limits.into_iter().zip(prices);
-    Ok(bindings
-        .map(|(limit, price)| Binding { price: price.filter(|_| !is_yield(&limit)), limit })
-        .collect())
+    let bindings = limits.into_iter().zip(prices).map(|(limit, price)| {
+        let price = price.filter(|_| !limit.is_yield(search.judge));
+        Binding { limit, price }
+    });
+    Ok(bindings.collect())
 }
 
 /// Returns the limits of the nominal design behind a sampled optimum, with rough multipliers.
@@ -175,12 +181,12 @@ fn prices(
     let multipliers = multipliers(&columns, &objective, unbalanced)?;
     let intervals = search.space.intervals();
     let requirements: Vec<_> = search.judge.requirements().collect();
-    let unit = |limit: &Limit| match *limit {
-        Limit::Requirement(k) => requirements[k].size(),
-        Limit::Floor(_) | Limit::Touch => 1.0,
-        Limit::Lower(j) | Limit::Upper(j) => intervals[j].length(),
-    };
-    Some(limits.iter().zip(multipliers).map(|(limit, x)| x / unit(limit)).collect())
+    let per_unit = limits.iter().zip(multipliers).map(|(limit, multiplier)| match *limit {
+        Limit::Requirement(k) => multiplier / requirements[k].size(),
+        Limit::Floor(_) | Limit::Touch => multiplier,
+        Limit::Lower(j) | Limit::Upper(j) => multiplier / intervals[j].length(),
+    });
+    Some(per_unit.collect())
 }
 
 /// Bounds the gain of the objective that is left to first order, relative to the objective.
@@ -237,25 +243,29 @@ impl Gradients {
         let intervals = search.space.intervals();
         // All multipliers balance the same gradient, so a kink along any variable leaves all of
         // them unknown.
-        let gradient = |slopes: &dyn Fn(&Parameter) -> Slopes| -> Option<DVector<f64>> {
-            let slope = intervals
-                .iter()
-                .map(|interval| Some(slopes(interval.parameter).smooth()? * interval.length()));
-            Some(DVector::from_vec(slope.collect::<Option<_>>()?))
-        };
-        let objective = gradient(&|p| judge.objective_slopes(target.objective, row, p))?;
+        let objective = gradient(intervals, |p| judge.objective_slopes(target.objective, row, p))?;
         let mut columns = Vec::new();
         for limit in limits {
             columns.push(match *limit {
-                Limit::Requirement(k) => gradient(&|p| judge.margin_slopes(k, row, p))?,
-                Limit::Floor(k) => gradient(&|p| judge.objective_slopes(k, row, p))?,
+                Limit::Requirement(k) => gradient(intervals, |p| judge.margin_slopes(k, row, p))?,
+                Limit::Floor(k) => gradient(intervals, |p| judge.objective_slopes(k, row, p))?,
                 Limit::Lower(j) => unit(intervals.len(), j, 1.0),
                 Limit::Upper(j) => unit(intervals.len(), j, -1.0),
-                Limit::Touch => gradient(&|p| contact_margin_slopes(&row.nominal.case, p))?,
+                Limit::Touch => {
+                    gradient(intervals, |p| contact_margin_slopes(&row.nominal.case, p))?
+                }
             });
         }
         Some(Self { objective, limits: columns })
     }
+}
+
+/// Returns the gradient over the fractions of the intervals; `None` at a kink.
+fn gradient(intervals: &[Interval], slopes: impl Fn(&Parameter) -> Slopes) -> Option<DVector<f64>> {
+    let slope = intervals
+        .iter()
+        .map(|interval| Some(slopes(interval.parameter).smooth()? * interval.length()));
+    Some(DVector::from_vec(slope.collect::<Option<_>>()?))
 }
 
 fn unit(count: usize, j: usize, sign: f64) -> DVector<f64> {

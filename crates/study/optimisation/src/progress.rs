@@ -54,6 +54,11 @@ struct Parts {
     tasks: usize,
 }
 
+/// Returns the sum of the work of parts, in units.
+fn units(work: &[(SearchPart, u64)]) -> f64 {
+    work.iter().map(|part| part.1).sum::<u64>() as f64
+}
+
 /// A task of the current part, with its expected units.
 ///
 /// Further units are not counted, and missing ones are added when the task ends.
@@ -91,12 +96,11 @@ impl SearchProgress {
     /// It becomes smaller where a part starts that was not expected.
     pub fn share(&self) -> f64 {
         let parts = self.parts();
-        let sum = |work: &[(SearchPart, u64)]| work.iter().map(|part| part.1).sum::<u64>() as f64;
         let own = parts.work.get(parts.at).map_or(0, |part| part.1);
-        let done = sum(&parts.work[..parts.at.min(parts.work.len())])
+        let done = units(&parts.work[..parts.at.min(parts.work.len())])
             + self.units.load(Ordering::Relaxed).min(own) as f64;
         // `max` turns the NaN of zero work into 0.
-        (done / sum(&parts.work)).max(0.0)
+        (done / units(&parts.work)).max(0.0)
     }
 
     fn parts(&self) -> MutexGuard<'_, Parts> {
@@ -145,8 +149,8 @@ impl SearchProgress {
         }
         let ahead = parts.work.get(next..).unwrap_or_default();
         // An expected restart belongs to the local searches just before it.
-        let is_own = |skipped: &usize| part != SearchPart::Restart || *skipped == 0;
-        match ahead.iter().position(|of| of.0 == part).filter(is_own) {
+        let skipped = ahead.iter().position(|of| of.0 == part);
+        match skipped.filter(|&skipped| part != SearchPart::Restart || skipped == 0) {
             Some(skipped) => drop(parts.work.drain(next..next + skipped)),
             None => parts.work.insert(next, (part, units)),
         }

@@ -10,7 +10,6 @@
 
 use nalgebra::{DMatrix, DVector};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
-use sweep::Parameter;
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target};
 use crate::contact_margin::{contact_margin, contact_margin_slopes};
@@ -77,11 +76,10 @@ impl Agreement {
     pub(crate) fn of(ends: &[f64]) -> Self {
         let mut ends = ends.to_vec();
         ends.sort_by(|a, b| b.total_cmp(a));
-        let short = |end: &f64| difference(ends[0], *end);
         Self {
             searches: ends.len(),
-            agreeing: ends.iter().filter(|end| short(end) <= AGREED).count(),
-            spread: ends.get(1).map(short),
+            agreeing: ends.iter().filter(|end| difference(ends[0], **end) <= AGREED).count(),
+            spread: ends.get(1).map(|end| difference(ends[0], *end)),
         }
     }
 
@@ -164,14 +162,13 @@ impl Restart<'_> {
         let mut evaluated: Vec<Candidate> = Vec::new();
         for _ in 0..ROUNDS {
             let surface = BindingSurface::at(search, &centre, target)?;
-            let offset = |k| sequence.point(k).into_iter().map(|u| width * (2.0 * u - 1.0));
-            let beside = |k| {
-                let shares = centre.point.shares.iter().zip(offset(k));
-                let shares = shares.map(|(x, by)| (x + by).clamp(0.0, 1.0)).collect();
-                SpacePoint { shares, chosen: centre.point.chosen.clone() }
-            };
             let count = EACH * variables;
-            let points: Vec<SpacePoint> = (drawn + 1..=drawn + count).map(beside).collect();
+            let points = (drawn + 1..=drawn + count).map(|k| {
+                let shares = centre.point.shares.iter().zip(sequence.point(k));
+                let shares = shares.map(|(x, u)| (x + width * (2.0 * u - 1.0)).clamp(0.0, 1.0));
+                SpacePoint { shares: shares.collect(), chosen: centre.point.chosen.clone() }
+            });
+            let points: Vec<SpacePoint> = points.collect();
             drawn += count;
             let samples = points.into_par_iter().map(|point| surface.evaluate(search, point));
             evaluated.extend(samples.collect::<Result<Vec<_>, Halt>>()?);
@@ -220,43 +217,45 @@ impl BindingSurface {
             return Ok(Self { limits, step: None });
         }
         let (_, row) = search.evaluate(SearchStage::Gradient, &centre.point, true)?;
-        let slopes = |limit: &Limit, parameter: &Parameter| match *limit {
-            Limit::Requirement(k) => search.judge.margin_slopes(k, &row, parameter),
-            _ => contact_margin_slopes(&row.nominal.case, parameter),
-        };
         let intervals = search.space.intervals();
-        let gradient = |limit| {
-            let slope = intervals.iter().map(|interval| {
-                let Slopes { left, right } = slopes(limit, interval.parameter);
-                Some(left.or(right)? * interval.length())
-            });
-            slope.collect::<Option<Vec<f64>>>()
-        };
-        let gradients: Option<Vec<Vec<f64>>> = limits.iter().map(gradient).collect();
-        let step = gradients.filter(|of| of.len() < intervals.len()).and_then(|of| {
-            let gradients = DMatrix::from_row_slice(of.len(), intervals.len(), &of.concat());
-            gradients.pseudo_inverse(f64::EPSILON).ok()
-        });
+        let mut gradients = Vec::new();
+        for limit in &limits {
+            for interval in intervals {
+                let Slopes { left, right } = match *limit {
+                    Limit::Requirement(k) => {
+                        search.judge.margin_slopes(k, &row, interval.parameter)
+                    }
+                    _ => contact_margin_slopes(&row.nominal.case, interval.parameter),
+                };
+                let Some(slope) = left.or(right) else { return Ok(Self { limits, step: None }) };
+                gradients.push(slope * interval.length());
+            }
+        }
+        if limits.len() >= intervals.len() {
+            return Ok(Self { limits, step: None });
+        }
+        let gradients = DMatrix::from_row_slice(limits.len(), intervals.len(), &gradients);
+        let step = gradients.pseudo_inverse(f64::EPSILON).ok();
         Ok(Self { limits, step })
     }
 
     /// Moves a point onto the surface and evaluates it.
     fn evaluate(&self, search: &Search<'_>, mut point: SpacePoint) -> Result<Candidate, Halt> {
-        let evaluate = |point: &SpacePoint| search.evaluate(SearchStage::Polish, point, false);
-        let Some(step) = &self.step else { return Ok(evaluate(&point)?.0) };
+        let stage = SearchStage::Polish;
+        let Some(step) = &self.step else { return Ok(search.evaluate(stage, &point, false)?.0) };
         let is_solved = self.limits.iter().any(|limit| matches!(limit, Limit::Requirement(_)));
         for _ in 0..if is_solved { SOLVED_STEPS } else { FREE_STEPS } {
-            let candidate = if is_solved { Some(evaluate(&point)?.0) } else { None };
-            let margin = |limit: &Limit| match *limit {
+            let candidate =
+                if is_solved { Some(search.evaluate(stage, &point, false)?.0) } else { None };
+            let margins = self.limits.iter().map(|limit| match *limit {
                 Limit::Requirement(k) => match &candidate.as_ref()?.verdict {
                     Judgement::Judged(worth) => Some(worth.margins[k]),
                     _ => None,
                 },
                 _ => Some(contact_margin(&search.space.case(&point))),
-            };
-            let margins: Option<Vec<f64>> = self.limits.iter().map(margin).collect();
+            });
             // A design without margins cannot be moved, so evaluate it where it is.
-            let Some(margins) = margins else { break };
+            let Some(margins) = margins.collect::<Option<Vec<f64>>>() else { break };
             let missing = DVector::from_iterator(margins.len(), margins.iter().map(|m| INSIDE - m));
             if missing.amax() < 0.9 * INSIDE {
                 break;
@@ -265,7 +264,7 @@ impl BindingSurface {
                 *share = (*share + by).clamp(0.0, 1.0);
             }
         }
-        Ok(evaluate(&point)?.0)
+        Ok(search.evaluate(stage, &point, false)?.0)
     }
 }
 
@@ -275,13 +274,13 @@ mod tests {
 
     #[test]
     fn agreement_is_measured_from_the_best_search() {
-        let of = |ends: &[f64]| Agreement::of(ends);
-        assert_eq!(of(&[]), Agreement { searches: 0, agreeing: 0, spread: None });
-        assert_eq!(of(&[2.0]), Agreement { searches: 1, agreeing: 1, spread: None });
-        let three = of(&[-2.0, -4.0, -2.001]);
+        let none = Agreement { searches: 0, agreeing: 0, spread: None };
+        assert_eq!(Agreement::of(&[]), none);
+        assert_eq!(Agreement::of(&[2.0]), Agreement { searches: 1, agreeing: 1, spread: None });
+        let three = Agreement::of(&[-2.0, -4.0, -2.001]);
         assert_eq!((three.searches, three.agreeing), (3, 2));
         assert!((three.spread.expect("two searches") - 5e-4).abs() < 1e-6);
-        assert!(!three.is_settled() && of(&[0.0, 0.0]).is_settled());
-        assert!(!of(&[1.0]).is_settled(), "a single search is no evidence");
+        assert!(!three.is_settled() && Agreement::of(&[0.0, 0.0]).is_settled());
+        assert!(!Agreement::of(&[1.0]).is_settled(), "a single search is no evidence");
     }
 }

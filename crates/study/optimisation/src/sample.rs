@@ -133,10 +133,12 @@ impl SampleJudge {
     /// It is the value or, for a yield, the margin.
     fn key(&self, q: usize, values: &[Option<f64>]) -> f64 {
         let used = &self.statistics[q];
+        if used.is_yield() {
+            return self.margin(values);
+        }
         // A sample without a value counts as the worst, so that it cannot improve a quantile.
         let worst = if used.large { f64::NEG_INFINITY } else { f64::INFINITY };
-        let value = || values[self.bounds.all.len() + q].unwrap_or(worst);
-        if used.is_yield() { self.margin(values) } else { value() }
+        values[self.bounds.all.len() + q].unwrap_or(worst)
     }
 
     /// Returns the sort keys of the samples for statistic `q`.
@@ -219,19 +221,20 @@ impl SampleJudge {
         samples: &Samples,
     ) -> Vec<OrderStatistic> {
         let sorted = self.sorted(q, samples);
-        let at = |place: usize, part| OrderStatistic { sample: sorted[place].1 as u64 + 1, part };
-        match (&self.statistics[q].statistic, requirement) {
+        let parts = match (&self.statistics[q].statistic, requirement) {
             (Statistic::Yield, None) => Vec::new(),
-            (Statistic::Yield, Some(requirement)) => {
-                vec![at(needed(requirement, sorted.len()), 1.0)]
-            }
+            (Statistic::Yield, Some(requirement)) => vec![(needed(requirement, sorted.len()), 1.0)],
             (Statistic::Quantile { share, .. }, _) => {
                 let places = quantile_places(sorted.len(), *share);
                 let both =
-                    places.map(|([below, above], part)| [at(below, 1.0 - part), at(above, part)]);
-                both.into_iter().flatten().filter(|of| of.part > 0.0).collect()
+                    places.map(|([below, above], part)| [(below, 1.0 - part), (above, part)]);
+                both.into_iter().flatten().filter(|(_, part)| *part > 0.0).collect()
             }
-        }
+        };
+        parts
+            .into_iter()
+            .map(|(place, part)| OrderStatistic { sample: sorted[place].1 as u64 + 1, part })
+            .collect()
     }
 
     /// Returns the column and factor for the derivatives of statistic `q` on a sample.

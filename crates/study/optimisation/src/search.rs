@@ -381,45 +381,52 @@ impl Limits<'_> {
 
 /// Estimates the units of work of each part of the search.
 fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
-    let variables = goal.space.intervals().len();
-    let answer = |plan: Plan, samples: usize, points: usize| {
-        let each = evaluation_units(samples);
-        let mut parts = Vec::new();
-        for objective in &goal.objectives {
-            parts.push((SearchPart::LocalSearches, plan.evaluations() * each));
-            // Local searches seldom agree on the largest slope of a path. For other objectives
-            // restarts are the exception.
-            if &*objective.column == name::MAX_STIFFNESS {
-                let restart = (SearchPart::Restart, restart_evaluations(variables) * each);
-                parts.extend(iter::repeat_n(restart, plan.restarts));
-            }
-        }
-        if goal.objectives.len() > 1 {
-            // The first half of the points is searched from many designs, the second half between
-            // them.
-            let half = points.div_ceil(2) as u64;
-            let plans = [plan.of_a_point(), plan.between_points()];
-            parts.extend(
-                plans.map(|plan| (SearchPart::Front, half * plan.evaluations() * each / 2)),
-            );
-        }
-        parts
-    };
     let mut parts = vec![(SearchPart::Sample, goal.samples as u64)];
     if !goal.is_about_samples() {
-        parts.extend(answer(Plan::NOMINAL, 0, goal.points));
+        parts.extend(expected_answer(goal, Plan::NOMINAL, 0, goal.points));
         return parts;
     }
     let (count, objectives) = (goal.realisations, goal.objectives.len());
-    parts.extend(answer(Plan::STARTS, 0, goal.points.min(NOMINAL_POINTS)));
+    parts.extend(expected_answer(goal, Plan::STARTS, 0, goal.points.min(NOMINAL_POINTS)));
     parts.push((SearchPart::Samples, (objectives * SEEDS * count) as u64));
-    parts.extend(answer(Plan::SAMPLED, count, goal.points));
+    parts.extend(expected_answer(goal, Plan::SAMPLED, count, goal.points));
     if objectives == 1 {
         let each = Effort::WHOLE.evaluations * evaluation_units(goal.finer().realisations);
         parts.push((SearchPart::Refine, REFINED as u64 * each));
     }
     let best = if objectives > 1 { goal.points } else { 1 };
     parts.push((SearchPart::Check, (best * FRESH) as u64));
+    parts
+}
+
+/// Estimates the units of work of the search for an optimum or a front of `points` designs.
+///
+/// Each design is evaluated at `samples` samples.
+fn expected_answer(
+    goal: &DesignGoal,
+    plan: Plan,
+    samples: usize,
+    points: usize,
+) -> Vec<(SearchPart, u64)> {
+    let variables = goal.space.intervals().len();
+    let each = evaluation_units(samples);
+    let mut parts = Vec::new();
+    for objective in &goal.objectives {
+        parts.push((SearchPart::LocalSearches, plan.evaluations() * each));
+        // Local searches seldom agree on the largest slope of a path. For other objectives
+        // restarts are the exception.
+        if &*objective.column == name::MAX_STIFFNESS {
+            let restart = (SearchPart::Restart, restart_evaluations(variables) * each);
+            parts.extend(iter::repeat_n(restart, plan.restarts));
+        }
+    }
+    if goal.objectives.len() > 1 {
+        // The first half of the points is searched from many designs, the second half between
+        // them.
+        let half = points.div_ceil(2) as u64;
+        let plans = [plan.of_a_point(), plan.between_points()];
+        parts.extend(plans.map(|plan| (SearchPart::Front, half * plan.evaluations() * each / 2)));
+    }
     parts
 }
 

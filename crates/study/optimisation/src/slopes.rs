@@ -27,11 +27,11 @@ impl Slopes {
     pub fn between(size: Option<f64>, at: impl Fn(f64, SlopeSide) -> Option<f64>) -> Self {
         // Rows are extrapolated linearly, so a central difference only has the rounding of a
         // column's formula.
-        let on = |side| {
+        let [left, right] = [SlopeSide::Left, SlopeSide::Right].map(|side| {
             let step = STEP * size?;
             Some((at(step, side)? - at(-step, side)?) / (2.0 * step))
-        };
-        Self { left: on(SlopeSide::Left), right: on(SlopeSide::Right) }
+        });
+        Self { left, right }
     }
 
     /// Returns the derivatives of a multiple.
@@ -41,8 +41,10 @@ impl Slopes {
 
     /// Returns the derivatives of a sum.
     pub fn plus(self, other: Self) -> Self {
-        let sum = |one: Option<f64>, other: Option<f64>| Some(one? + other?);
-        Self { left: sum(self.left, other.left), right: sum(self.right, other.right) }
+        Self {
+            left: self.left.zip(other.left).map(|(one, other)| one + other),
+            right: self.right.zip(other.right).map(|(one, other)| one + other),
+        }
     }
 
     /// Returns the slope on the side with the steepest ascent.
@@ -77,15 +79,18 @@ mod tests {
 
     #[test]
     fn uphill_chooses_the_side_of_steepest_ascent() {
-        let slopes = |left, right| Slopes { left, right };
-        assert_eq!(slopes(Some(2.0), Some(2.0)).uphill(), Some(2.0));
-        assert_eq!(slopes(Some(1.0), Some(-3.0)).uphill(), Some(0.0));
-        assert_eq!(slopes(Some(-1.0), Some(3.0)).uphill(), Some(3.0));
-        assert_eq!(slopes(Some(-4.0), Some(3.0)).uphill(), Some(-4.0));
-        assert_eq!(slopes(Some(-4.0), Some(-3.0)).uphill(), Some(-4.0));
-        assert_eq!(slopes(None, Some(-3.0)).uphill(), Some(-3.0));
-        assert_eq!(slopes(None, None).uphill(), None);
-        assert_eq!(slopes(Some(1.0), Some(1.1)).smooth(), None);
-        assert_eq!(slopes(Some(1.0), Some(1.0)).smooth(), Some(1.0));
+        for (left, right, uphill) in [
+            (Some(2.0), Some(2.0), Some(2.0)),
+            (Some(1.0), Some(-3.0), Some(0.0)),
+            (Some(-1.0), Some(3.0), Some(3.0)),
+            (Some(-4.0), Some(3.0), Some(-4.0)),
+            (Some(-4.0), Some(-3.0), Some(-4.0)),
+            (None, Some(-3.0), Some(-3.0)),
+            (None, None, None),
+        ] {
+            assert_eq!(Slopes { left, right }.uphill(), uphill);
+        }
+        assert_eq!(Slopes { left: Some(1.0), right: Some(1.1) }.smooth(), None);
+        assert_eq!(Slopes { left: Some(1.0), right: Some(1.0) }.smooth(), Some(1.0));
     }
 }

@@ -44,6 +44,14 @@ pub struct SpacePoint {
     pub chosen: Vec<usize>,
 }
 
+impl SpacePoint {
+    /// Returns a copy with this fraction of one interval.
+    pub(crate) fn with_share(&self, interval: usize, share: f64) -> Self {
+        let mut moved = self.clone();
+        moved.shares[interval] = share;
+        moved
+    }
+}
 /// Space of the variables, with the values shared by all designs.
 #[derive(Clone, Debug)]
 pub struct DesignSpace {

@@ -49,10 +49,13 @@ fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
 /// Maps coordinates from 0 to 1 to a point of the space.
 fn split(space: &DesignSpace, unit: &[f64]) -> SpacePoint {
     let (shares, rest) = unit.split_at(space.intervals().len());
-    // A fraction just below 1 may round up to the count.
-    let index = |(share, count): (&f64, usize)| ((share * count as f64) as usize).min(count - 1);
     let counts = space.choices().iter().map(|choice| choice.values.len());
-    SpacePoint { shares: shares.to_vec(), chosen: rest.iter().zip(counts).map(index).collect() }
+    // A fraction just below 1 may round up to the count.
+    let chosen = rest
+        .iter()
+        .zip(counts)
+        .map(|(share, count)| ((share * count as f64) as usize).min(count - 1));
+    SpacePoint { shares: shares.to_vec(), chosen: chosen.collect() }
 }
 
 /// Low-discrepancy sequence in the unit cube.
@@ -67,14 +70,15 @@ impl Sequence {
         let step: Vec<f64> = (1..=dimensions).map(|j| ratio.powi(-(j as i32))).collect();
         // Each seed shifts the start by an irrational amount, so that no sequence continues
         // another.
-        let shift = |j: usize| (0.5 + seed as f64 * (j as f64 + 2.0).sqrt() * 0.731).fract();
-        Self { start: (0..dimensions).map(shift).collect(), step }
+        let start =
+            (0..dimensions).map(|j| (0.5 + seed as f64 * (j as f64 + 2.0).sqrt() * 0.731).fract());
+        Self { start: start.collect(), step }
     }
 
     /// Returns point `index`, from 1.
     pub fn point(&self, index: usize) -> Vec<f64> {
-        let coordinate = |(start, step): (&f64, &f64)| (start + index as f64 * step).fract();
-        self.start.iter().zip(&self.step).map(coordinate).collect()
+        let pairs = self.start.iter().zip(&self.step);
+        pairs.map(|(start, step)| (start + index as f64 * step).fract()).collect()
     }
 }
 
@@ -101,9 +105,8 @@ mod tests {
             let sequence = Sequence::new(3, seed);
             let mut counts = [0; 64];
             for index in 1..=1024 {
-                let cell = |x: &f64| (x * 4.0) as usize;
-                let [a, b, c] = sequence.point(index)[..] else { panic!("three coordinates") };
-                counts[cell(&a) + 4 * cell(&b) + 16 * cell(&c)] += 1;
+                let point = sequence.point(index);
+                counts[point.iter().fold(0, |cell, x| 4 * cell + (x * 4.0) as usize)] += 1;
             }
             // Random points would leave counts from 6 to 28.
             let [least, most] = [counts.iter().min(), counts.iter().max()].map(Option::unwrap);

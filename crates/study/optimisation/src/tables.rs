@@ -69,7 +69,7 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
 /// Returns the columns of the check with independent samples.
 ///
 /// Empty if the goal is not about samples.
-fn statistic_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static str)> {
+fn statistic_columns(goal: &DesignGoal) -> Vec<ColumnText> {
     let known = design_columns(goal.space.sweep());
     let mut columns = Vec::new();
     for (name, statistic) in Judge::new(goal).statistics() {
@@ -111,14 +111,31 @@ fn unit_of(known: &[Column<DesignRow>], name: &str) -> &'static str {
     known.iter().find(|column| column.name == base).map_or("-", |column| column.unit)
 }
 
+/// Name, unit and meaning of a column.
+type ColumnText = (String, &'static str, &'static str);
+
+/// Returns the column of an objective: of a design, a statistic or the fitness.
+fn objective_column(
+    goal: &DesignGoal,
+    known: &[Column<DesignRow>],
+    name: &str,
+) -> Option<ColumnText> {
+    if let Some(column) = known.iter().find(|column| column.name == name) {
+        return Some((column.name.to_string(), column.unit, column.meaning));
+    }
+    match goal.statistic(name) {
+        Some(statistic) => Some((name.to_owned(), unit_of(known, name), statistic.meaning())),
+        None => fitness_column(goal),
+    }
+}
+
 /// Returns the fitness column, if the goal uses it.
-fn fitness_column(goal: &DesignGoal) -> Option<(String, &'static str, &'static str)> {
+fn fitness_column(goal: &DesignGoal) -> Option<ColumnText> {
     goal.fitness.is_some().then(|| (NumberColumn::FITNESS.to_owned(), "-", FITNESS_MEANING))
 }
 
 /// Returns the columns of `history.csv`.
 pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
-    let plain = |name: &str, meaning| (name.to_owned(), "-", meaning);
     let first = [
         plain("evaluation", "number of the evaluation, in the order of the search"),
         plain(
@@ -128,17 +145,8 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     ];
     let parameters = goal.space.parameters().map(|p| (p.key.to_owned(), p.unit, p.meaning));
     let known = design_columns(goal.space.sweep());
-    let explained = |name: &str| {
-        let column = known.iter().find(|column| column.name == name);
-        let column = column.map(|column| (column.name.to_string(), column.unit, column.meaning));
-        column
-            .or_else(|| {
-                let statistic = goal.statistic(name)?;
-                Some((name.to_owned(), unit_of(&known, name), statistic.meaning()))
-            })
-            .or_else(|| fitness_column(goal))
-    };
-    let objectives = goal.objectives.iter().filter_map(|o| explained(&o.column));
+    let objectives =
+        goal.objectives.iter().filter_map(|o| objective_column(goal, &known, &o.column));
     let last = [
         plain(
             "shortfall",
@@ -156,9 +164,12 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     cells(first.into_iter().chain(parameters).chain(objectives).chain(last))
 }
 
-fn cells(
-    columns: impl Iterator<Item = (String, &'static str, &'static str)>,
-) -> Vec<Column<Cells>> {
+/// Returns a column without a unit.
+fn plain(name: &str, meaning: &'static str) -> ColumnText {
+    (name.to_owned(), "-", meaning)
+}
+
+fn cells(columns: impl Iterator<Item = ColumnText>) -> Vec<Column<Cells>> {
     columns
         .enumerate()
         .map(|(index, (name, unit, meaning))| {
@@ -238,12 +249,11 @@ fn refuse_edited(folder: &ResultsFolder, tables: &[FoundTable]) -> Result<(), Jo
     for FoundTable { name, columns, rows } in tables {
         let Some(table) = WrittenTable::as_stated(folder, name, &stated) else { continue };
         let mut rows = rows.iter();
-        // A missing row counts as empty.
-        let row = |_: &_| {
+        let changed: Result<Vec<String>, JournalError> = table.changed(columns, |_| {
+            // A missing row counts as empty.
             let row = rows.next().cloned();
             Ok(Some(row.unwrap_or_else(|| vec![Cell::Empty; columns.len()])))
-        };
-        let changed: Result<Vec<String>, JournalError> = table.changed(columns, row);
+        });
         let first = changed?.into_iter().next();
         if let Some(line) = first.or_else(|| rows.next().map(|row| row[0].to_string())) {
             return Err(JournalError::Edited {

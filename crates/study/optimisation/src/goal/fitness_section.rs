@@ -40,32 +40,20 @@ impl FitnessSection {
 
     /// Reads the key `weights`.
     pub fn weights(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        let wrong = |value: &Value| not_accepted(&entry.place, "goal.weights", value, WEIGHTS);
-        let weight = |inner: &KeyValue| match &inner.value {
-            Value::Number(text) if !inner.key.contains(':') => {
-                Some((inner.key.parse::<Criterion>().ok()?, text.parse::<f64>().ok()?))
-            }
-            _ => None,
+        let read = table(&entry.value).and_then(|inner| inner.iter().map(weight).collect());
+        let read = read.and_then(|(criteria, weights): (Vec<_>, Vec<_>)| {
+            Some((criteria, Weights::new(&weights).ok()?, entry.place.clone()))
+        });
+        let Some(weights) = read else {
+            return Err(not_accepted(&entry.place, "goal.weights", &entry.value, WEIGHTS));
         };
-        let read = table(&entry.value).map(|inner| inner.iter().map(weight).collect());
-        let read: Option<Vec<(Criterion, f64)>> = read.flatten();
-        let (criteria, weights): (Vec<_>, Vec<_>) =
-            read.ok_or_else(|| wrong(&entry.value))?.into_iter().unzip();
-        let weights = Weights::new(&weights).map_err(|_| wrong(&entry.value))?;
-        self.weights = Some((criteria, weights, entry.place.clone()));
+        self.weights = Some(weights);
         Ok(())
     }
 
     /// Reads the key `rescale`.
     pub fn rescale(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        let ends = |inner: &KeyValue| {
-            let Value::List(items) = &inner.value else { return None };
-            let [Value::Number(worst), Value::Number(best)] = items.as_slice() else { return None };
-            let [worst, best] = [worst.parse::<f64>().ok()?, best.parse().ok()?];
-            let ends = CriterionEnds { column: inner.key.clone(), worst, best };
-            (worst.is_finite() && best.is_finite()).then(|| (ends, inner.place.clone()))
-        };
-        let read = table(&entry.value).map(|inner| inner.iter().map(ends).collect());
+        let read = table(&entry.value).map(|inner| inner.iter().map(criterion_ends).collect());
         let read: Option<Vec<_>> = read.flatten();
         self.ends =
             read.ok_or_else(|| not_accepted(&entry.place, "goal.rescale", &entry.value, RESCALE))?;
@@ -104,6 +92,25 @@ fn table(value: &Value) -> Option<&KeyValues> {
     }
 }
 
+/// Reads a weight of a column; `None` if it is not a number of a known criterion.
+fn weight(entry: &KeyValue) -> Option<(Criterion, f64)> {
+    match &entry.value {
+        Value::Number(text) if !entry.key.contains(':') => {
+            Some((entry.key.parse().ok()?, text.parse().ok()?))
+        }
+        _ => None,
+    }
+}
+
+/// Reads the worst and the best value of a column; `None` if they are not two finite numbers.
+fn criterion_ends(entry: &KeyValue) -> Option<(CriterionEnds, Place)> {
+    let Value::List(items) = &entry.value else { return None };
+    let [Value::Number(worst), Value::Number(best)] = items.as_slice() else { return None };
+    let [worst, best] = [worst.parse::<f64>().ok()?, best.parse().ok()?];
+    let ends = CriterionEnds { column: entry.key.clone(), worst, best };
+    (worst.is_finite() && best.is_finite()).then(|| (ends, entry.place.clone()))
+}
+
 /// Refuses ends of columns that are not criteria, and ends in the wrong order.
 fn check(
     ends: &CriterionEnds,
@@ -116,9 +123,9 @@ fn check(
         let names: Vec<&str> = criteria.iter().map(|c| c.column.as_ref()).collect();
         return refused(ends.column.clone(), format!("one of {}", names.join(", ")));
     };
-    let made = |value| Scale::Paper.criterion(criterion.goal, value);
-    let is_right = made(ends.worst).zip(made(ends.best)).is_some_and(|(worst, best)| worst < best);
-    if is_right {
+    let [worst, best] =
+        [ends.worst, ends.best].map(|value| Scale::Paper.criterion(criterion.goal, value));
+    if worst.zip(best).is_some_and(|(worst, best)| worst < best) {
         return Ok(());
     }
     let found = format!("{} = [{}, {}]", ends.column, ends.worst, ends.best);

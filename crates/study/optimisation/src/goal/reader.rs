@@ -192,10 +192,6 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
             "a section of at least one variable, e.g. gap_over_t = { from = 0.1, to = 1 }";
         return vec![refuse(file, "variables", Problem::Missing(expected))];
     }
-    let place = |section_name: &str, key: &str| {
-        let entry = section(entries, section_name).iter().find(|entry| entry.key == key);
-        entry.map_or(file, |entry| &entry.place)
-    };
     let vague = sweep
         .variables()
         .iter()
@@ -207,16 +203,22 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
         .map(|variable| {
             let key = variable.parameter().key;
             let expected = "a list of its values: it is no number that describes the skin";
-            let place = place("variables", key);
+            let place = entry_place(entries, "variables", key).unwrap_or(file);
             not_accepted(place, &format!("variables.{key}"), variable.to_toml(), expected)
         });
     let open = sweep.grid().axes().iter().filter(|axis| axis.len() > 1).map(|axis: &Axis| {
         let key = axis.parameter().key;
         let expected = format!("one value, or {key} among [variables]");
-        let place = place("designs", key);
+        let place = entry_place(entries, "designs", key).unwrap_or(file);
         not_accepted(place, &format!("designs.{key}"), axis.to_toml(), expected)
     });
     vague.chain(open).collect()
+}
+
+/// Returns the place of a key in a section.
+fn entry_place<'e>(entries: &'e KeyValues, section_name: &str, key: &str) -> Option<&'e Place> {
+    let mut section = section(entries, section_name).iter();
+    section.find(|entry| entry.key == key).map(|entry| &entry.place)
 }
 
 /// Returns errors for meaningless keys of a goal.

@@ -57,24 +57,13 @@ const SEEDS: [usize; 2] = [0, 1_000_000_000];
 /// Returns the JSON schema of the section `[goal]`.
 pub fn goal_schema() -> Json {
     let default = GoalSection::default();
-    let text = json!({ "type": "string" });
-    let texts = |about: &str| {
-        let list = json!({ "type": "array", "items": text });
-        json!({ "anyOf": [text, list], "description": about })
-    };
-    let count = |[low, high]: [usize; 2], default: usize, about: &str| {
-        json!({
-            "type": "integer", "minimum": low, "maximum": high,
-            "default": default, "description": about,
-        })
-    };
     let protects = format!("levels of standards: {}", Standard::levels());
     // In the order of `KEYS`. A key without a schema does not compile.
     let about: [Json; KEYS.len()] = [
-        texts("columns of designs.csv to be maximised, e.g. \"critical_force\""),
-        texts("columns of designs.csv to be minimised"),
-        texts("requirements COLUMN OP NUMBER, e.g. \"coverage >= 0.5\""),
-        texts(&protects),
+        texts_schema("columns of designs.csv to be maximised, e.g. \"critical_force\""),
+        texts_schema("columns of designs.csv to be minimised"),
+        texts_schema("requirements COLUMN OP NUMBER, e.g. \"coverage >= 0.5\""),
+        texts_schema(&protects),
         FitnessSection::weights_schema(),
         FitnessSection::rescale_schema(),
         json!({
@@ -89,10 +78,14 @@ pub fn goal_schema() -> Json {
             "type": "number", "exclusiveMinimum": 0, "maximum": COARSEST,
             "description": "round the lengths of the best design to multiples of this step in mm, or of the thickness if that is unknown, and angles to whole degrees",
         }),
-        count(SAMPLES, default.samples, "number of space-filling points"),
-        count(POINTS, default.points, "number of points of a front"),
-        count(SKINS, default.skins, "number of samples of each design, for yields and quantiles"),
-        count(SEEDS, default.seed as usize, "seed of the random numbers"),
+        count_schema(SAMPLES, default.samples, "number of space-filling points"),
+        count_schema(POINTS, default.points, "number of points of a front"),
+        count_schema(
+            SKINS,
+            default.skins,
+            "number of samples of each design, for yields and quantiles",
+        ),
+        count_schema(SEEDS, default.seed as usize, "seed of the random numbers"),
     ];
     let keys = KEYS.into_iter().map(str::to_owned).zip(about);
     json!({
@@ -100,6 +93,21 @@ pub fn goal_schema() -> Json {
         "description": "Goal of a search by squama optimise",
         "properties": keys.collect::<Map<_, _>>(),
         "additionalProperties": false,
+    })
+}
+
+/// Returns the JSON schema of a text or a list of texts.
+fn texts_schema(about: &str) -> Json {
+    let text = json!({ "type": "string" });
+    let list = json!({ "type": "array", "items": text });
+    json!({ "anyOf": [text, list], "description": about })
+}
+
+/// Returns the JSON schema of an integer in a range.
+fn count_schema([low, high]: [usize; 2], default: usize, about: &str) -> Json {
+    json!({
+        "type": "integer", "minimum": low, "maximum": high,
+        "default": default, "description": about,
     })
 }
 

@@ -32,18 +32,9 @@ struct JudgeParts<'a> {
 impl JudgeParts<'_> {
     fn judge(&self) -> Judge {
         let mut statistics = self.statistics();
-        let source = |name: &str, large: bool, statistics: &[UsedStatistic]| {
-            let statistic = statistics
-                .iter()
-                .position(|used| used.name == name && used.large == large)
-                .map(Source::Statistic);
-            statistic
-                .or_else(|| (name == Statistic::MARGIN).then_some(Source::Margin))
-                .or_else(|| self.column(name).map(Source::Nominal))
-        };
         let objectives = self.goal.objectives.iter().filter_map(|objective| {
             let large = objective.goal == Goal::Maximize;
-            Some((objective.goal, source(&objective.column, large, &statistics)?))
+            Some((objective.goal, self.source(&objective.column, large, &statistics)?))
         });
         let objectives = objectives.collect();
         let mut requirements: Vec<_> = self
@@ -52,7 +43,7 @@ impl JudgeParts<'_> {
             .iter()
             .filter_map(|requirement| {
                 let large = requirement.direction() > 0.0;
-                let column = source(&requirement.column, large, &statistics)?;
+                let column = self.source(&requirement.column, large, &statistics)?;
                 Some(Bound { requirement: requirement.clone(), column })
             })
             .collect();
@@ -62,6 +53,17 @@ impl JudgeParts<'_> {
         let samples =
             SampleJudge { bounds: self.bounds(), statistics, count: self.goal.realisations };
         Judge { objectives, requirements, soundness, measures: self.measures(), samples }
+    }
+
+    /// Returns the source of the values of `name`.
+    ///
+    /// `large` states whether large values of a statistic are good.
+    fn source(&self, name: &str, large: bool, statistics: &[UsedStatistic]) -> Option<Source> {
+        let mut used = statistics.iter();
+        used.position(|used| used.name == name && used.large == large)
+            .map(Source::Statistic)
+            .or_else(|| (name == Statistic::MARGIN).then_some(Source::Margin))
+            .or_else(|| self.column(name).map(Source::Nominal))
     }
 
     /// Returns the nominal column `name`.
@@ -79,15 +81,17 @@ impl JudgeParts<'_> {
     fn bounds(&self) -> Bounds {
         let plain = self.goal.requirements.iter();
         let plain = plain.filter(|requirement| self.goal.statistic(&requirement.column).is_none());
-        let bound = |requirement: Requirement| {
-            let column = self.column(&requirement.column)?;
-            Some(Bound { requirement, column })
-        };
-        let mut all: Vec<_> = plain.cloned().filter_map(bound).collect();
-        let open = self.soundness().and_then(bound);
+        let soundness = self.soundness();
+        let mut all: Vec<_> = plain.cloned().filter_map(|required| self.bound(required)).collect();
+        let open = soundness.and_then(|required| self.bound(required));
         let soundness = open.as_ref().map(|_| all.len());
         all.extend(open);
         Bounds { all, soundness }
+    }
+
+    fn bound(&self, requirement: Requirement) -> Option<Bound<NumberColumn>> {
+        let column = self.column(&requirement.column)?;
+        Some(Bound { requirement, column })
     }
 
     fn soundness(&self) -> Option<Requirement> {

@@ -217,9 +217,9 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         let centre = &self.seen[self.centre].place;
         // Include points on the border of the ball despite round-off in their distance.
         let within = radii * self.radius * (1.0 + 1e-9);
-        let near = move |seen: &&Seen| distance(&seen.place, centre) <= within;
-        let smooth = |seen: &&Seen| seen.pieces.have_tangents();
-        self.seen.iter().rev().filter(near).filter(smooth)
+        let near =
+            self.seen.iter().rev().filter(move |seen| distance(&seen.place, centre) <= within);
+        near.filter(|seen| seen.pieces.have_tangents())
     }
 
     /// Returns the end of the best step, and its predicted gain.

@@ -27,15 +27,18 @@ impl LocalSearch<'_> {
     /// If the result is infeasible, it minimises the shortfall alone, and then returns to the
     /// objective.
     pub(super) fn gradient_search(&self, effort: Effort) -> Result<(), Halt> {
-        let is_short = || matches!(self.best_merit(), Merit::Short(_));
         self.search_branches(effort, false)?;
-        if is_short() {
+        if self.is_short() {
             self.search_branches(effort, true)?;
-            if !is_short() {
+            if !self.is_short() {
                 self.search_branches(effort, false)?;
             }
         }
         Ok(())
+    }
+
+    fn is_short(&self) -> bool {
+        matches!(self.best_merit(), Merit::Short(_))
     }
 
     /// Runs gradient searches in successive coverage branches.
@@ -175,13 +178,12 @@ impl ConstraintJacobian for LocalProblem<'_> {
         shares: &Vec<f64>,
     ) -> Result<DenseMatrix, ConstraintSolveError<Halt>> {
         let evaluated = self.evaluate(shares)?;
-        let row = |k| {
+        let rows = (0..self.limit_count()).map(|k| {
             let mut row = self.limit_gradient(k, shares, evaluated.as_ref()?, Slopes::uphill)?;
             row.extend(self.missed(shares).map(|_| -f64::from(k < self.asked_count())));
             Some(row)
-        };
-        let rows = (0..self.limit_count())
-            .flat_map(|k| row(k).unwrap_or_else(|| vec![f64::NAN; shares.len()]));
+        });
+        let rows = rows.flat_map(|row| row.unwrap_or_else(|| vec![f64::NAN; shares.len()]));
         let rows: Vec<f64> = rows.collect();
         Ok(DenseMatrix::from_row_slice(self.limit_count(), shares.len(), &rows))
     }

@@ -201,9 +201,10 @@ impl<'a> LocalProblem<'a> {
         let contact = self.stays_open.then(|| CLEAR - contact_margin(&row.nominal.case));
         let borders = self.borders();
         let borders = borders.filter_map(|(piece, border)| piece.beyond(border, &row.nominal.case));
-        let turned = |k: usize| self.walk.search.judge.sign(k) * worth.objectives[k];
-        let floors = self.walk.target.floors.iter();
-        let floors = floors.map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
+        let floors = self.walk.target.floors.iter().map(|&(k, floor)| {
+            let turned = self.walk.search.judge.sign(k) * worth.objectives[k];
+            (floor - turned) / floor_size(floor)
+        });
         worth
             .margins
             .iter()
@@ -260,9 +261,12 @@ impl<'a> LocalProblem<'a> {
         }
         match floors.get(k - required) {
             Some(&(objective, floor)) => {
-                let slopes = |p: &Parameter| judge.objective_slopes(objective, row, p);
                 let size = floor_size(floor).recip();
-                self.falling(shares, |p| slopes(p).scaled(size), pick)
+                self.falling(
+                    shares,
+                    |p| judge.objective_slopes(objective, row, p).scaled(size),
+                    pick,
+                )
             }
             None => self.falling(shares, |p| contact_margin_slopes(&row.nominal.case, p), pick),
         }
@@ -278,7 +282,7 @@ impl<'a> LocalProblem<'a> {
         pick: Pick,
     ) -> Option<Vec<f64>> {
         let intervals = self.walk.search.space.intervals().iter().zip(shares);
-        let slope = |(interval, share): (&crate::space::Interval, &f64)| {
+        let falling = intervals.map(|(interval, share)| {
             let Slopes { left, right } = slopes(interval.parameter);
             let slope = match *share {
                 share if share <= 0.0 => right.or(left),
@@ -286,8 +290,8 @@ impl<'a> LocalProblem<'a> {
                 _ => pick(Slopes { left, right }),
             };
             slope.map(|slope| -slope * interval.length())
-        };
-        intervals.map(slope).collect()
+        });
+        falling.collect()
     }
 }
 

@@ -43,12 +43,11 @@ impl PiecewiseSmooth for LocalProblem<'_> {
             return Ok(None);
         }
         let gradient = self.cost_gradient(shares, &evaluated, Slopes::smooth);
-        let limit = |(k, value)| Piece {
+        let limits = self.limits(&evaluated).into_iter().enumerate().map(|(k, value)| Piece {
             value,
             gradient: self.limit_gradient(k, shares, &evaluated, Slopes::smooth),
-        };
-        let limits: Vec<Piece> =
-            self.limits(&evaluated).into_iter().enumerate().map(limit).collect();
+        });
+        let limits: Vec<Piece> = limits.collect();
         // The slack before contact in bending is not a requirement, but limits this search too.
         let met = evaluated.met && limits.iter().all(|limit| limit.value <= 1e-9);
         Ok(Some(Pieces { cost: Piece { value: cost, gradient }, limits, met }))

@@ -79,11 +79,11 @@ impl SampledPoint<'_> {
         let values = &self.samples.0[of.sample as usize - 1];
         let Some((column, factor)) = self.judge.moving(q, values) else { return Slopes::UNKNOWN };
         let nominal = self.space.case(self.point);
-        let at = |by, side| {
+        let slopes = Slopes::between(parameter.size(&nominal), |by, side| {
             let moved = parameter.moved(&nominal, by)?;
             let sampled = self.evaluations.even_case(&moved, of.sample)?;
             column.value(&row.extrapolated(&sampled, side))
-        };
-        Slopes::between(parameter.size(&nominal), at).scaled(factor * of.part)
+        });
+        slopes.scaled(factor * of.part)
     }
 }

@@ -26,8 +26,9 @@ pub(crate) fn with_margins(
     best: &BestDesign,
 ) -> Result<Option<DesignGoal>, Halt> {
     let Some(judge) = search.judge.samples() else { return Ok(None) };
-    let is_yield = |column: &str| goal.statistic(column) == Some(Statistic::Yield);
-    let Some(required) = goal.requirements.iter().find(|r| is_yield(&r.column)) else {
+    let mut required = goal.requirements.iter();
+    let required = required.find(|r| goal.statistic(&r.column) == Some(Statistic::Yield));
+    let Some(required) = required else {
         return Ok(None);
     };
     let samples = search.evaluations.samples(&best.candidate.point, 1, judge.count, judge)?;

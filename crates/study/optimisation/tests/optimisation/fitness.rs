@@ -18,8 +18,12 @@ fn the_fittest_design_matches_the_closed_form() {
     let best = optimum(&found);
     // At 60°, λ = (S − d)/S and m = 1/(1 + d); its inverse 1 + d is rescaled from 1 to 2.
     let reach = 60_f64.to_radians().tan();
-    let fitness = |d: f64| (((reach - d) / reach - 0.1) / 0.8).powf(0.25) * d.powf(0.75);
-    let fittest = (100..=1000).map(|k| fitness(f64::from(k) * 1e-3)).fold(0.0, f64::max);
+    let fittest = (100..=1000)
+        .map(|k| {
+            let d = f64::from(k) * 1e-3;
+            (((reach - d) / reach - 0.1) / 0.8).powf(0.25) * d.powf(0.75)
+        })
+        .fold(0.0, f64::max);
     assert!((objectives(best)[0] / fittest - 1.0).abs() < 1e-6, "{:?}", objectives(best));
     assert_eq!(found.rescaled, goal.fitness.expect("a fitness").ends);
 }
@@ -49,21 +53,17 @@ fn derivatives_of_the_fitness_match_finite_differences() {
     let number = goal.space.sweep().grid().number(0);
     let (all, plain) = (Evaluator::new(&Measure::ALL), Evaluator::new(&Measure::USUAL));
     let point = SpacePoint { shares: vec![0.31, 0.57, 0.43], chosen: Vec::new() };
-    let fitness = |shares: &[f64]| {
-        let at = SpacePoint { shares: shares.to_vec(), chosen: Vec::new() };
-        let row = plain.solve(number, &goal.space.case(&at)).row;
-        let Judgement::Judged(worth) = judge.verdict(&row) else { panic!("judged") };
-        worth.objectives[0]
-    };
     let row = all.solve(number, &goal.space.case(&point)).row;
     for (j, interval) in goal.space.intervals().iter().enumerate() {
         let step = 1e-4;
-        let moved = |by: f64| {
-            let mut shares = point.shares.clone();
-            shares[j] += by;
-            fitness(&shares)
-        };
-        let difference = (moved(step) - moved(-step)) / (2.0 * step * interval.length());
+        let [below, above] = [-step, step].map(|by| {
+            let mut moved = point.clone();
+            moved.shares[j] += by;
+            let row = plain.solve(number, &goal.space.case(&moved)).row;
+            let Judgement::Judged(worth) = judge.verdict(&row) else { panic!("judged") };
+            worth.objectives[0]
+        });
+        let difference = (above - below) / (2.0 * step * interval.length());
         let slope = judge.objective_slope(0, &row, interval.parameter).expect("smooth");
         let key = interval.parameter.key;
         assert!(

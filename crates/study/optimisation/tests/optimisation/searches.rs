@@ -61,10 +61,11 @@ fn a_search_does_not_confirm_an_optimum_that_derivatives_prove() {
     let found = found(&DesignGoal::parse(text, "x.toml", &[]).expect("a goal"));
     let best = optimum(&found);
     assert!((objectives(best)[0] - 2.141_936_6).abs() < 2e-6, "{:?}", objectives(best));
-    let of_stage = |stage| found.history.iter().filter(|c| c.stage == stage).count();
     // One of the three full searches still follows a ridge for one round. Each of them would
     // otherwise need 43 evaluations.
-    let confirming = of_stage(SearchStage::Ridge) + of_stage(SearchStage::Polish);
+    let stages = found.history.iter().map(|candidate| candidate.stage);
+    let confirming =
+        stages.filter(|s| matches!(s, SearchStage::Ridge | SearchStage::Polish)).count();
     assert!(confirming < 43, "{confirming}");
     let searched = found.history.iter().filter_map(|c| c.result.puncture);
     assert!(searched.into_iter().all(|p| p.measures.max_stiffness.is_none()));
@@ -95,15 +96,16 @@ fn binding_limits_have_the_exact_multipliers() {
     let reach = 60_f64.to_radians().tan();
     let gap = 0.5 * reach;
     assert!((objectives(best)[0] - 1.0 / (1.0 + gap)).abs() < 1e-9, "{:?}", objectives(best));
-    let binding = |limit: Limit| {
-        let binding = best.bindings.iter().find(|binding| binding.limit == limit);
-        binding.and_then(|binding| binding.price).expect("a price")
-    };
     // dm/dλ = S/(1 + d)². One degree more slant would widen the gap by (1 − λ) dS/dα.
     let price = reach / (1.0 + gap).powi(2);
-    assert!((binding(Limit::Requirement(0)) - price).abs() < 1e-6);
     let rate = (1.0 + reach * reach) * 1_f64.to_radians();
-    assert!((binding(Limit::Upper(1)) - 0.5 * rate / (1.0 + gap).powi(2)).abs() < 1e-6);
+    for (limit, price) in
+        [(Limit::Requirement(0), price), (Limit::Upper(1), 0.5 * rate / (1.0 + gap).powi(2))]
+    {
+        let binding = best.bindings.iter().find(|binding| binding.limit == limit);
+        let found = binding.and_then(|binding| binding.price).expect("a price");
+        assert!((found - price).abs() < 1e-6, "{limit:?}: {found}");
+    }
     // 1 % of the limit changes the mass by dm/dλ · λ/m = 0.464 %.
     let reason = "coverage and slant_deg at its upper end 60 limit this design: \
                   with 1 % less required coverage, areal_mass_kg_m2 falls by 0.46 %.";
@@ -170,12 +172,12 @@ fn an_optimum_at_the_end_of_a_ridge_is_found() {
 
 #[test]
 fn different_seeds_find_the_same_optimum() {
-    let of = |seed: &str| {
+    let [one, two] = [1, 2].map(|seed| {
         let text =
             format!("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'\nseed = {seed}");
         objectives(optimum(&found(&goal(&text))))[0]
-    };
-    assert!((of("1") / of("2") - 1.0).abs() < 1e-9);
+    });
+    assert!((one / two - 1.0).abs() < 1e-9);
 }
 
 /// The largest stiffness jumps where a path gains a contact.
@@ -454,16 +456,13 @@ fn damaged_journals_are_refused_and_kept() {
     let journal = folder.path().join(results::ResultsFolder::EVALUATIONS);
     let sound = std::fs::read_to_string(&journal).expect("a journal");
     let lines: Vec<&str> = sound.split_inclusive('\n').collect();
-    let damage = |line: usize| {
-        let mut lines = lines.clone();
-        let damaged = lines[line].replacen('0', "1", 1);
-        lines[line] = &damaged;
-        lines.concat()
-    };
     // Neither a damaged header nor a damaged line discards the others, unless a fresh start is
     // requested.
     for (line, what) in [(0, ":1: not the first line"), (lines.len() / 2, ": damaged line")] {
-        let damaged = damage(line);
+        let mut damaged = lines.clone();
+        let changed = lines[line].replacen('0', "1", 1);
+        damaged[line] = &changed;
+        let damaged = damaged.concat();
         assert_ne!(damaged, sound);
         std::fs::write(&journal, &damaged).expect("writable");
         for start in [Start::New, Start::Resume] {
@@ -562,8 +561,9 @@ fn a_search_beats_the_reference_grid() {
     let forces = (0..grid.len())
         .filter(|row| {
             let is_sound = value(*row, "gap_stretch_min").is_none_or(|least| least > 0.0);
-            let at_least = |name, bound| value(*row, name).is_some_and(|value| value >= bound);
-            is_sound && at_least("coverage", 0.5) && at_least("compliance", 0.2)
+            is_sound
+                && value(*row, "coverage").is_some_and(|value| value >= 0.5)
+                && value(*row, "compliance").is_some_and(|value| value >= 0.2)
         })
         .filter_map(|row| value(row, "critical_force"));
     let best = forces.fold(0.0, f64::max);

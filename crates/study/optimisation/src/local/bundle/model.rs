@@ -67,21 +67,24 @@ impl<'c> Model<'c> {
 
     /// Returns the end of the best step, and the gain predicted by the tangents.
     pub fn step(&self) -> Option<(Vec<f64>, f64)> {
-        let costs = || self.cuts.iter().filter(|(cut, ..)| *cut == Cut::Cost);
-        let size = |slope: &[f64]| slope.iter().map(|x| x.abs()).sum::<f64>();
-        let scale = costs().map(|(_, slope, _)| size(slope)).fold(0.0, f64::max);
+        let scale = self.costs().map(|(_, slope, _)| absolute_sum(slope)).fold(0.0, f64::max);
         // All tangents are flat, so no step predicts a gain.
         if scale <= 0.0 {
             return None;
         }
         let step = self.solve(scale)?;
-        let dot = |slope: &[f64]| slope.iter().zip(&step).map(|(g, u)| g * u).sum::<f64>();
-        let rises = costs().map(|(_, slope, right)| dot(slope) - right);
+        let rises = self.costs().map(|(_, slope, right)| {
+            slope.iter().zip(&step).map(|(g, u)| g * u).sum::<f64>() - right
+        });
         // Not the last coordinate of the program: it is scaled, and only as accurate as the solver.
         let gain = -rises.fold(f64::NEG_INFINITY, f64::max);
         let moved =
             self.centre.iter().zip(&step).map(|(x, u)| (x + self.radius * u).clamp(0.0, 1.0));
         Some((moved.collect(), gain))
+    }
+
+    fn costs(&self) -> impl Iterator<Item = &(Cut, Vec<f64>, f64)> {
+        self.cuts.iter().filter(|(cut, ..)| *cut == Cut::Cost)
     }
 
     fn solve(&self, scale: f64) -> Option<Vec<f64>> {
@@ -93,7 +96,7 @@ impl<'c> Model<'c> {
             // individually.
             let size = match cut {
                 Cut::Cost => scale,
-                Cut::Limit => slope.iter().map(|x| x.abs()).sum(),
+                Cut::Limit => absolute_sum(slope),
             };
             if size > 0.0 {
                 rows.extend(slope.iter().map(|x| x / size));
@@ -102,8 +105,11 @@ impl<'c> Model<'c> {
             }
         }
         // Bounds of the cube in radii, where they are nearer than the border of the ball.
-        let end = |x: f64| [(-x / self.radius).max(-1.0), ((1.0 - x) / self.radius).min(1.0)];
-        let ends: Vec<[f64; 2]> = self.centre.iter().map(|x| end(*x)).collect();
+        let ends = self
+            .centre
+            .iter()
+            .map(|x| [(-x / self.radius).max(-1.0), ((1.0 - x) / self.radius).min(1.0)]);
+        let ends: Vec<[f64; 2]> = ends.collect();
         let program = LinearProgram {
             rows: DenseMatrix::from_row_slice(right.len(), n + 1, &rows),
             right,
@@ -116,6 +122,10 @@ impl<'c> Model<'c> {
         let step = solved.state.param()[..n].to_vec();
         step.iter().all(|u| u.is_finite()).then_some(step)
     }
+}
+
+fn absolute_sum(slope: &[f64]) -> f64 {
+    slope.iter().map(|x| x.abs()).sum()
 }
 
 /// Linear program: minimise the last coordinate under rows and bounds.

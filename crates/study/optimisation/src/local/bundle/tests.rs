@@ -47,8 +47,8 @@ impl Textbook {
 
     /// Returns the best of `places` evaluated points, starting at `start`.
     fn minimum(&self, start: &[f64], places: usize) -> Best {
-        let share = |x: &f64| (x - self.from) / (self.to - self.from);
-        let start: Vec<f64> = start.iter().map(share).collect();
+        let start = start.iter().map(|x| (x - self.from) / (self.to - self.from));
+        let start: Vec<f64> = start.collect();
         let options = BundleOptions { reach: 0.06, smallest: 1e-8, places };
         let Ok(()) = descend(self, &start, options);
         self.best.borrow().clone()
@@ -138,8 +138,9 @@ fn a_maximum_of_squares_is_minimised() {
 }
 
 fn square<const K: usize>(x: &[f64]) -> (f64, Vec<f64>) {
-    let slope = |k| if k == K { 2.0 * x[k] } else { 0.0 };
-    (x[K] * x[K], (0..x.len()).map(slope).collect())
+    let mut slope = vec![0.0; x.len()];
+    slope[K] = 2.0 * x[K];
+    (x[K] * x[K], slope)
 }
 
 #[test]
