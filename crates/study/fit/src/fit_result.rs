@@ -369,12 +369,13 @@ impl Residuals<'_> {
                 unknown: unknown.clone(),
             })
             .collect();
-        let correlation = |i: usize, j: usize| {
-            covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
-        };
         let count = shares.len();
-        let correlations: Vec<Vec<f64>> =
-            (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect();
+        let correlations = (0..count).map(|i| {
+            (0..count)
+                .map(|j| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt())
+                .collect()
+        });
+        let correlations: Vec<Vec<f64>> = correlations.collect();
         let values = self.values(shares);
         let errors: Vec<_> = definition
             .unknowns

@@ -55,8 +55,10 @@ impl Test {
             Self::Puncture => (puncture_units(case), Quantity::Force),
             Self::Bending => (bending_units(case), Quantity::Moment),
         };
-        let keys = || load.needs().iter().map(|key| format!("material.{key}")).collect::<Vec<_>>();
-        units.map(|[x, y, _]| [x, y]).ok_or_else(|| keys().join(" and "))
+        units.map(|[x, y, _]| [x, y]).ok_or_else(|| {
+            let keys = load.needs().iter().map(|key| format!("material.{key}"));
+            keys.collect::<Vec<_>>().join(" and ")
+        })
     }
 }
 
@@ -112,14 +114,10 @@ impl MeasuredCurve {
     /// If the file cannot be read, no two columns belong to one test, or a cell is not a number.
     pub fn read(path: &Path, columns: Option<&[String]>) -> Result<Vec<Self>, InvalidMeasured> {
         let file = path.display().to_string();
-        let wrong = |problem| InvalidMeasured { file: file.clone(), line: None, problem };
-        let bytes = read_input_bytes(path, MAX_BYTES).map_err(|error| {
-            wrong(format!("cannot be read ({}), expected a CSV file", reason(&error)))
-        })?;
-        let text = decoded(&bytes).ok_or_else(|| {
-            wrong("is no text in UTF-8, UTF-16 or Windows-1252, expected a CSV file".to_owned())
-        })?;
-        Self::parse(&text, &file, columns)
+        match read_text(path) {
+            Ok(text) => Self::parse(&text, &file, columns),
+            Err(problem) => Err(InvalidMeasured { file, line: None, problem }),
+        }
     }
 
     /// Reads the curves from the `text` of `file`; see [`Self::read`].
@@ -270,13 +268,13 @@ impl MeasuredCurve {
     ///
     /// A displacement offset is also searched up to the end of a long approach without force.
     pub(crate) fn offset_range(&self, axis: usize) -> [f64; 2] {
-        let largest = |axis: usize| {
+        let [largest_x, largest_load] = [0, 1].map(|axis| {
             // A curve of zeros also needs bounds that differ.
             let sizes = self.points.iter().map(|point| point[axis].abs());
             sizes.fold(f64::MIN_POSITIVE, f64::max)
-        };
-        let to = FARTHEST_OFFSET * largest(axis);
-        let force = TOUCHING * largest(1);
+        });
+        let to = FARTHEST_OFFSET * if axis == 0 { largest_x } else { largest_load };
+        let force = TOUCHING * largest_load;
         let touching = self.points.iter().position(|point| point[1].abs() > force);
         let (Some(touching), 0) = (touching, axis) else { return [-to, to] };
         let [first, x] = [0, touching].map(|index| self.points[index][0]);
@@ -304,6 +302,15 @@ impl MeasuredCurve {
     pub(crate) fn branches(&self) -> Branches {
         loading::branches(&self.points, &self.lines)
     }
+}
+
+/// Reads a text file, or returns the problem.
+fn read_text(path: &Path) -> Result<String, String> {
+    let bytes = read_input_bytes(path, MAX_BYTES)
+        .map_err(|error| format!("cannot be read ({}), expected a CSV file", reason(&error)))?;
+    decoded(&bytes).ok_or_else(|| {
+        "is no text in UTF-8, UTF-16 or Windows-1252, expected a CSV file".to_owned()
+    })
 }
 
 /// Decodes UTF-8, UTF-16, or otherwise Windows-1252.

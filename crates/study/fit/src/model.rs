@@ -119,15 +119,15 @@ impl FitDefinition {
                 None | Some(_) => Place::Before,
             });
         }
-        let value = |place: &Place| match place {
+        let modelled = places.iter().map(|place| match place {
             Place::Before => zero[1],
             Place::On(_, point) => zero[1] + units[1] * point.value,
             // Compare with the last value. The report counts these points and advises to exclude
             // them.
             Place::Beyond => zero[1] + units[1] * last,
-        };
+        });
         let mut model = ModelCurve {
-            values: places.iter().map(value).collect(),
+            values: modelled.collect(),
             rates: Vec::new(),
             before: places.iter().filter(|place| matches!(place, Place::Before)).count(),
             beyond: places.iter().filter(|place| matches!(place, Place::Beyond)).count(),
@@ -220,11 +220,14 @@ impl By<'_> {
     /// The units may depend on the parameter, too. The point then also moves along the curve.
     fn with_units(&self, units: [f64; 2], places: &[Place], own: &[f64]) -> Vec<f64> {
         let step = STEP * (self.unknown.to - self.unknown.from);
-        let at = |by: f64| Some(self.curve.units(&self.parameter.moved(self.case, by)?));
-        let sides = at(-step).zip(at(step));
-        let rise = |k: usize| sides.map_or(0.0, |(low, high)| (high[k] - low[k]) / (2.0 * step));
+        let sides =
+            [-step, step].map(|by| Some(self.curve.units(&self.parameter.moved(self.case, by)?)));
+        let rises = match sides {
+            [Some(low), Some(high)] => [0, 1].map(|k| (high[k] - low[k]) / (2.0 * step)),
+            _ => [0.0; 2],
+        };
         let moved = on_curve(places, |at, point| {
-            rise(1) * point.value - units[1] * point.slope * at * rise(0) / units[0]
+            rises[1] * point.value - units[1] * point.slope * at * rises[0] / units[0]
         });
         moved.into_iter().zip(own).map(|(moved, own)| moved + units[1] * own).collect()
     }

@@ -105,8 +105,9 @@ impl Profiles<'_, '_> {
         let mut rests_on = Vec::new();
         for end in ends.iter().flatten() {
             let others = (0..end.shares.len()).filter(|i| *i != j);
-            let was_inside = |i: &usize| !is_at_end(self.minimum.shares[*i]);
-            rests_on.extend(others.filter(|i| is_at_end(end.shares[*i])).filter(was_inside));
+            rests_on.extend(
+                others.filter(|&i| is_at_end(end.shares[i]) && !is_at_end(self.minimum.shares[i])),
+            );
         }
         rests_on.sort_unstable();
         rests_on.dedup();

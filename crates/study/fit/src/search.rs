@@ -160,12 +160,12 @@ impl<'a> Residuals<'a> {
 
     /// Returns the residuals of each curve, in its own unit.
     pub(crate) fn of_curves(&self, model: &[ModelCurve]) -> Vec<Vec<f64>> {
-        let residual = |(measured, value): (&[f64; 2], &f64)| value - measured[1];
         let curves = self.definition.curves.iter().zip(model);
-        let of = curves.map(|(curve, model)| {
-            curve.measured.points.iter().zip(&model.values).map(residual).collect()
+        let residuals = curves.map(|(curve, model)| {
+            let pairs = curve.measured.points.iter().zip(&model.values);
+            pairs.map(|(measured, value)| value - measured[1]).collect()
         });
-        of.collect()
+        residuals.collect()
     }
 
     /// Returns all residuals, divided by the noise of their curves.

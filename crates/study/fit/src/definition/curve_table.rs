@@ -15,7 +15,6 @@ const KEYS: [&str; 8] = ["file", "kind", "columns", "specimen", "branch", "from"
 
 /// Returns the JSON schema of the tables `[[curve]]`.
 pub fn curves_schema() -> Json {
-    let number = |about: &str| json!({ "type": "number", "description": about });
     let texts = json!({ "type": "array", "items": { "type": "string" } });
     let range = json!({
         "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2,
@@ -29,8 +28,8 @@ pub fn curves_schema() -> Json {
         json!({ "type": "array", "items": { "type": "string" }, "description": "names of the columns" }),
         json!({ "type": ["string", "integer"], "description": "name or number of the specimen in the file" }),
         json!({ "enum": ["loading", "unloading", "both"], "description": "branches that are fitted" }),
-        number("first value of the first column that is fitted"),
-        number("last value of the first column that is fitted"),
+        number_schema("first value of the first column that is fitted"),
+        number_schema("last value of the first column that is fitted"),
         json!({
             "anyOf": [texts, {
                 "type": "object", "additionalProperties": false,
@@ -50,6 +49,10 @@ pub fn curves_schema() -> Json {
             "required": ["file", "kind"], "additionalProperties": false,
         },
     })
+}
+
+fn number_schema(about: &str) -> Json {
+    json!({ "type": "number", "description": about })
 }
 
 /// Maximum number of points of a curve.
@@ -239,9 +242,9 @@ impl CurveTable<'_> {
         let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
         let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;
         // Select the range before averaging, so that no mean includes points outside of it.
-        let is_within = |index: &usize| (from..=to).contains(&curve.points[*index][0]);
-        loading.retain(is_within);
-        unloading.retain(is_within);
+        for branch in [&mut loading, &mut unloading] {
+            branch.retain(|index| (from..=to).contains(&curve.points[*index][0]));
+        }
         events.retain(|event| (from..=to).contains(&event.at));
         let count = loading.len() + unloading.len();
         if count == 0 {
@@ -250,15 +253,11 @@ impl CurveTable<'_> {
         }
         // Machines record thousands of points, and the noise of neighbouring points is correlated.
         let part = count.div_ceil(MOST_POINTS);
-        let mean = |indices: &[usize]| {
-            [0, 1].map(|axis| {
-                let sum: f64 = indices.iter().map(|index| curve.points[*index][axis]).sum();
-                sum / indices.len() as f64
-            })
-        };
-        let unloading: Vec<_> = unloading.chunks(part).map(mean).collect();
-        let loading = loading.chunks(part).map(mean);
-        curve.points = loading.chain(unloading.iter().copied()).collect();
+        let [loading, unloading] = [loading, unloading].map(|branch| {
+            let means = branch.chunks(part).map(|indices| mean_point(&curve.points, indices));
+            means.collect::<Vec<_>>()
+        });
+        curve.points = [loading, unloading.clone()].concat();
         self.require_load(&curve)?;
         Ok(TestCurve {
             measured: curve,
@@ -353,4 +352,12 @@ fn range(value: &Value) -> Option<[f64; 2]> {
     });
     let [from, to] = [numbers.next()??, numbers.next()??];
     (numbers.next().is_none() && from < to).then_some([from, to])
+}
+
+/// Returns the mean of the points with these indices.
+fn mean_point(points: &[[f64; 2]], indices: &[usize]) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        let sum: f64 = indices.iter().map(|index| points[*index][axis]).sum();
+        sum / indices.len() as f64
+    })
 }

@@ -247,10 +247,9 @@ pub(super) fn missing(names: &[String]) -> String {
 ///
 /// If one of the names occurs more often than the other.
 fn pairs(names: &[String]) -> Result<Option<Vec<CurveColumns>>, String> {
-    let known = |axis: usize| {
-        names.iter().filter_map(move |name| COLUMNS.iter().find(|c| c.0 == name && c.2 == axis))
-    };
-    let mut both = known(0).flat_map(|x| known(1).map(move |y| [x, y]));
+    let known = names.iter().filter_map(|name| COLUMNS.iter().find(|column| column.0 == name));
+    let (xs, ys): (Vec<&Column>, Vec<_>) = known.partition(|column| column.2 == 0);
+    let mut both = xs.into_iter().flat_map(|x| ys.iter().map(move |y| [x, *y]));
     let Some([x, y]) = both.find(|[x, y]| x.1 == y.1 && x.3.is_some() == y.3.is_some()) else {
         return Ok(None);
     };
@@ -264,8 +263,8 @@ fn pairs(names: &[String]) -> Result<Option<Vec<CurveColumns>>, String> {
         return Err(format!("has several columns {0}, expected one: {OTHERWISE}", column.0));
     }
     let (test, units) = (x.1, x.3.zip(y.3).map(|(x, y)| [x, y]));
-    let curve = |(x, y)| CurveColumns { indices: [x, y], test, units };
-    Ok(Some(xs.into_iter().zip(ys).map(curve).collect()))
+    let pairs = xs.into_iter().zip(ys);
+    Ok(Some(pairs.map(|(x, y)| CurveColumns { indices: [x, y], test, units }).collect()))
 }
 
 #[cfg(test)]

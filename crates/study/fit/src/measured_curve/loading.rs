@@ -77,35 +77,29 @@ pub(crate) struct Branches {
 /// meanwhile, as for the position of a crosshead that moves down. The force is reversed if it
 /// decreases while the displacement grows, and is negative where it is largest.
 pub(super) fn reversed_signs(points: &[[f64; 2]]) -> [bool; 2] {
-    let largest = |axis: usize| {
+    let [largest_x, largest_y] = [0, 1].map(|axis| {
         let values = points.iter().map(|point| point[axis]);
         values.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
-    };
+    });
     let count = points.len() as f64;
-    let mean = |axis: usize| points.iter().map(|point| point[axis]).sum::<f64>() / count;
-    let [x, y] = [mean(0), mean(1)];
+    let [x, y] = [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / count);
     let products = points.iter().map(|point| (point[0] - x) * (point[1] - y));
-    let covariance: f64 = products.sum::<f64>() * largest(1).signum();
+    let covariance: f64 = products.sum::<f64>() * largest_y.signum();
     let first = points.first().map_or(0.0, |point| point[0]);
     let lowest = points.iter().map(|point| point[0]).fold(first, f64::min);
     let is_falling = points.iter().all(|p| p[0] <= first + TURNED_BACK * (first - lowest));
-    let is_reversed = (largest(0) < 0.0 && largest(0) < first) || (is_falling && covariance < 0.0);
+    let is_reversed = (largest_x < 0.0 && largest_x < first) || (is_falling && covariance < 0.0);
     let covariance = if is_reversed { -covariance } else { covariance };
-    [is_reversed, largest(1) < 0.0 && covariance > 0.0]
+    [is_reversed, largest_y < 0.0 && covariance > 0.0]
 }
 
 /// Divides a curve into its branches.
 pub(super) fn branches(points: &[[f64; 2]], lines: &[u64]) -> Branches {
-    let event = |kind, index: usize, left_out| CurveEvent {
-        kind,
-        line: lines[index],
-        at: points[index][0],
-        left_out,
-    };
-    let mut events = Vec::new();
+    // Kind, index of the point, and number of points left out.
+    let mut events: Vec<(CurveEventKind, usize, usize)> = Vec::new();
     let mut kept: Vec<usize> = (0..points.len()).collect();
     for hold in holds(points).into_iter().rev() {
-        events.push(event(CurveEventKind::Held, hold.start, hold.len() - 1));
+        events.push((CurveEventKind::Held, hold.start, hold.len() - 1));
         kept.drain(hold.start + 1..hold.end);
     }
     let along: Vec<_> = kept.iter().map(|index| points[*index]).collect();
@@ -114,22 +108,29 @@ pub(super) fn branches(points: &[[f64; 2]], lines: &[u64]) -> Branches {
     let mut unloading = Vec::new();
     if let Some(last) = last_before_drop(&along[..loaded]) {
         loaded = last + 1;
-        events.push(event(CurveEventKind::Fails, kept[last], along.len() - loaded));
+        events.push((CurveEventKind::Fails, kept[last], along.len() - loaded));
     } else if let Some(last) = turn {
-        events.push(event(CurveEventKind::TurnsBack, kept[last], 0));
+        events.push((CurveEventKind::TurnsBack, kept[last], 0));
         let back = &along[last + 1..];
         let end = self::turn(back, -1.0).map_or(back.len(), |lowest| lowest + 1);
         unloading.extend(&kept[loaded..loaded + end]);
         if end < back.len() {
             let lowest = kept[loaded + end - 1];
-            events.push(event(CurveEventKind::TurnsAgain, lowest, back.len() - end));
+            events.push((CurveEventKind::TurnsAgain, lowest, back.len() - end));
         }
     }
     let touching = last_before_contact(&along[..loaded]);
-    events.extend(touching.map(|last| event(CurveEventKind::Touches, kept[last], 0)));
+    events.extend(touching.map(|last| (CurveEventKind::Touches, kept[last], 0)));
     let drops = drops(&along[..loaded]).into_iter();
-    events.extend(drops.map(|last| event(CurveEventKind::Drops, kept[last], 0)));
-    events.sort_by_key(|event| event.line);
+    events.extend(drops.map(|last| (CurveEventKind::Drops, kept[last], 0)));
+    events.sort_by_key(|(_, index, _)| lines[*index]);
+    let events = events.into_iter().map(|(kind, index, left_out)| CurveEvent {
+        kind,
+        line: lines[index],
+        at: points[index][0],
+        left_out,
+    });
+    let events = events.collect();
     kept.truncate(loaded);
     Branches { loading: kept, unloading, events }
 }
@@ -242,11 +243,11 @@ fn largest_force(points: &[[f64; 2]]) -> f64 {
 /// Lists the last points before steep drops of the force.
 fn drops(points: &[[f64; 2]]) -> Vec<usize> {
     let least = DROP * largest_force(points);
-    let mean = |points: &[[f64; 2]]| points.iter().map(|p| p[1]).sum::<f64>() / NEIGHBOURS as f64;
     let mut drops = Vec::new();
     let mut next = NEIGHBOURS;
     while next + NEIGHBOURS <= points.len() {
-        let lost = mean(&points[next - NEIGHBOURS..next]) - mean(&points[next..next + NEIGHBOURS]);
+        let lost = mean_force(&points[next - NEIGHBOURS..next])
+            - mean_force(&points[next..next + NEIGHBOURS]);
         // Require a single steep step near this point: a gradual loss of force is a property of the
         // skin, not a failure.
         let near = next - NEIGHBOURS..next + NEIGHBOURS - 1;
@@ -260,6 +261,10 @@ fn drops(points: &[[f64; 2]]) -> Vec<usize> {
         }
     }
     drops
+}
+
+fn mean_force(points: &[[f64; 2]]) -> f64 {
+    points.iter().map(|point| point[1]).sum::<f64>() / points.len() as f64
 }
 
 #[cfg(test)]

@@ -8,7 +8,6 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
 use run::Evaluator;
-use skin::CurvePoint;
 use sweep::{Parameter, Sweep};
 
 use crate::synthetic_curves::{Place, SyntheticCurve};
@@ -155,10 +154,14 @@ fn specimen(skin: &str, keys: &str) -> String {
     let Some(own) = keys.lines().find(|line| line.starts_with("gap_over_t")) else {
         return skin.to_owned();
     };
-    let is_gap = |line: &str| line.starts_with("designs.gap_over_t");
-    let line =
-        |line: &str| if is_gap(line) { format!("designs.{own}\n") } else { format!("{line}\n") };
-    skin.lines().map(line).collect()
+    let lines = skin.lines().map(|line| {
+        if line.starts_with("designs.gap_over_t") {
+            format!("designs.{own}\n")
+        } else {
+            format!("{line}\n")
+        }
+    });
+    lines.collect()
 }
 
 /// Result of a fit, with its misfit.
@@ -493,11 +496,15 @@ fn loading_and_unloading_branches_are_fitted() {
     let back: Vec<_> = places.iter().rev().skip(1).copied().collect();
     let loading = evaluator.force_curve(&case, &[], &places).expect("a curve");
     let unloading = evaluator.unloading_force_curve(&case, 0.4, &back).expect("a curve");
-    let force = |point: &Option<CurvePoint>| point.as_ref().map_or(0.0, |point| point.value);
-    assert!(force(&unloading[4]) < 0.9 * force(&loading[4]), "{unloading:?} {loading:?}");
+    let forces: Vec<f64> = loading
+        .iter()
+        .chain(&unloading)
+        .map(|point| point.as_ref().map_or(0.0, |point| point.value))
+        .collect();
+    assert!(forces[places.len() + 4] < 0.9 * forces[4], "{forces:?}");
     let mut text = "displacement,force\n".to_owned();
-    for (x, point) in places.iter().chain(&back).zip(loading.iter().chain(&unloading)) {
-        writeln!(text, "{x},{}", force(point)).expect("a text");
+    for (x, force) in places.iter().chain(&back).zip(forces) {
+        writeln!(text, "{x},{force}").expect("a text");
     }
     place.write("a.csv", &text);
     let variables = "[variables]\nfriction = { from = 0.02, to = 0.9 }\n";
