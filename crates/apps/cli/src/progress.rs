@@ -246,35 +246,39 @@ impl Remaining {
 mod tests {
     use super::*;
 
+    fn line(counts: &Counts, share: f64, seconds: u64) -> String {
+        let elapsed = Duration::from_secs(seconds);
+        counts.text(&Remaining::default().text(share, elapsed), elapsed)
+    }
+
     #[test]
     fn remaining_time_depends_on_work_not_on_the_number_of_designs() {
         let counts = Counts::default();
         counts.designs.store(12, Ordering::Relaxed);
         counts.before.store(2, Ordering::Relaxed);
-        let text = |share, seconds| {
-            let elapsed = Duration::from_secs(seconds);
-            counts.text(&Remaining::default().text(share, elapsed), elapsed)
-        };
-        assert_eq!(text(0.0, 3), "2/12 designs  0 failed");
+        assert_eq!(line(&counts, 0.0, 3), "2/12 designs  0 failed");
         counts.done.store(8, Ordering::Relaxed);
         counts.failed.store(1, Ordering::Relaxed);
         // 10 of 12 designs, but a tenth of the work.
-        assert_eq!(text(0.1, 20), "10/12 designs  3m left  1 failed");
-        assert_eq!(text(0.5, 2), "10/12 designs  4/s  2.00 s left  1 failed");
+        assert_eq!(line(&counts, 0.1, 20), "10/12 designs  3m left  1 failed");
+        assert_eq!(line(&counts, 0.5, 2), "10/12 designs  4/s  2.00 s left  1 failed");
     }
 
     #[test]
     fn remaining_time_needs_progress_and_counts_down_between_advances() {
         let mut remaining = Remaining::default();
-        let mut text = |share, seconds| remaining.text(share, Duration::from_secs(seconds));
-        // A fraction of 0.002 after 4 s would be 33 minutes, and 100 minutes 8 s later.
-        assert_eq!(text(0.002, 4), "");
-        assert_eq!(text(0.002, 12), "");
-        assert_eq!(text(0.2, 40), "  2m 40s left");
-        assert_eq!(text(0.2, 70), "  2m 10s left");
-        // A stalled design takes at least as long as it has taken.
-        assert_eq!(text(0.2, 240), "  3m 20s left");
-        assert_eq!(text(1.0, 250), "  0.00 s left");
+        for (share, seconds, text) in [
+            // A fraction of 0.002 after 4 s would be 33 minutes, and 100 minutes 8 s later.
+            (0.002, 4, ""),
+            (0.002, 12, ""),
+            (0.2, 40, "  2m 40s left"),
+            (0.2, 70, "  2m 10s left"),
+            // A stalled design takes at least as long as it has taken.
+            (0.2, 240, "  3m 20s left"),
+            (1.0, 250, "  0.00 s left"),
+        ] {
+            assert_eq!(remaining.text(share, Duration::from_secs(seconds)), text);
+        }
         let mut remaining = Remaining::default();
         for k in 1..=30_u32 {
             let text = remaining.text(f64::from(k) * 1e-3, Duration::from_secs(k.into()));

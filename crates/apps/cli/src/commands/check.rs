@@ -177,12 +177,11 @@ fn report(sweep: &Sweep, path: &Path) -> String {
 }
 
 fn as_json(sweep: &Sweep) -> Value {
-    let axis = |axis: &Axis| {
+    let axes = sweep.grid().axes().iter().map(|axis| {
         let values = (0..axis.len()).map(|index| axis.value(index));
         json!({ "key": axis.parameter().key, "values": values.collect::<Vec<_>>() })
-    };
-    let parameter =
-        |(parameter, value): (&sweep::Parameter, sweep::Scalar)| (parameter.path(), json!(value));
+    });
+    let parameters = sweep.shared().map(|(parameter, value)| (parameter.path(), json!(value)));
     let measures: Vec<_> = sweep.measures().iter().map(|measure| measure.key()).collect();
     json!({
         "sweep": sweep.name(),
@@ -190,22 +189,24 @@ fn as_json(sweep: &Sweep) -> Value {
         "designs": sweep.grid().len(),
         "calibrations": sweep.measures().contains(&Measure::Puncture).then(|| calibrations(sweep)),
         "output": folder_of(sweep, None).to_string_lossy(),
-        "axes": sweep.grid().axes().iter().map(axis).collect::<Vec<_>>(),
-        "parameters": sweep.shared().map(parameter).collect::<Map<_, _>>(),
+        "axes": axes.collect::<Vec<_>>(),
+        "parameters": parameters.collect::<Map<_, _>>(),
         "failure_modes": sweep.grid().case(0).judged_modes().map(|modes| json::failure_modes(&modes)),
     })
 }
 
 /// Formats the contact moduli in `MPa`, if all designs share the moduli and ratios.
 fn contact_moduli(sweep: &Sweep) -> Option<String> {
-    let shared = |key: &str| sweep.shared().find(|(p, _)| p.key == key)?.1.number();
-    let modulus = |of: &str, ratio: &str| Some(shared(of)? * shared(ratio)?);
     // Two ratios define the same modulus of the scales; in MPa a discrepancy is visible.
-    let puncture = modulus("substrate_modulus_MPa", "contact_modulus_over_substrate");
-    let bending = modulus("membrane_modulus_MPa", "contact_modulus_over_membrane");
-    let words = |modulus: Option<f64>, of: &str| Some(format!("{} MPa in {of}", digits(modulus?)));
-    let parts: Vec<_> =
-        [words(puncture, "puncture"), words(bending, "bending")].into_iter().flatten().collect();
+    let moduli = [
+        ("puncture", ["substrate_modulus_MPa", "contact_modulus_over_substrate"]),
+        ("bending", ["membrane_modulus_MPa", "contact_modulus_over_membrane"]),
+    ];
+    let parts = moduli.into_iter().filter_map(|(test, keys)| {
+        let [of, ratio] = keys.map(|key| sweep.shared().find(|(p, _)| p.key == key)?.1.number());
+        Some(format!("{} MPa in {test}", digits(of? * ratio?)))
+    });
+    let parts: Vec<_> = parts.collect();
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
@@ -248,14 +249,13 @@ fn axis_row(axis: &Axis) -> [String; 3] {
 }
 
 fn values(axis: &Axis) -> String {
-    let text = |range: std::ops::Range<u64>| {
-        let values: Vec<_> = range.map(|i| axis.value(i).to_string()).collect();
-        values.join(" ")
-    };
-    match axis.len() {
-        len if len <= LISTED => text(0..len),
-        len => format!("{} … {}", text(0..3), text(len - 1..len)),
+    let len = axis.len();
+    if len > LISTED {
+        let [first, second, third, last] = [0, 1, 2, len - 1].map(|index| axis.value(index));
+        return format!("{first} {second} {third} … {last}");
     }
+    let values: Vec<_> = (0..len).map(|index| axis.value(index).to_string()).collect();
+    values.join(" ")
 }
 
 /// Counts the footprints for which the substrate is calibrated.

@@ -102,13 +102,13 @@ fn choose(arguments: &Arguments) -> anyhow::Result<SelectedDesign> {
 fn advice(designs: &[SelectedDesign]) -> String {
     let [first, .., last] = designs else { return String::new() };
     let differing = PARAMETERS.iter().filter(|p| p.get(&first.case()) != p.get(&last.case()));
-    let option = |parameter: &sweep::Parameter| match parameter.key {
+    let options = differing.map(|parameter| match parameter.key {
         "gap_over_t" => "--gap …".to_owned(),
         "length_over_t" => "--length …".to_owned(),
         "slant_deg" => "--slant …".to_owned(),
         key => format!("--set designs.{key}=…"),
-    };
-    format!("give a value with {}", differing.map(option).collect::<Vec<_>>().join(" "))
+    });
+    format!("give a value with {}", options.collect::<Vec<_>>().join(" "))
 }
 
 /// A solved design.
@@ -134,8 +134,10 @@ impl SolvedChoice {
     }
 
     fn folder(&self, arguments: &Arguments) -> std::path::PathBuf {
-        let designs = || folder_within(&arguments.definition, &self.design.sweep, "designs");
-        arguments.out.clone().unwrap_or_else(|| designs().join(self.design.label()))
+        arguments.out.clone().unwrap_or_else(|| {
+            let designs = folder_within(&arguments.definition, &self.design.sweep, "designs");
+            designs.join(self.design.label())
+        })
     }
 
     /// Returns all columns except the number, which is in the title.

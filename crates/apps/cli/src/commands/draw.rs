@@ -151,8 +151,8 @@ impl Drawing<'_> {
         }
         // Solved twice, because the step between frames follows from the end of the path.
         let step = end.displacement / f64::from(FRAMES);
-        let frame = |k| puncture::At::Displacement(step * f64::from(k));
-        let mut states = self.puncture_states(&(0..FRAMES).map(frame).collect::<Vec<_>>())?;
+        let frames = (0..FRAMES).map(|k| puncture::At::Displacement(step * f64::from(k)));
+        let mut states = self.puncture_states(&frames.collect::<Vec<_>>())?;
         states.push(end);
         Ok(states)
     }

@@ -115,8 +115,9 @@ fn solved_designs(path: &Path, sweep: &Sweep) -> anyhow::Result<SolvedTable> {
     let known = axes.chain(REQUIRED).filter_map(|name| Some((name, results.column(name).ok()?)));
     let (columns, places): (Vec<_>, Vec<_>) =
         known.map(|(name, place)| (name.to_owned(), place)).unzip();
-    let row = |row| places.iter().map(|place| results.number(row, *place).ok().flatten()).collect();
-    Ok(SolvedTable { columns, rows: (0..results.len()).map(row).collect() })
+    let rows = (0..results.len())
+        .map(|row| places.iter().map(|place| results.number(row, *place).ok().flatten()).collect());
+    Ok(SolvedTable { columns, rows: rows.collect() })
 }
 
 /// Returns the sweep of a definition, and the requirements of its goal if it has one.

@@ -58,8 +58,9 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     let exported = report::export(&results, &others(&results)?, &arguments.xlsx)?;
     let folder = arguments.xlsx.parent();
     derivation::record(&results, "workbook", folder.unwrap_or(Path::new("")), &[name])?;
-    let row = |(table, rows): &(String, u32)| [table.clone(), counted(u64::from(*rows), "row")];
-    let rows: Vec<_> = exported.tables.iter().map(row).collect();
+    let rows = exported.tables.iter();
+    let rows = rows.map(|(table, rows)| [table.clone(), counted(u64::from(*rows), "row")]);
+    let rows: Vec<_> = rows.collect();
     let from = shortfall(&results);
     print(&format!("{}\n{from}{}", arguments.xlsx.display(), aligned(&rows)))?;
     Ok(DONE)

@@ -84,8 +84,8 @@ impl<'a> FigureFiles<'a> {
             question_letters(name, &svg, width);
         }
         // Font sizes are proportional to the width.
-        let by_letters = || Some(output.font_size? / smallest_letters(&svg, 1.0)?);
-        let svg = match output.width.or_else(by_letters) {
+        let width = output.width.or_else(|| Some(output.font_size? / smallest_letters(&svg, 1.0)?));
+        let svg = match width {
             Some(width) => Cow::Owned(resized(&svg, width)),
             None => svg,
         };
@@ -123,8 +123,8 @@ impl<'a> FigureFiles<'a> {
 
     /// Prints a line for each file.
     pub fn print(&self) -> io::Result<()> {
-        let line = |name: &String| format!("{}\n", self.folder.join(name).display());
-        print(&self.names.iter().map(line).collect::<String>())
+        let lines = self.names.iter().map(|name| format!("{}\n", self.folder.join(name).display()));
+        print(&lines.collect::<String>())
     }
 }
 
@@ -228,9 +228,9 @@ mod tests {
 
     #[test]
     fn long_lists_of_names_are_abbreviated() {
-        let numbers = |count: u32| (1..=count).map(|n| format!("{n:04}")).collect::<Vec<_>>();
-        assert_eq!(joined(&numbers(3), "designs"), "0001-0002-0003");
-        assert_eq!(joined(&numbers(45), "designs"), "0001-to-0045-45-designs");
+        let numbers: Vec<String> = (1..=45).map(|n| format!("{n:04}")).collect();
+        assert_eq!(joined(&numbers[..3], "designs"), "0001-0002-0003");
+        assert_eq!(joined(&numbers, "designs"), "0001-to-0045-45-designs");
         assert_eq!(joined(&["x".repeat(90), "y".repeat(90)], "designs"), "2-designs");
     }
 }

@@ -87,8 +87,8 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     interrupt.ask_first();
     let display =
         Display::<WorkMeter>::new(arguments.solving.quiet, interrupt, Arc::default(), ENDING);
-    let fit = || definition.fit(interrupt.stop(), display.watched());
-    let fitted = arguments.solving.threads.pool()?.install(fit);
+    let pool = arguments.solving.threads.pool()?;
+    let fitted = pool.install(|| definition.fit(interrupt.stop(), display.watched()));
     // Removes the bar before anything is printed.
     drop(display);
     let fitted = match fitted {
@@ -185,7 +185,6 @@ pub(super) static MEANS: &[Column<Point>] = &columns! { Point:
 fn text(fitted: &Fitted) -> String {
     let points: usize = fitted.curves.iter().map(|curve| curve.points.len()).sum();
     let Fitted { estimates, curves, solutions, .. } = fitted;
-    let name = |j: &usize| estimates[*j].unknown.name.as_str();
     let mut text = format!(
         "{}: {} from {points} points of {}, {solutions} solutions\n\n",
         fitted.sweep.name(),
@@ -193,63 +192,74 @@ fn text(fitted: &Fitted) -> String {
         counted(curves.len() as u64, "curve")
     );
     let header = ["", "value", "", "95 % interval"].map(str::to_owned);
-    let rows = estimates.iter().map(|estimate| {
-        let Estimate { unknown, value, interval, at_end, .. } = estimate;
-        let interval = match interval.map(|end| end.map(digits)) {
-            [Some(low), Some(high)] => format!("{low} to {high}"),
-            [Some(low), None] => format!("at least {low}"),
-            [None, Some(high)] => format!("at most {high}"),
-            [None, None] => "undetermined".to_owned(),
-        };
-        let end = if *at_end {
-            format!("  (!) at a bound of its range: widen {}", unknown.key())
-        } else {
-            String::new()
-        };
-        let unit = if unknown.unit == "-" { "" } else { unknown.unit };
-        [unknown.name.clone(), digits(*value), unit.to_owned(), format!("{interval}{end}")]
-    });
-    text.push_str(&aligned(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
+    let rows = std::iter::once(header).chain(estimates.iter().map(estimate_row));
+    text.push_str(&aligned(&rows.collect::<Vec<_>>()));
+    text.push_str(&undetermined_text(fitted));
+    text.push('\n');
+    text.push_str(&curves_text(fitted));
+    text
+}
+
+/// Returns the name, value, unit and interval of an estimate.
+fn estimate_row(estimate: &Estimate) -> [String; 4] {
+    let Estimate { unknown, value, interval, at_end, .. } = estimate;
+    let interval = match interval.map(|end| end.map(digits)) {
+        [Some(low), Some(high)] => format!("{low} to {high}"),
+        [Some(low), None] => format!("at least {low}"),
+        [None, Some(high)] => format!("at most {high}"),
+        [None, None] => "undetermined".to_owned(),
+    };
+    let end = if *at_end {
+        format!("  (!) at a bound of its range: widen {}", unknown.key())
+    } else {
+        String::new()
+    };
+    let unit = if unknown.unit == "-" { "" } else { unknown.unit };
+    [unknown.name.clone(), digits(*value), unit.to_owned(), format!("{interval}{end}")]
+}
+
+/// Describes the unknowns that the data do not determine alone.
+fn undetermined_text(fitted: &Fitted) -> String {
+    let mut text = String::new();
     // Writing to a string cannot fail.
     for group in &fitted.undetermined {
-        let _ = match group.as_slice() {
-            [one] => writeln!(
+        let _ = match names(fitted, group).as_slice() {
+            [name] => writeln!(
                 text,
-                "  (!) The data do not determine {}: they exclude no value of its range",
-                name(one)
+                "  (!) The data do not determine {name}: they exclude no value of its range"
             ),
-            several => {
-                let names: Vec<_> = several.iter().map(name).collect();
-                writeln!(
-                    text,
-                    "  (!) The data determine only a combination of {}: fix one of them, or add a curve of another kind or specimen",
-                    names.join(" and ")
-                )
-            }
+            names => writeln!(
+                text,
+                "  (!) The data determine only a combination of {}: fix one of them, or add a curve of another kind or specimen",
+                names.join(" and ")
+            ),
         };
     }
     for scatter in &fitted.scatter {
         let _ = writeln!(text, "  {}", differs(scatter));
     }
-    for Estimate { unknown, rests_on, .. } in estimates.iter().filter(|e| !e.rests_on.is_empty()) {
-        let others: Vec<_> = rests_on.iter().map(name).collect();
+    for estimate in fitted.estimates.iter().filter(|estimate| !estimate.rests_on.is_empty()) {
         let _ = writeln!(
             text,
             "  The interval of {} depends on the range of {}",
-            unknown.name,
-            others.join(" and ")
+            estimate.unknown.name,
+            names(fitted, &estimate.rests_on).join(" and ")
         );
     }
     for (i, row) in fitted.correlations.iter().enumerate() {
         for (j, correlation) in
             row.iter().enumerate().skip(i + 1).filter(|(_, c)| c.abs() >= STRONG)
         {
-            let _ =
-                writeln!(text, "  {} and {} are correlated: {correlation:.3}", name(&i), name(&j));
+            let names = names(fitted, &[i, j]).join(" and ");
+            let _ = writeln!(text, "  {names} are correlated: {correlation:.3}");
         }
     }
-    text.push('\n');
-    let rows = curves.iter().map(|curve| {
+    text
+}
+
+/// Describes the curves with their noise, and the remarks on them.
+fn curves_text(fitted: &Fitted) -> String {
+    let rows = fitted.curves.iter().map(|curve| {
         let unit = curve.axes[1].split_once(", ").map_or("", |(_, unit)| unit);
         let largest = curve.points.iter().map(|point| point[1].abs()).fold(0.0, f64::max);
         let share = 100.0 * curve.noise / largest;
@@ -260,9 +270,9 @@ fn text(fitted: &Fitted) -> String {
             format!("noise {} {unit}, {share:.1} % of the largest value", digits(curve.noise)),
         ]
     });
-    text.push_str(&aligned(&rows.collect::<Vec<_>>()));
-    for curve in curves {
-        text.push_str(&remarks(curve, estimates));
+    let mut text = aligned(&rows.collect::<Vec<_>>());
+    for curve in &fitted.curves {
+        text.push_str(&remarks(curve, &fitted.estimates));
     }
     for mean in &fitted.means {
         let [.., [x, mean_there, deviation]] = mean.points.as_slice() else { continue };
@@ -275,7 +285,7 @@ fn text(fitted: &Fitted) -> String {
             digits(*deviation)
         );
     }
-    let differenced: usize = curves.iter().map(|curve| curve.differenced).sum();
+    let differenced: usize = fitted.curves.iter().map(|curve| curve.differenced).sum();
     if differenced > 0 {
         let _ = writeln!(
             text,
@@ -283,6 +293,11 @@ fn text(fitted: &Fitted) -> String {
         );
     }
     text
+}
+
+/// Returns the names of unknowns, by their indices.
+fn names<'f>(fitted: &'f Fitted, indices: &[usize]) -> Vec<&'f str> {
+    indices.iter().map(|&j| fitted.estimates[j].unknown.name.as_str()).collect()
 }
 
 /// Describes the distribution of a parameter over the specimens.
@@ -410,18 +425,15 @@ fn scatter_record(scatter: &Scatter, fitted: &Fitted) -> Value {
 }
 
 fn record(fitted: &Fitted) -> Value {
-    let names = |group: &Vec<usize>| {
-        group.iter().map(|&j| &fitted.estimates[j].unknown.name).collect::<Vec<_>>()
-    };
     json!({
         "name": fitted.sweep.name(),
         "estimates": fitted.estimates.iter().map(|e| json!({
             "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval,
-            "at_end": e.at_end, "depends_on_range_of": names(&e.rests_on),
+            "at_end": e.at_end, "depends_on_range_of": names(fitted, &e.rests_on),
         })).collect::<Vec<_>>(),
         "scatter": fitted.scatter.iter().map(|s| scatter_record(s, fitted)).collect::<Vec<_>>(),
         "correlations": fitted.correlations,
-        "not_told_apart": fitted.undetermined.iter().map(names).collect::<Vec<_>>(),
+        "not_told_apart": fitted.undetermined.iter().map(|group| names(fitted, group)).collect::<Vec<_>>(),
         "curves": fitted.curves.iter().map(|c| json!({
             "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed,
             "events": c.events.iter().map(|e| json!({

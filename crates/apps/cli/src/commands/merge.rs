@@ -64,17 +64,13 @@ fn missing(merged: &run::Merged) -> String {
     if merged.missing.is_empty() {
         return String::new();
     }
-    // The ranges count from 1, the grid from 0.
-    let number = |number: u64| merged.sweep.grid().number(number - 1);
-    let named: Vec<_> = merged
-        .missing
-        .iter()
-        .take(NAMED)
-        .map(|range| match (*range.start(), *range.end()) {
-            (first, last) if first == last => number(first).to_string(),
-            (first, last) => format!("{}-{}", number(first), number(last)),
-        })
-        .collect();
+    let grid = merged.sweep.grid();
+    let named = merged.missing.iter().take(NAMED).map(|range| {
+        // The ranges count from 1, the grid from 0.
+        let [first, last] = [range.start(), range.end()].map(|number| grid.number(number - 1));
+        if first == last { first.to_string() } else { format!("{first}-{last}") }
+    });
+    let named: Vec<_> = named.collect();
     let more = if merged.missing.len() > NAMED { " …" } else { "" };
     format!("missing designs: {}{more}\n", named.join(" "))
 }

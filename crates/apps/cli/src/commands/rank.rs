@@ -13,7 +13,6 @@ use ranking::{
     check_comparable,
 };
 use results::{Results, ResultsFolder};
-use serde_json::json;
 use sweep::Sweep;
 
 use super::options::whole;
@@ -24,8 +23,8 @@ use crate::json;
 use answer::RankedAnswer;
 use checks::Checks;
 use gap_changes::{couplings, gap_changes};
-use record::{ranking_record, unmet_record};
-use report::{RankReport, judged_modes, unmet_report};
+use record::{report_record, unmet_record};
+use report::{RankReport, unmet_report};
 
 pub(super) use report::{distance, obstacle};
 use std::path::PathBuf;
@@ -133,28 +132,16 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     let best = checks.best.unwrap_or_else(|| ranking.winner(ranking.preferences().weights));
     let answer = RankedAnswer::new(results, ranking.preferences(), best);
     let change = changes.iter().find(|change| change.design == best.design());
-    let top = arguments.top as usize;
-    let record = || {
-        let mut record = ranking_record(results, ranking, top);
-        if let Some(modes) = judged_modes(results, ranking) {
-            record["failure_modes"] = json::failure_modes(&modes);
-        }
-        record["gap_changes"] = json!(changes);
-        record["full_coupling"] = json!(couplings);
-        record["answer"] = answer.record(change);
-        record["fail_checks"] = json!(checks.failed);
-        record["best_that_passes_checks"] = json!(checks.best.map(|best| best.design().to_owned()));
-        record
-    };
     let report = RankReport {
         results,
         ranking,
-        top,
+        top: arguments.top as usize,
         changes: &changes,
         couplings: &couplings,
         checks: &checks,
         answer: &answer,
     };
+    let record = || report_record(&report, change);
     json::answer(arguments.json, record, || report.text(), (folder, &files))?;
     Ok(DONE)
 }

@@ -297,8 +297,8 @@ fn gap_factors(results: &FolderContents, row: usize) -> Vec<GapFactors> {
         .into_iter()
         .map(|MeasureChange { column, value, changed }| {
             // A measure of zero has no factor.
-            let factor = |changed: f64| Some(changed / value).filter(|factor| factor.is_finite());
-            GapFactors { column, factors: changed.map(|changed| changed.and_then(factor)) }
+            let factors = changed.map(|changed| Some(changed? / value).filter(|f| f.is_finite()));
+            GapFactors { column, factors }
         })
         .collect()
 }

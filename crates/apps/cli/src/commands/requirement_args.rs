@@ -19,8 +19,9 @@ pub struct RequirementArgs {
 impl RequirementArgs {
     /// Parses the requirements, and prints notes on standards and limits of body parts.
     pub fn read(&self) -> anyhow::Result<Vec<Requirement>> {
-        let read = |text: &String| text.parse().with_context(|| format!("--require {text}"));
-        let all = self.texts.iter().map(read).collect::<anyhow::Result<Vec<_>>>()?;
+        let all = self.texts.iter();
+        let all = all.map(|text| text.parse().with_context(|| format!("--require {text}")));
+        let all = all.collect::<anyhow::Result<Vec<_>>>()?;
         for (text, (standard, level)) in
             self.texts.iter().filter_map(|text| Some((text, Standard::requirement(text)?)))
         {

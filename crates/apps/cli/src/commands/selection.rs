@@ -7,7 +7,7 @@ use anyhow::{Context as _, bail, ensure};
 use clap::Args;
 use optimisation::{DesignGoal, FRONT, GOAL};
 use results::{Completeness, Results, VerifiedFolder};
-use sweep::{Axis, Case, DesignNumber, Grid, Parameter, Setting, Sweep, read_text};
+use sweep::{Axis, Case, DesignNumber, Grid, Setting, Sweep, read_text};
 
 use text::number::same;
 
@@ -102,22 +102,24 @@ fn select_from_front(
         "{}: holds a Pareto front of {designs} designs; choose with --design",
         folder.display()
     );
-    let select = |text: &String| {
+    let mut selected = Vec::new();
+    for text in &selection.numbers {
         let row = text.trim().parse::<usize>().ok().filter(|number| (1..=designs).contains(number));
         let row = row.with_context(|| {
             format!(
                 "--design {text}: not accepted, expected 1 to {designs}, the designs of {FRONT}"
             )
         })? - 1;
-        let value = |p: &Parameter| format!("{}={}", p.path(), front.parameter(row, p));
-        let found = goal.space.parameters().map(|p| Setting::parse(&value(p)));
-        let mut all = found.collect::<Result<Vec<_>, _>>()?;
+        let values = goal.space.parameters().map(|parameter| {
+            Setting::parse(&format!("{}={}", parameter.path(), front.parameter(row, parameter)))
+        });
+        let mut all = values.collect::<Result<Vec<_>, _>>()?;
         // `--set` comes last, so that it overrides the values of the front.
         all.extend_from_slice(settings);
         let (sweep, number) = (Sweep::parse(&nominal, &name, &all)?, Some(grid.number(row as u64)));
-        Ok(SelectedDesign { sweep, number, count: designs as u64, original: None })
-    };
-    selection.numbers.iter().map(select).collect()
+        selected.push(SelectedDesign { sweep, number, count: designs as u64, original: None });
+    }
+    Ok(selected)
 }
 
 /// Returns the definition of a single design of a goal.

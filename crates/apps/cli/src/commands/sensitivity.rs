@@ -148,15 +148,14 @@ fn percent(estimate: IndexEstimate) -> String {
 }
 
 fn record(sweep: &Sweep, found: &GlobalSensitivity, folder: &Path) -> Value {
-    let estimate = |e: IndexEstimate| json!({ "value": e.value, "interval": e.interval() });
     json!({
         "sweep": sweep.name(),
         "measures": found.measures.iter().map(|measure| {
         let indices = found.variables.iter().zip(&measure.indices).map(|(variable, indices)| {
             json!({
                 "variable": variable,
-                "first": estimate(indices.first),
-                "total": estimate(indices.total),
+                "first": estimate_record(indices.first),
+                "total": estimate_record(indices.total),
             })
         });
         json!({
@@ -171,4 +170,8 @@ fn record(sweep: &Sweep, found: &GlobalSensitivity, folder: &Path) -> Value {
         "folder": folder.to_string_lossy(),
         "files": [TABLE],
     })
+}
+
+fn estimate_record(estimate: IndexEstimate) -> Value {
+    json!({ "value": estimate.value, "interval": estimate.interval() })
 }

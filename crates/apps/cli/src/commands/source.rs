@@ -110,14 +110,13 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
         VerifiedFolder::open(path, Completeness::Partial)?.file("optimum.toml")?;
         return Ok(optimum);
     }
-    let holds = |table: &str| path.join(table).is_file();
     let folder = path.display();
     ensure!(
-        !holds("front.csv"),
+        !path.join("front.csv").is_file(),
         "{folder}: holds a Pareto front; choose one design of it with --design, in squama design, draw or make"
     );
     ensure!(
-        !holds("tolerance.csv") && !holds("sobol.csv"),
+        !path.join("tolerance.csv").is_file() && !path.join("sobol.csv").is_file(),
         "{folder}: holds an analysis and no designs; give the definition or the results folder of the run"
     );
     ensure!(

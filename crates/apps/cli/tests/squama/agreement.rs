@@ -63,23 +63,26 @@ impl<'t> Number<'t> {
 
 /// Returns the length of the number at the start of `text`; 0 if there is none.
 fn number_length(text: &str) -> usize {
-    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
     let sign = usize::from(text.starts_with(['+', '-']));
-    let whole = digits(&text[sign..]);
+    let whole = leading_digits(&text[sign..]);
     if whole == 0 {
         return 0;
     }
     let mut length = sign + whole;
     if let Some(rest) = text[length..].strip_prefix('.') {
-        let decimals = digits(rest);
+        let decimals = leading_digits(rest);
         length += if decimals > 0 { 1 + decimals } else { 0 };
     }
     if let Some(rest) = text[length..].strip_prefix('e') {
         let sign = usize::from(rest.starts_with(['+', '-']));
-        let exponent = digits(&rest[sign..]);
+        let exponent = leading_digits(&rest[sign..]);
         length += if exponent > 0 { 1 + sign + exponent } else { 0 };
     }
     length
+}
+
+fn leading_digits(text: &str) -> usize {
+    text.bytes().take_while(u8::is_ascii_digit).count()
 }
 
 fn pieces(mut line: &str) -> impl Iterator<Item = Piece<'_>> {

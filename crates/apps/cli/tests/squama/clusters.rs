@@ -76,9 +76,8 @@ fn per_cent_signs_in_paths_are_preserved() {
 #[test]
 fn numbers_of_shards_out_of_range_are_rejected() {
     let place = Place::with(FEW);
-    let refused = |shards: u32| place.refused(&format!("slurm x.toml --out r --shards {shards}"));
-    insta::assert_snapshot!(refused(1001), @"error: --shards 1001: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
-    insta::assert_snapshot!(refused(0), @"error: --shards 0: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
-    insta::assert_snapshot!(refused(9), @"error: --shards 9: there are only 8 designs, expected 1 to 8");
+    insta::assert_snapshot!(place.refused("slurm x.toml --out r --shards 1001"), @"error: --shards 1001: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
+    insta::assert_snapshot!(place.refused("slurm x.toml --out r --shards 0"), @"error: --shards 0: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
+    insta::assert_snapshot!(place.refused("slurm x.toml --out r --shards 9"), @"error: --shards 9: there are only 8 designs, expected 1 to 8");
     assert_eq!(place.list("."), "x.toml");
 }

@@ -196,8 +196,8 @@ fn design_differentiates_its_measures() {
     // A gap of 0.1 between bases of 1 gives a coverage of 0.9; widening the gap reduces it equally.
     let coverage = table.lines().find(|line| line.starts_with("0004,coverage,gap_over_t"));
     let cells: Vec<_> = coverage.expect("a line").split(',').collect();
-    let number = |cell: usize| cells[cell].parse::<f64>().expect("a number");
-    assert!((number(4) + 1.0).abs() < 1e-12 && (number(5) + 0.1 / 0.9).abs() < 1e-12);
+    let [derivative, elasticity] = [4, 5].map(|cell| cells[cell].parse::<f64>().expect("a number"));
+    assert!((derivative + 1.0).abs() < 1e-12 && (elasticity + 0.1 / 0.9).abs() < 1e-12);
     for measure in ["critical_force", "first_contact_displacement", "compliance", "max_moment"] {
         assert!(table.contains(&format!("0004,{measure},slant_deg,")), "{measure}");
     }

@@ -89,7 +89,7 @@ fn the_version_has_a_revision() {
     let revision = revision.trim_end_matches(')');
     // Sources that differ from the commit have an additional hash.
     let (commit, changes) = revision.split_once("-dirty-").unwrap_or((revision, ""));
-    let is_hash = |text: &str| text.chars().all(|c| c.is_ascii_hexdigit());
-    let is_named = commit.len() == 12 && is_hash(commit) && is_hash(changes);
+    let is_hash = commit.chars().chain(changes.chars()).all(|c| c.is_ascii_hexdigit());
+    let is_named = commit.len() == 12 && is_hash;
     assert!(is_named || revision == "unknown", "{text}");
 }

@@ -106,20 +106,22 @@ fn undetermined_parameters_give_exit_code_1() {
     assert!(place.path("results/palm/fit/fit.csv").exists());
 }
 
+/// Fits `x.toml` to a file `a.csv`, and returns the output.
+fn fitted(place: &Place, file: &str, exit: i32) -> String {
+    fs::write(place.path("a.csv"), file).expect("writable");
+    let assert = place.squama("fit x.toml").assert().code(exit);
+    String::from_utf8_lossy(&assert.get_output().stdout).into_owned()
+}
+
 #[test]
 fn doubtful_fits_are_reported() {
     let skin = SKIN.replace("substrate_modulus_MPa = 0.5\n", "");
     let place = Place::with(&format!(
         "{skin}[variables]\nsubstrate_modulus_MPa = {{ from = 0.1, to = 9 }}\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"
     ));
-    let fitted = |file: &str, exit: i32| {
-        fs::write(place.path("a.csv"), file).expect("writable");
-        let assert = place.squama("fit x.toml").assert().code(exit);
-        String::from_utf8_lossy(&assert.get_output().stdout).into_owned()
-    };
     let pulled = (1..30).map(|k| format!("{k},-{}", 40 - k)).collect::<Vec<_>>().join("\n");
-    let text =
-        fitted(&format!("Machine;7\nDisplacement (µm),Force [mN]\n{pulled}\n,\n40,-40\n"), 1);
+    let file = format!("Machine;7\nDisplacement (µm),Force [mN]\n{pulled}\n,\n40,-40\n");
+    let text = fitted(&place, &file, 1);
     assert!(text.contains("(!) a.csv: no point has both displacement and force above 0"), "{text}");
     assert!(
         text.contains("a.csv: 2 lines outside the table of numbers left out: 1, 32\n"),
@@ -128,9 +130,9 @@ fn doubtful_fits_are_reported() {
     let wave = (1..60).map(|k| format!("{k},{}", 2 * k + 20 * (k / 10 % 2)));
     let wave = wave.collect::<Vec<_>>().join("\n");
     // So few residuals are independent that the curve excludes no modulus.
-    let text = fitted(&format!("displacement_um,force_mN\n{wave}"), 1);
+    let text = fitted(&place, &format!("displacement_um,force_mN\n{wave}"), 1);
     assert!(text.contains("(!) a.csv: neighbouring residuals are correlated (0."), "{text}");
-    let text = fitted("displacement,force\n0.1,0.2\n0.2,0.4\n0.3,0.6\n", 1);
+    let text = fitted(&place, "displacement,force\n0.1,0.2\n0.2,0.4\n0.3,0.6\n", 1);
     assert!(text.contains("displacement and force have no units in the file"), "{text}");
 }
 
@@ -226,10 +228,12 @@ fn the_protocol_of_two_blocks_recovers_modulus_and_friction() {
     }
     place.prints("fit two-blocks.toml --quiet --out fit");
     let fitted = place.read("fit/fit.csv");
-    let value = |key: &str| -> f64 {
+    for (key, expected, accuracy) in
+        [("substrate_modulus_MPa", 0.31, 3e-3), ("friction", 0.2, 0.02)]
+    {
         let row = fitted.lines().find(|line| line.contains(key)).expect("a row");
-        row.split(',').nth(2).expect("a value").parse().expect("a number")
-    };
-    assert!((value("substrate_modulus_MPa") - 0.31).abs() < 3e-3, "{fitted}");
-    assert!((value("friction") - 0.2).abs() < 0.02, "{fitted}");
+        let value = row.split(',').nth(2).expect("a value");
+        let value: f64 = value.parse().expect("a number");
+        assert!((value - expected).abs() < accuracy, "{fitted}");
+    }
 }

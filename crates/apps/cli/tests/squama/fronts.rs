@@ -59,13 +59,13 @@ fn designs_of_a_front_are_selected_by_number() {
     let drawing = place.read("found/drawings/design-0004-puncture-at-critical-tilt.svg");
     assert!(drawing.contains(" width=\"85mm\" height=\""));
     // Letters scale with the width, so half the letter size takes half the width.
-    let width = |size: &str| -> f64 {
+    let [large, small] = ["8", "4"].map(|size| -> f64 {
         place.prints(&format!("draw found --design 2 --font-size {size} --set puncture.scales=3"));
         let drawing = place.read("found/drawings/design-0002-puncture-at-critical-tilt.svg");
         let (_, rest) = drawing.split_once(" width=\"").expect("has a width");
         rest.split_once("mm").expect("in mm").0.parse().expect("a number")
-    };
-    assert!((width("8") - 2.0 * width("4")).abs() < 0.02);
+    });
+    assert!((large - 2.0 * small).abs() < 0.02);
     insta::assert_snapshot!(place.refused("design found"), @"error: found: holds a Pareto front of 4 designs; choose with --design");
     insta::assert_snapshot!(place.refused("design found --design 5"), @"error: --design 5: not accepted, expected 1 to 4, the designs of front.csv");
     insta::assert_snapshot!(place.refused("draw found --design 1 --width 5"), @"error: --width 5: out of range, expected 10 to 2000");

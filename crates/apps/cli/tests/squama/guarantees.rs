@@ -1,6 +1,7 @@
 //! The guarantees of results also hold for searches, analyses, rankings and comparisons.
 
 use std::fs;
+use std::path::Path;
 use std::time::Duration;
 
 use crate::{FEW, Place};
@@ -142,25 +143,27 @@ fn a_foreign_record_removes_nothing_outside_its_folder() {
     assert_eq!(place.list("r/derived"), "notes.txt");
 }
 
+/// Returns the journals of the samples in the folder `out`.
+fn sample_journals(place: &Place) -> Vec<String> {
+    let names = place.list("out/samples");
+    let names = names.split(' ').filter(|name| name.contains(".jsonl"));
+    names.map(|name| place.read(&format!("out/samples/{name}"))).collect()
+}
+
 #[test]
 fn samples_of_each_definition_are_kept() {
     let place = place();
     let tolerance = "tolerance x.toml --samples 20 --design 1 --out out";
     place.prints(tolerance);
-    let journals = |place: &Place| {
-        let names = place.list("out/samples");
-        let names = names.split(' ').filter(|name| name.contains(".jsonl"));
-        names.map(|name| place.read(&format!("out/samples/{name}"))).collect::<Vec<_>>()
-    };
-    let [first] = journals(&place).try_into().expect("one journal");
+    let [first] = sample_journals(&place).try_into().expect("one journal");
     // A foreign file, or a file of an earlier version of squama.
     fs::write(place.path("out/samples/0001.csv"), "mine").expect("writable");
     place.prints(&format!("{tolerance} --set designs.length_over_t=2"));
-    assert_eq!(journals(&place).len(), 2);
+    assert_eq!(sample_journals(&place).len(), 2);
     assert_eq!(place.list("out/samples").matches(".csv").count(), 3, "a table for each");
     assert_eq!(place.read("out/samples/0001.csv"), "mine");
     place.prints(tolerance);
-    assert!(journals(&place).contains(&first), "nothing is solved again");
+    assert!(sample_journals(&place).contains(&first), "nothing is solved again");
 }
 
 #[test]
@@ -295,17 +298,15 @@ fn a_part_is_not_replaced_if_its_list_cannot_be_written() {
 #[test]
 fn endless_inputs_are_rejected() {
     let place = place();
-    let made = std::process::Command::new("mkfifo").arg(place.path("p")).status();
-    assert!(made.expect("mkfifo").success());
-    let fit = |file: &str| {
-        format!(
+    make_pipe(&place.path("p"));
+    for (definition, file) in [("pipe.toml", "p"), ("zero.toml", "/dev/zero")] {
+        let text = format!(
             "name = 'f'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.8\nslant_deg = 60\n\
              [material]\nthickness_mm = 2\n[variables]\nsubstrate_modulus_MPa = {{ from = 0.1, to = 2 }}\n\
              [[curve]]\nfile = '{file}'\nkind = 'puncture'\n"
-        )
-    };
-    fs::write(place.path("pipe.toml"), fit("p")).expect("writable");
-    fs::write(place.path("zero.toml"), fit("/dev/zero")).expect("writable");
+        );
+        fs::write(place.path(definition), text).expect("writable");
+    }
     let sections: Vec<String> = (0..150_000).map(|k| format!("[s{k}]")).collect();
     fs::write(place.path("sections.toml"), sections.join("\n")).expect("writable");
     let commands = [
@@ -329,15 +330,15 @@ fn endless_inputs_are_rejected() {
     }
 }
 
+fn make_pipe(path: &Path) {
+    let made = std::process::Command::new("mkfifo").arg(path).status();
+    assert!(made.expect("mkfifo").success());
+}
+
 #[cfg(unix)]
 #[test]
 fn pipes_and_devices_are_rejected_as_records_and_journals() {
     use std::os::unix::fs::symlink;
-
-    let pipe = |place: &Place, file: &str| {
-        let made = std::process::Command::new("mkfifo").arg(place.path(file)).status();
-        assert!(made.expect("mkfifo").success());
-    };
     for device in ["", "/dev/zero"] {
         for (file, command) in [
             ("r/contents.toml", "rank r --maximize coverage"),
@@ -353,7 +354,7 @@ fn pipes_and_devices_are_rejected_as_records_and_journals() {
             place.prints("optimise my/goal.toml --out found");
             fs::remove_file(place.path(file)).expect("a file");
             if device.is_empty() {
-                pipe(&place, file);
+                make_pipe(&place.path(file));
             } else {
                 symlink(device, place.path(file)).expect("a link");
             }

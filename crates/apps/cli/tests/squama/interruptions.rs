@@ -2,6 +2,7 @@
 //!
 //! After `--resume`, its tables are identical to the tables of an uninterrupted run.
 
+use std::path::Path;
 use std::time::Duration;
 
 use crate::process::Running;
@@ -109,24 +110,24 @@ fn a_gigabyte_of_zeros_is_rejected_as_a_journal() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let journal = place.read("r/journal.jsonl");
-    let grow = |file: &str| {
-        let file = std::fs::OpenOptions::new().append(true).create(true).open(place.path(file));
-        let file = file.expect("writable");
-        // A sparse file takes no space on the disk.
-        file.set_len(file.metadata().expect("a file").len() + (1 << 30)).expect("a hole");
-    };
     std::fs::create_dir(place.path("zeros")).expect("a folder");
-    grow("zeros/journal.jsonl");
+    add_zeros(&place.path("zeros/journal.jsonl"));
     for command in ["run x.toml --out zeros", "status zeros", "merge zeros --out all"] {
         let message = place.refused(command);
         assert!(message.contains("not the first line of a journal"), "{message}");
     }
     // After valid lines, zeros are a damaged tail.
-    grow("r/journal.jsonl");
+    add_zeros(&place.path("r/journal.jsonl"));
     let status = place.squama("status r").assert().code(1).get_output().stdout.clone();
     assert!(String::from_utf8_lossy(&status).contains("done        8\n"));
     std::fs::write(place.path("r/journal.jsonl"), journal).expect("writable");
     place.prints("status r");
+}
+
+/// Appends a gigabyte of zeros, in a sparse file that takes no space on the disk.
+fn add_zeros(path: &Path) {
+    let file = std::fs::OpenOptions::new().append(true).create(true).open(path).expect("writable");
+    file.set_len(file.metadata().expect("a file").len() + (1 << 30)).expect("a hole");
 }
 
 #[test]

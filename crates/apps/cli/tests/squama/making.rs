@@ -37,15 +37,15 @@ fn the_list_has_sizes_counts_masses_and_deviations() {
 fn a_patch_has_at_most_the_requested_size() {
     let place = Place::with(SKIN);
     let text = place.prints("make x.toml --design 1 --patch 30x20 --brick");
-    let value = |name: &str| -> f64 {
+    // The first line that begins with "across" states the number of scales.
+    let names = ["length along the rows", "pitch along", "across", "pitch across"];
+    let [length, pitch, rows, row_pitch] = names.map(|name| -> f64 {
         let line = text.lines().find(|line| line.trim_start().starts_with(name)).expect("a line");
         let value = line.trim_start().trim_start_matches(name).split_whitespace().next();
         value.expect("a value").parse().expect("a number")
-    };
-    let (length, pitch) = (value("length along the rows"), value("pitch along"));
+    });
     assert!(length <= 30.0 && length + pitch > 30.0, "{text}");
-    // The first line that begins with "across" states the number of scales.
-    assert!(value("across") * value("pitch across") <= 20.0, "{text}");
+    assert!(rows * row_pitch <= 20.0, "{text}");
     let refusal = place.refused("make x.toml --design 1 --patch 1x1");
     assert!(refusal.contains("--patch: smaller than one scale"), "{refusal}");
 }

@@ -10,6 +10,9 @@ fn numbers(table: &str, column: &str) -> Vec<f64> {
     cells(table, column).iter().map(|cell| cell.parse().expect("a number")).collect()
 }
 
+/// Computes a physical value from a dimensionless one and the length of the scales.
+type Conversion = fn(f64, f64) -> f64;
+
 #[test]
 fn a_material_adds_columns_and_changes_none() {
     let place = Place::with(FEW);
@@ -25,22 +28,24 @@ fn a_material_adds_columns_and_changes_none() {
         }
     }
     let table = place.read("given/designs.csv");
-    let by_hand = |column: &str, of: &str, unit: fn(f64, f64) -> f64| {
+    // E_s/(1 − ν²) = 0.4 MPa; I_m = 2 · 0.25³/12 mm⁴.
+    let by_hand: [(&str, &str, Conversion); 5] = [
+        ("critical_force_N", "critical_force", |value, length| value * 0.4 * length * 4.0),
+        ("penetration_mm", "penetration", |value, _| 2.0 * value),
+        ("bend_radius_mm", "contact_curvature", |value, _| 2.0 / value),
+        ("flexural_rigidity_N_mm2", "compliance", |value, _| {
+            4.5 * 2.0 * 0.25_f64.powi(3) / 12.0 / value
+        }),
+        ("areal_mass_kg_m2", "gap_over_t", |gap, length| 2.4 * length / (length + gap)),
+    ];
+    for (column, of, unit) in by_hand {
         let lengths = numbers(&table, "length_over_t");
         let values = numbers(&table, of).into_iter().zip(lengths);
         for (found, (value, length)) in numbers(&table, column).into_iter().zip(values) {
             let expected = unit(value, length);
             assert!((found - expected).abs() <= 1e-12 * expected, "{column}: {found} {expected}");
         }
-    };
-    // E_s/(1 − ν²) = 0.4 MPa; I_m = 2 · 0.25³/12 mm⁴.
-    by_hand("critical_force_N", "critical_force", |value, length| value * 0.4 * length * 4.0);
-    by_hand("penetration_mm", "penetration", |value, _| 2.0 * value);
-    by_hand("bend_radius_mm", "contact_curvature", |value, _| 2.0 / value);
-    by_hand("flexural_rigidity_N_mm2", "compliance", |value, _| {
-        4.5 * 2.0 * 0.25_f64.powi(3) / 12.0 / value
-    });
-    by_hand("areal_mass_kg_m2", "gap_over_t", |gap, length| 2.4 * length / (length + gap));
+    }
     insta::assert_snapshot!(
         columns(&table)
             .skip_while(|name| *name != "critical_force_N")
@@ -116,14 +121,17 @@ fn suspicious_units_of_a_modulus_are_noted_and_the_scale_modulus_sets_contact_ra
     assert!(String::from_utf8_lossy(&checked).starts_with(question));
     // The scales are 100 times as stiff as the substrate.
     let known = "design x.toml --set material.substrate_modulus_MPa=0.31 --json";
-    let force = |set: &str| {
+    let ratio = "--set puncture.contact_modulus_over_substrate=100";
+    let modulus = "--set material.scale_modulus_MPa=31";
+    let [by_ratio, by_modulus, by_default] = [ratio, modulus, ""].map(|set| {
         let json: serde_json::Value =
             serde_json::from_str(&place.prints(&format!("{known} {set}"))).expect("JSON");
         json["measures"]["critical_force_N"].as_f64().expect("a force")
-    };
-    let by_ratio = force("--set puncture.contact_modulus_over_substrate=100");
-    let by_modulus = force("--set material.scale_modulus_MPa=31");
-    assert!((by_ratio - by_modulus).abs() < 1e-9 * by_ratio && by_ratio != force(""), "{by_ratio}");
+    });
+    assert!(
+        (by_ratio - by_modulus).abs() < 1e-9 * by_ratio && by_ratio != by_default,
+        "{by_ratio}"
+    );
 }
 
 #[test]

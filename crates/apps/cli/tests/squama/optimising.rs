@@ -329,16 +329,7 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
     let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nslant_deg = { from = 30, to = 40 }\n\
         [designs]\ngap_over_t = 0.1\nlength_over_t = 1\n[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.3\n\
         [material]\nthickness_mm = 2\nsubstrate_modulus_MPa = 0.5\n[goal]\nsound = false\nmaximize = 'critical_force'\nsamples = 2\n";
-    let told = |goal: &str, name: &str| {
-        let place = Place::with(goal);
-        let text = place.prints("optimise x.toml");
-        let found = place.prints(
-            "design results/pinned --json --set puncture.places=11 --set substrate.coupling=full",
-        );
-        let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
-        (text, found["measures"][name].as_f64().expect("a number"))
-    };
-    let (text, weakest) = told(goal, "weakest_force");
+    let (text, weakest) = weakest_load_position(goal);
     let (_, line) = text.split_once("Weakest load position, ").expect("a sentence");
     let force =
         line.split_once("critical_force = ").and_then(|(_, rest)| rest.split_once(" there, "));
@@ -347,10 +338,21 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
     // A goal on the weakest position needs no note, and a dead load has only one position.
     let weakest = goal.replace("critical_force", "weakest_force");
     let (text, _) =
-        told(&weakest.replace("[puncture]\n", "[puncture]\nplaces = 11\n"), "weakest_force");
+        weakest_load_position(&weakest.replace("[puncture]\n", "[puncture]\nplaces = 11\n"));
     assert!(!text.contains("Weakest load position"), "{text}");
-    let (text, _) = told(&goal.replace("'guided'", "'free'"), "weakest_force");
+    let (text, _) = weakest_load_position(&goal.replace("'guided'", "'free'"));
     assert!(!text.contains("Weakest load position"), "{text}");
+}
+
+/// Returns the report of a search, and the weakest force of its optimum at eleven load positions.
+fn weakest_load_position(goal: &str) -> (String, f64) {
+    let place = Place::with(goal);
+    let text = place.prints("optimise x.toml");
+    let found = place.prints(
+        "design results/pinned --json --set puncture.places=11 --set substrate.coupling=full",
+    );
+    let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+    (text, found["measures"]["weakest_force"].as_f64().expect("a number"))
 }
 
 /// A failure force is judged at every load position with full coupling, in one check.

@@ -18,17 +18,13 @@ fn check_describes_the_run() {
 #[test]
 fn calibrate_prints_six_coefficients() {
     let text = Place::new().prints("calibrate --gap 0.1 --length 1");
-    let numbers = |name: &str| {
+    // Three square bases, separated by a tenth of their side.
+    for (name, expected) in [("alpha", [2.699, 3.376, 2.473]), ("beta", [0.993, 1.082, -0.428])] {
         let line = text.lines().find(|line| line.trim_start().starts_with(name));
         let words = line.expect("a line").split_whitespace().skip(1);
-        words.map(|word| word.parse::<f64>().expect("a number")).collect::<Vec<_>>()
-    };
-    let close = |found: Vec<f64>, expected: [f64; 3]| {
+        let found: Vec<f64> = words.map(|word| word.parse().expect("a number")).collect();
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-3), "{found:?}");
-    };
-    // Three square bases, separated by a tenth of their side.
-    close(numbers("alpha"), [2.699, 3.376, 2.473]);
-    close(numbers("beta"), [0.993, 1.082, -0.428]);
+    }
 }
 
 /// On a layer twice as thick as the scales, forces along the row couple with rotation and normal

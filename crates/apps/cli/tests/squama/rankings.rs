@@ -264,22 +264,26 @@ fn the_best_design_that_passes_all_checks_is_listed() {
          load_inset_over_t = 0.05\n[material]\nthickness_mm = 2\nsubstrate_modulus_MPa = 1\n",
     );
     place.squama("run x.toml -q --out x").assert().code(0);
-    let rank = |limit: &str, format: &str| {
-        let requirement = format!("critical_force_N >= {limit}");
-        let mut command = place.squama(&format!("rank x {format}"));
-        let output = command.args(["--require", &requirement]).assert().code(0);
-        String::from_utf8(output.get_output().stdout.clone()).expect("text")
-    };
-    let printed = rank("1", "");
+    let printed = rank_by_force(&place, "1", "");
     assert!(printed.contains("The best design that passes all checks: 0003\n"), "{printed}");
     let row = printed.lines().find(|row| row.contains("  0003 ")).expect("a row");
     assert!(row.contains("best that passes all checks"), "{printed}");
     let (_, rejected) = printed.split_once("Best by coverage").expect("a ranking");
     assert!(rejected.lines().nth(2).is_some_and(|row| row.contains("0002✗")), "{printed}");
     assert!(printed.contains("✗ fails a check"), "{printed}");
-    let record: serde_json::Value = serde_json::from_str(&rank("1", "--json")).expect("JSON");
+    let printed = rank_by_force(&place, "1", "--json");
+    let record: serde_json::Value = serde_json::from_str(&printed).expect("JSON");
     assert_eq!(record["fail_checks"], serde_json::json!(["0002"]));
     assert_eq!(record["best_that_passes_checks"], "0003");
-    assert!(rank("2", "").contains("Of the first 3 designs none passes all checks."));
-    assert!(!rank("0.5", "").contains('✗'), "the best design passes");
+    let printed = rank_by_force(&place, "2", "");
+    assert!(printed.contains("Of the first 3 designs none passes all checks."));
+    assert!(!rank_by_force(&place, "0.5", "").contains('✗'), "the best design passes");
+}
+
+/// Ranks designs with at least this critical force in N.
+fn rank_by_force(place: &Place, limit: &str, format: &str) -> String {
+    let requirement = format!("critical_force_N >= {limit}");
+    let mut command = place.squama(&format!("rank x {format}"));
+    let output = command.args(["--require", &requirement]).assert().code(0);
+    String::from_utf8(output.get_output().stdout.clone()).expect("text")
 }

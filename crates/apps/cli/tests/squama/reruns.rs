@@ -70,22 +70,19 @@ fn a_list_is_a_single_setting_in_commands() {
 fn designs_are_chosen_by_number_and_by_value() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
-    let chosen = |choice: &[&str]| {
+    for (choice, designs) in [
+        (&["--design", "7,0002,2"][..], "0002 0007"),
+        (&["--where", "slant_deg=45.0"], "0002 0004 0006 0008"),
+        (&["--where", "slant_deg=45", "--where", "gap_over_t=0.5"], "0006 0008"),
+    ] {
         let mut command = place.squama("rerun r --dry-run");
         let output = command.args(choice).assert().code(0).get_output().stdout.clone();
         let text = String::from_utf8(output).expect("text");
-        text.lines().nth(1).expect("designs").trim().to_owned()
-    };
-    assert_eq!(chosen(&["--design", "7,0002,2"]), "0002 0007");
-    assert_eq!(chosen(&["--where", "slant_deg=45.0"]), "0002 0004 0006 0008");
-    assert_eq!(chosen(&["--where", "slant_deg=45", "--where", "gap_over_t=0.5"]), "0006 0008");
+        assert_eq!(text.lines().nth(1).expect("designs").trim(), designs);
+    }
     let text =
         place.squama("rerun r --dry-run").args(["--where", "puncture_status=row limit"]).assert();
     text.code(0).stdout("r: no design matches; nothing to solve\n");
-    let refused = |choice: &[&str]| {
-        let mut command = place.squama("rerun r --dry-run");
-        String::from_utf8(command.args(choice).assert().code(2).get_output().stderr.clone())
-    };
     let refused: Vec<_> = [
         &["--design", "9"][..],
         &["--where", "slant=45"],
@@ -96,7 +93,11 @@ fn designs_are_chosen_by_number_and_by_value() {
         &["--failed", "--set", "solver.min_step=0.5"],
     ]
     .into_iter()
-    .map(|choice| refused(choice).expect("text"))
+    .map(|choice| {
+        let mut command = place.squama("rerun r --dry-run");
+        let message = command.args(choice).assert().code(2).get_output().stderr.clone();
+        String::from_utf8(message).expect("text")
+    })
     .collect();
     insta::assert_snapshot!(refused.concat());
 }

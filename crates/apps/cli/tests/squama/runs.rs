@@ -86,17 +86,16 @@ fn metadata_list_every_file_and_column_and_do_not_depend_on_threads() {
     assert_eq!(text, place.read("b/ro-crate-metadata.json"));
     let metadata: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let graph = metadata["@graph"].as_array().expect("entities");
-    let of_kind = |kind: &str| -> Vec<&str> {
+    let [mut files, columns] = ["File", "PropertyValue"].map(|kind| {
         let entities = graph.iter().filter(|entity| entity["@type"] == kind);
-        entities.map(|entity| entity["name"].as_str().expect("a name")).collect()
-    };
-    let mut files = of_kind("File");
+        entities.map(|entity| entity["name"].as_str().expect("a name")).collect::<Vec<_>>()
+    });
     files.push("ro-crate-metadata.json");
     files.sort_unstable();
     assert_eq!(files.join(" "), place.list("a"));
     let table = place.read("a/designs.csv");
     let header = table.lines().next().expect("a header");
-    assert_eq!(of_kind("PropertyValue").join(","), header);
+    assert_eq!(columns.join(","), header);
 }
 
 #[test]
@@ -146,11 +145,7 @@ fn a_resumed_run_reuses_the_designs_of_a_shorter_axis() {
     let list = longer.replace("{ from = 0, to = 45, step = 15 }", "[0, 15, 30, 45]");
     std::fs::write(place.path("list.toml"), list).expect("writable");
     place.squama("run x.toml -q --out r").assert().code(0);
-    let resume = |definition: &str| {
-        let run = place.squama(&format!("run {definition} -q --out r --resume")).assert().code(0);
-        String::from_utf8(run.get_output().stderr.clone()).expect("text")
-    };
-    let message = resume("longer.toml");
+    let message = resume(&place, "longer.toml");
     assert!(
         message.contains("8 solved designs belong to both definitions and are kept"),
         "{message}"
@@ -160,7 +155,7 @@ fn a_resumed_run_reuses_the_designs_of_a_shorter_axis() {
     for table in ["designs.csv", "critical_force.csv", "compliance.csv", "failures.csv"] {
         assert_eq!(place.read(&format!("r/{table}")), place.read(&format!("fresh/{table}")));
     }
-    let message = resume("list.toml");
+    let message = resume(&place, "list.toml");
     assert!(
         message.contains("24 solved designs belong to both definitions and are kept"),
         "{message}"
@@ -172,4 +167,9 @@ fn a_resumed_run_reuses_the_designs_of_a_shorter_axis() {
     let other = "run list.toml --out r --resume --set scale.width_over_t=2";
     assert!(place.refused(other).contains("is of another definition"));
     assert_eq!(solved(&place), 24);
+}
+
+fn resume(place: &Place, definition: &str) -> String {
+    let run = place.squama(&format!("run {definition} -q --out r --resume")).assert().code(0);
+    String::from_utf8(run.get_output().stderr.clone()).expect("text")
 }

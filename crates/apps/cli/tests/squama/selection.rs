@@ -108,11 +108,11 @@ fn a_design_in_mm_is_the_design_over_the_thickness() {
     for folder in ["mm", "t"] {
         place.prints(&format!("rank {folder} --criteria coverage,compliance"));
     }
-    let front = |folder: &str| -> Vec<String> {
+    let [in_mm, over_t] = ["mm", "t"].map(|folder| -> Vec<String> {
         let table = place.read(&format!("{folder}/pareto.csv"));
         table.lines().skip(1).map(|line| line[..4].to_owned()).collect()
-    };
-    assert_eq!(front("mm"), front("t"));
+    });
+    assert_eq!(in_mm, over_t);
     // Commands accept lengths in mm by their keys in mm, as axes, conditions and values.
     let map = "plot map mm --of compliance --no-title --out maps";
     place.prints(&format!("{map} --x gap_mm --y length_mm"));

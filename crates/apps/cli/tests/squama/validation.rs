@@ -34,10 +34,10 @@ fn a_thicker_membrane_reproduces_the_loss_of_compliance() {
     let settings = "name = 'h'\n[designs]\nwidth_over_t = 3.15\ngaps = 42\nmembrane_thickness_over_t = [0.1, 0.5]\n";
     let place = Place::with(settings);
     let table = place.prints("validate --search x.toml");
-    let row = |thickness: &str| {
+    let [thin, thick] = ["0.1", "0.5"].map(|thickness| {
         let setting = format!("membrane_thickness_over_t = {thickness}");
-        table.lines().find(|line| line.contains(&setting)).expect("a row").to_owned()
-    };
-    assert!(row("0.1").contains("| 17 | 10 |") && row("0.1").contains("C21"), "{table}");
-    assert!(row("0.5").contains("| 17 | 11 |") && !row("0.5").contains("C21"), "{table}");
+        table.lines().find(|line| line.contains(&setting)).expect("a row")
+    });
+    assert!(thin.contains("| 17 | 10 |") && thin.contains("C21"), "{table}");
+    assert!(thick.contains("| 17 | 11 |") && !thick.contains("C21"), "{table}");
 }

@@ -61,17 +61,14 @@ impl SearchReport<'_> {
     /// Counts the designs that were left out, by reason.
     fn left_out(&self) -> String {
         let left_out = &self.found.left_out;
-        let mut rows: Vec<[String; 2]> = Vec::new();
-        let row = |count: usize, why: String| [format!("{count} left out"), why];
-        rows.extend(
-            left_out.failed.iter().map(|(why, n)| row(*n, format!("{why}: {}", why.meaning()))),
-        );
-        rows.extend(
-            left_out.missing.iter().map(|(column, n)| row(*n, format!("no value of {column}"))),
-        );
-        if left_out.folded > 0 {
-            rows.push(row(left_out.folded, "the surface folds".to_owned()));
-        }
+        let failed =
+            left_out.failed.iter().map(|(why, n)| (*n, format!("{why}: {}", why.meaning())));
+        let missing = left_out.missing.iter();
+        let missing = missing.map(|(column, n)| (*n, format!("no value of {column}")));
+        let folded =
+            (left_out.folded > 0).then(|| (left_out.folded, "the surface folds".to_owned()));
+        let all = failed.chain(missing).chain(folded);
+        let rows: Vec<_> = all.map(|(n, why)| [format!("{n} left out"), why]).collect();
         aligned(&rows)
     }
 
@@ -187,11 +184,14 @@ impl SearchReport<'_> {
 
     fn variables(&self, candidate: &Candidate) -> Vec<[String; 2]> {
         let case = self.goal.space.case(&candidate.point);
-        let value = |parameter: &sweep::Parameter| match Cell::from(parameter.get(&case)) {
-            Cell::Number(number) => rounded(number),
-            cell => cell.to_string(),
-        };
-        self.goal.space.parameters().map(|p| [p.key.to_owned(), value(p)]).collect()
+        let values = self.goal.space.parameters().map(|parameter| {
+            let value = match Cell::from(parameter.get(&case)) {
+                Cell::Number(number) => rounded(number),
+                cell => cell.to_string(),
+            };
+            [parameter.key.to_owned(), value]
+        });
+        values.collect()
     }
 
     /// Returns the answer about the best design.
@@ -274,19 +274,23 @@ impl SearchReport<'_> {
         title
     }
 
+    /// Returns names and values of the variables, objectives and statistics of a design.
+    fn named_values(&self, best: &BestDesign) -> Vec<[String; 2]> {
+        let statistics = best.confirmation.as_ref().map(samples::row).unwrap_or_default();
+        [self.variables(&best.candidate), self.values(best), statistics].concat()
+    }
+
     fn front(&self, front: &Front) -> String {
         let words = BindingText::new(self.goal);
         let (title, designs) = (self.title(front), &front.designs);
         let Some(first) = designs.first() else { return title };
-        let named = |best: &BestDesign| {
-            let made = best.confirmation.as_ref().map(samples::row).unwrap_or_default();
-            [self.variables(&best.candidate), self.values(best), made].concat()
-        };
-        let mut header: Vec<String> = named(first).into_iter().map(|[name, _]| name).collect();
+        let header = self.named_values(first).into_iter();
+        let mut header: Vec<String> = header.map(|[name, _]| name).collect();
         header.push("price".to_owned());
         let mut rows = vec![header];
         rows.extend(designs.iter().map(|best| {
-            let mut row: Vec<String> = named(best).into_iter().map(|[_, value]| value).collect();
+            let row = self.named_values(best).into_iter();
+            let mut row: Vec<String> = row.map(|[_, value]| value).collect();
             // A floor bounds another objective; its price is the trade-off against this objective.
             let floors = best
                 .bindings
@@ -437,21 +441,29 @@ pub fn unmet(
         .filter(|r| has_skins || goal.statistic(&r.column).is_none())
         .cloned()
         .collect();
-    let values = |candidate: &Candidate| match &candidate.verdict {
+    let values = found.history.iter();
+    let values = values.map(|candidate| required_values(goal, &requirements, &candidate.verdict));
+    Unmet::of_search(&values.collect::<Vec<_>>(), &requirements, nearest)
+}
+
+/// Returns the values of a design that the requirements are about.
+fn required_values(
+    goal: &DesignGoal,
+    requirements: &[Requirement],
+    verdict: &Judgement,
+) -> Vec<Option<f64>> {
+    match verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
         Judgement::Nominal(worth) => {
             // A design without samples has values only for the nominal requirements, in their
             // order.
             let mut drawn = worth.required.iter().copied();
-            requirements
-                .iter()
-                .map(|requirement| {
-                    let is_drawn = goal.statistic(&requirement.column).is_none();
-                    is_drawn.then(|| drawn.next()).flatten()
-                })
-                .collect()
+            let values = requirements.iter().map(|requirement| {
+                let is_drawn = goal.statistic(&requirement.column).is_none();
+                is_drawn.then(|| drawn.next()).flatten()
+            });
+            values.collect()
         }
         _ => vec![None; requirements.len()],
-    };
-    Unmet::of_search(&found.history.iter().map(values).collect::<Vec<_>>(), &requirements, nearest)
+    }
 }

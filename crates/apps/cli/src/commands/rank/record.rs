@@ -3,12 +3,31 @@
 use ranking::{RankedDesign, Ranking, Unmet, Weights};
 use results::Results;
 use results::columns::mode_column;
+use run::GapChange;
 use serde_json::{Map, Value, json};
 
-use super::report::preferred_columns;
+use super::report::{RankReport, judged_modes, preferred_columns};
+use crate::json;
+
+/// Returns the ranking with the checks of the best designs as JSON.
+///
+/// `change` is the change of the answer with its gaps.
+pub fn report_record(report: &RankReport<'_>, change: Option<&GapChange>) -> Value {
+    let RankReport { results, ranking, top, changes, couplings, checks, answer } = *report;
+    let mut record = ranking_record(results, ranking, top);
+    if let Some(modes) = judged_modes(results, ranking) {
+        record["failure_modes"] = json::failure_modes(&modes);
+    }
+    record["gap_changes"] = json!(changes);
+    record["full_coupling"] = json!(couplings);
+    record["answer"] = answer.record(change);
+    record["fail_checks"] = json!(checks.failed);
+    record["best_that_passes_checks"] = json!(checks.best.map(|best| best.design().to_owned()));
+    record
+}
 
 /// Returns the ranking as JSON, with the `top` designs by fitness.
-pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> Value {
+fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> Value {
     let preferences = ranking.preferences();
     let criteria = &preferences.criteria;
     let left_out = ranking.left_out().iter();
@@ -21,9 +40,6 @@ pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> V
         winner["equally_good"] = ranking.equals(weights).into();
         winner
     });
-    let designs = |all: &[RankedDesign<'_>]| -> Vec<_> {
-        all.iter().map(|standing| design(results, ranking, standing)).collect()
-    };
     json!({
         "folder": results.folder().to_string_lossy(),
         "designs": results.len(),
@@ -33,13 +49,17 @@ pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> V
         "criteria": criteria,
         "weights": preferences.weights.values(),
         "scale": preferences.scale.to_string(),
-        "best": designs(&best),
+        "best": designs(results, ranking, &best),
         "as_good_as_the_best": ranking.equals(preferences.weights),
         "best_by_one_criterion": alone.collect::<Vec<_>>(),
-        "best_for_some_weights": designs(&ranking.winners()),
-        "front": designs(&ranking.front()),
+        "best_for_some_weights": designs(results, ranking, &ranking.winners()),
+        "front": designs(results, ranking, &ranking.front()),
         "knee": ranking.knee().map(|knee| knee.design().to_owned()),
     })
+}
+
+fn designs(results: &Results, ranking: &Ranking<'_>, all: &[RankedDesign<'_>]) -> Vec<Value> {
+    all.iter().map(|standing| design(results, ranking, standing)).collect()
 }
 
 /// Returns a design with its ranks and criteria.

@@ -7,9 +7,7 @@ use results::MEASURE_TABLES;
 use results::columns::name::{AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MIN};
 use results::columns::{measure_name, mode_column};
 use sweep::Sweep;
-use uncertainty::{
-    DesignTolerance, MeasureTolerance, Proportion, RequirementYield, SampledSpread, SolvedSample,
-};
+use uncertainty::{DesignTolerance, MeasureTolerance, Proportion, RequirementYield};
 
 use crate::commands::answer::DesignAnswer;
 use crate::print::{aligned, change, counted, rounded};
@@ -40,11 +38,11 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
     let (number, count) = (design.nominal.number, sweep.grid().len());
     let samples = counted(design.samples.len() as u64, "sample");
     let mut text = format!("{}: design {number} of {count}, {samples}\n", sweep.name());
-    let is_shown = |measure: &&MeasureTolerance| is_shown(&measure.name, requirements);
+    let shown = design.measures.iter().filter(|measure| is_shown(&measure.name, requirements));
     let mut rows = vec![HEADER.map(str::to_owned).to_vec()];
-    rows.extend(design.measures.iter().filter(is_shown).map(measure_row));
+    rows.extend(shown.clone().map(measure_row));
     let _ = write!(text, "{}", aligned(&rows));
-    if design.measures.iter().filter(is_shown).any(MeasureTolerance::is_off) {
+    if shown.clone().any(MeasureTolerance::is_off) {
         text.push_str("  (!) off by more than twice the statistical error: the measure is nonlinear over these deviations; use the samples\n");
     }
     if !design.yields.is_empty() {
@@ -75,8 +73,8 @@ pub fn first_failure(design: &DesignTolerance) -> Option<&'static str> {
 /// Warns of samples with a fold, which count as failed only with a requirement on it.
 fn folded(design: &DesignTolerance) -> Option<String> {
     let place = design.columns.iter().position(|column| column == FOLD_FORCE)?;
-    let folds = |sample: &&SolvedSample| sample.values.get(place).is_some_and(Option::is_some);
-    let count = design.samples.iter().filter(folds).count();
+    let folded = design.samples.iter().map(|sample| sample.values.get(place));
+    let count = folded.filter(|force| force.is_some_and(Option::is_some)).count();
     let samples = counted(count as u64, "sample");
     let line = format!(
         "  (!) {samples}: the surface folds; add --require '{GAP_STRETCH_MIN} > 0' to count them as failed\n"
@@ -96,8 +94,13 @@ pub fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
 
 fn measure_row(measure: &MeasureTolerance) -> Vec<String> {
     let linear = measure.linear.as_ref();
-    let sampled = |value: fn(&SampledSpread) -> String| {
-        measure.sampled.as_ref().map_or("none".to_owned(), value)
+    let [spread, low, high] = match &measure.sampled {
+        Some(sampled) => [
+            format!("{} (± {})", short(sampled.spread), short(sampled.spread_error)),
+            short(sampled.statistics.quantiles[0]),
+            short(sampled.statistics.quantiles[2]),
+        ],
+        None => ["none"; 3].map(str::to_owned),
     };
     let off = measure.discrepancy().map_or("unknown".to_owned(), |off| {
         let mark = if measure.is_off() { " (!)" } else { "" };
@@ -107,10 +110,10 @@ fn measure_row(measure: &MeasureTolerance) -> Vec<String> {
         measure.name.clone(),
         measure.value.map_or("none".to_owned(), rounded),
         linear.map_or("kink".to_owned(), |linear| short(linear.spread)),
-        sampled(|s| format!("{} (± {})", short(s.spread), short(s.spread_error))),
+        spread,
         off,
-        sampled(|s| short(s.statistics.quantiles[0])),
-        sampled(|s| short(s.statistics.quantiles[2])),
+        low,
+        high,
         linear.map_or(String::new(), uncertainty::LinearSpread::in_words),
     ]
 }
@@ -153,28 +156,27 @@ fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) ->
         let [one, other] = [one, other].map(|d| whole_yield(d).map_or(-1.0, Proportion::share));
         other.total_cmp(&one)
     });
-    let row = |design: &&DesignTolerance| {
-        let yielded = whole_yield(design).map(proportion);
-        let first = [design.nominal.number.to_string(), yielded.unwrap_or_default()];
-        let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
-        // One line per measure, because a single line would be too wide.
-        let titles = std::iter::once(first).chain(std::iter::repeat(Default::default()));
-        titles
-            .zip(shown)
-            .map(|(title, m)| {
-                let spread =
-                    m.sampled.as_ref().map(|s| s.spread).or(m.linear.as_ref().map(|l| l.spread));
-                let value = m.value.map_or("none".to_owned(), rounded);
-                let values = format!("{value} ± {}", spread.map_or("unknown".to_owned(), short));
-                title.into_iter().chain([m.name.clone(), values]).collect::<Vec<_>>()
-            })
-            .collect::<Vec<_>>()
-    };
-    let rows: Vec<_> = designs.iter().take(LISTED).flat_map(row).collect();
+    let rows = designs.iter().take(LISTED).flat_map(|design| yield_rows(design, requirements));
+    let rows: Vec<_> = rows.collect();
     text.push_str(&aligned(&rows));
     let more = all.len().saturating_sub(LISTED);
     if more > 0 {
         let _ = writeln!(text, "  and {more} more");
     }
     text
+}
+
+/// Returns the rows of a design: one per measure, because a single line would be too wide.
+fn yield_rows(design: &DesignTolerance, requirements: &[Requirement]) -> Vec<Vec<String>> {
+    let yielded = whole_yield(design).map(proportion);
+    let first = [design.nominal.number.to_string(), yielded.unwrap_or_default()];
+    let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
+    let titles = std::iter::once(first).chain(std::iter::repeat(Default::default()));
+    let rows = titles.zip(shown).map(|(title, m)| {
+        let spread = m.sampled.as_ref().map(|s| s.spread).or(m.linear.as_ref().map(|l| l.spread));
+        let value = m.value.map_or("none".to_owned(), rounded);
+        let values = format!("{value} ± {}", spread.map_or("unknown".to_owned(), short));
+        title.into_iter().chain([m.name.clone(), values]).collect()
+    });
+    rows.collect()
 }
