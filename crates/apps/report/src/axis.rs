@@ -116,12 +116,6 @@ impl ChartAxis {
         let (first, last) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
         let decades = self.high.log10() - self.low.log10();
         let every = ((decades / (1.4 * wanted as f64)).ceil() as i32).max(1);
-        let labelled = |decade: i32, digit: i32| match digit {
-            1 => decade.rem_euclid(every) == 0,
-            // Powers of ten alone would give only one or two labels.
-            2 | 5 => decades < 2.2 && wanted > 3,
-            _ => false,
-        };
         // Over more decades, ticks between powers of ten would overlap.
         let digits = if decades > 7.0 { 1 } else { 9 };
         // One decision for the whole axis, so that all labels have the same notation.
@@ -129,7 +123,13 @@ impl ChartAxis {
         let all = (first..=last).flat_map(|decade| (1..=digits).map(move |digit| (decade, digit)));
         all.map(|(decade, digit)| {
             let value = f64::from(digit) * 10f64.powi(decade);
-            let label = labelled(decade, digit).then(|| power(decade, digit, decimal));
+            let is_labelled = match digit {
+                1 => decade.rem_euclid(every) == 0,
+                // Powers of ten alone would give only one or two labels.
+                2 | 5 => decades < 2.2 && wanted > 3,
+                _ => false,
+            };
+            let label = is_labelled.then(|| power(decade, digit, decimal));
             Tick { value, label }
         })
         .filter(|tick| self.place(tick.value).is_some())

@@ -206,20 +206,23 @@ impl MarkLook {
     /// Draws the shape around the origin, without colour.
     fn draw(self, mark: Mark) -> Element {
         let shape = mark.draw([0.0, 0.0], MARK);
-        let filled = |shape: Element| shape.with("fill", "currentColor").with("stroke", "#fff");
         match self {
-            Self::Filled => filled(shape).at("stroke-width", 0.5),
+            Self::Filled => Self::filled(shape),
             Self::Open => {
                 let shape = shape.with("fill", "#fff").with("stroke", "currentColor");
                 shape.at("stroke-width", 1.3)
             }
             Self::Folded => {
                 // Only the shape is pale; the crossing line stays opaque.
-                let pale = filled(shape).at("stroke-width", 0.5).with("opacity", "0.45");
+                let pale = Self::filled(shape).with("opacity", "0.45");
                 let [from, to] = [-1.4, 1.4].map(|s| [s * MARK, -s * MARK]);
                 Element::new("g").containing([pale, line(from, to, RED, 1.3)])
             }
         }
+    }
+
+    fn filled(shape: Element) -> Element {
+        shape.with("fill", "currentColor").with("stroke", "#fff").at("stroke-width", 0.5)
     }
 }
 

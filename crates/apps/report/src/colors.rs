@@ -29,13 +29,13 @@ pub(crate) fn map_color(fraction: f64) -> String {
 
 /// Mixes a colour with white (`part` > 0) or with black (`part` < 0).
 pub(crate) fn shaded(color: &str, part: f64) -> String {
-    let channel = |k: usize| {
-        let text = color.get(2 * k + 1..2 * k + 3).unwrap_or_default();
+    let [red, green, blue] = [1, 3, 5].map(|k| {
+        let text = color.get(k..k + 2).unwrap_or_default();
         let own = f64::from(u8::from_str_radix(text, 16).unwrap_or_default());
         let other = if part > 0.0 { 255.0 } else { 0.0 };
         (own + part.abs() * (other - own)).round() as u8
-    };
-    format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
+    });
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// Interpolates a colour at a fraction along `steps`.

@@ -3,23 +3,26 @@
 //! Marks: × contact event, ring first fold of the surface, triangle passage of a guided needle, dot
 //! limit of failure with its name.
 
+mod energies;
 mod limits;
+mod values;
 
 use results::{bending_units, puncture_units};
-use skin::flexure::{Flexure, FlexurePoint};
-use skin::puncture::{Puncture, PuncturePoint, Weakest};
+use skin::flexure::Flexure;
+use skin::puncture::Puncture;
 use sweep::Case;
 
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
 use crate::colors::{INK, RED, shaded};
 use crate::drawings::geometry_label;
-use crate::figures::{Figure, columns, sheet};
-use crate::label::{Anchor, fitting, label, width, wrapped};
+use crate::figures::{Figure, sheet};
+use crate::label::{Anchor, fitting, label, wrapped};
 use crate::palette::SlantPalette;
 use crate::paper::Paper;
 use crate::svg::{Element, Spot, circle, line, polygon, polyline};
 use limits::limits;
+use values::{CurveValues, bodies, flexure, places, puncture};
 
 pub use limits::FailureLimit;
 
@@ -33,10 +36,6 @@ const NARROW_HEIGHT: f64 = 230.0;
 const LEGEND: f64 = 70.0;
 /// Minimum distance between crosses, px.
 const CROSS: f64 = 9.0;
-/// Width and height of a panel of energies, px.
-const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
-/// Minimum width of a panel of energies on narrow paper, px.
-const LEAST_ENERGY_PANEL: f64 = 220.0;
 
 /// Dashes and shades that distinguish designs of one slant.
 const DASHES: [&str; 5] = ["none", "7 4", "2 3", "9 3 2 3", "12 5"];
@@ -45,8 +44,6 @@ const UNSTABLE: &str = "1 2.5";
 /// Dashes of an unloading path.
 const BACK: &str = "5 3";
 const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
-/// Largest level of a limit that is shown, over the largest force of the path.
-const HIGHEST_LEVEL: f64 = 1.5;
 
 /// A solved design.
 #[derive(Clone, Debug)]
@@ -96,16 +93,17 @@ pub fn curves(
     measured: Option<&MeasuredCurves>,
     paper: Paper,
 ) -> Vec<Figure> {
-    let over = |bending: bool| measured.filter(|measured| measured.bending == bending);
+    let [measured_force, measured_moment] =
+        [false, true].map(|bending| measured.filter(|measured| measured.bending == bending));
     let one_panel =
         |text, values, measured| one_panel(name, text, designs, values, measured, paper);
     let candidates = [
-        ("force-displacement-curves", one_panel(&FORCE, puncture, over(false))),
+        ("force-displacement-curves", one_panel(&FORCE, puncture, measured_force)),
         ("force-over-place", one_panel(&PLACES, places, None)),
         ("force-over-radius", one_panel(&BODIES, bodies, None)),
-        ("moment-curvature-curves", one_panel(&MOMENT, flexure, over(true))),
-        ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies, paper)),
-        ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies, paper)),
+        ("moment-curvature-curves", one_panel(&MOMENT, flexure, measured_moment)),
+        ("puncture-energies", energies::puncture(name, designs, paper)),
+        ("flexure-energies", energies::flexure(name, designs, paper)),
     ];
     let drawn = candidates.into_iter();
     drawn.filter_map(|(name, svg)| Some(Figure::new(name, svg?))).collect()
@@ -167,151 +165,10 @@ const MOMENT: FigureText = FigureText {
     notes: ["× a contact closes, opens or passes a corner", "", ""],
     units: |case| bending_units(case).map(|[per_mm, moment, _]| [per_mm, moment]),
 };
-const PUNCTURE_ENERGY: FigureText = FigureText {
-    title: "energies of a puncture",
-    axes: [
-        [FORCE.axes[0][0], "energy $U$(1 − $ν$^2)/($E_s t$^3), dimensionless"],
-        [FORCE.axes[1][0], "energy $U$, mJ"],
-    ],
-    notes: ["solid: substrate, dotted: contacts", "", ""],
-    units: |case| puncture_units(case).map(|[mm, _, energy]| [mm, energy]),
-};
-const FLEXURE_ENERGY: FigureText = FigureText {
-    title: "energies of bending",
-    axes: [
-        [MOMENT.axes[0][0], "energy $U$/($E_m t$^3), dimensionless"],
-        [MOMENT.axes[1][0], "energy $U$, mJ"],
-    ],
-    notes: ["solid: bending, dashed: axial, dotted: contacts", "", ""],
-    units: |case| bending_units(case).map(|[per_mm, _, energy]| [per_mm, energy]),
-};
-
 impl FigureText {
     /// Returns the factors to physical units of each design; `None` if a design has no material.
     fn physical(&self, designs: &[DesignCurves]) -> Option<Vec<[f64; 2]>> {
         designs.iter().map(|solved| (self.units)(solved.case)).collect()
-    }
-}
-
-fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
-    let puncture = solved.puncture?;
-    let place = |p: &PuncturePoint| [p.displacement, p.force];
-    let back = puncture.unloading.iter().flat_map(|back| &back.path);
-    let crosses = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
-    // Stability under prescribed depth, because a needle can follow such a path.
-    let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
-    let fold = puncture.folds.first().map(|fold| [fold.point.displacement, fold.point.force]);
-    let passage = &puncture.measures.passage;
-    let passing = passage.passing_displacement.zip(passage.passing_force);
-    // A truncated path may end before this event.
-    let is_shown = |at: &[f64; 2]| puncture.path.iter().any(|p| p.displacement >= at[0]);
-    Some(CurveValues {
-        points: puncture.path.iter().map(place).collect(),
-        back: back.map(place).collect(),
-        crosses: crosses.collect(),
-        rings: fold.into_iter().collect(),
-        passing: passing.map(<[f64; 2]>::from).filter(is_shown).into_iter().collect(),
-        unstable: unstable.collect(),
-        limits: shown_limits(solved, puncture),
-    })
-}
-
-/// Lists the limits on a path; a level far above it is not shown.
-fn shown_limits(solved: &DesignCurves, puncture: &Puncture) -> Vec<(FailureLimit, [f64; 2])> {
-    let highest = puncture.path.iter().map(|point| point.force).fold(0.0, f64::max);
-    let limits = solved
-        .limits
-        .iter()
-        .filter(|limit| limit.displacement.is_some() || limit.force <= HIGHEST_LEVEL * highest);
-    limits.map(|limit| (*limit, [limit.displacement.unwrap_or_default(), limit.force])).collect()
-}
-
-fn places(solved: &DesignCurves) -> Option<CurveValues> {
-    let all = &solved.puncture?.places;
-    let weakest = Weakest::from_positions(all).ok().and_then(|of| Some([of.place?, of.force?]));
-    let forces: Vec<_> = all.iter().map(|p| (p.position, p.force)).collect();
-    Some(with_missing_forces(&forces, weakest)).filter(|curve| !curve.points.is_empty())
-}
-
-fn bodies(solved: &DesignCurves) -> Option<CurveValues> {
-    let forces = solved.on_bodies;
-    let known = forces.iter().filter_map(|(curvature, force)| Some([*curvature, (*force)?]));
-    let worst = known.reduce(|a, b| if b[1] < a[1] { b } else { a });
-    Some(with_missing_forces(forces, worst)).filter(|curve| curve.points.len() > 1)
-}
-
-/// Returns the curve through the known forces, with a ring at one of them.
-///
-/// It is dotted where forces between two known ones are missing.
-fn with_missing_forces(forces: &[(f64, Option<f64>)], ring: Option<[f64; 2]>) -> CurveValues {
-    let points: Vec<_> = forces.iter().filter_map(|(x, force)| Some([*x, (*force)?])).collect();
-    let between = points.windows(2).map(|ends| ends[0][0]..ends[1][0]);
-    let unstable = between
-        .map(|range| forces.iter().any(|(x, force)| force.is_none() && range.contains(x)))
-        .collect();
-    CurveValues { points, rings: ring.into_iter().collect(), unstable, ..CurveValues::default() }
-}
-
-fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
-    let flexure = solved.flexure?;
-    let place = |p: &FlexurePoint| [p.curvature, p.moment];
-    let back = flexure.unloading.iter().flat_map(|back| &back.path);
-    let crosses = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
-    Some(CurveValues {
-        points: flexure.path.iter().map(place).collect(),
-        back: back.map(place).collect(),
-        crosses: crosses.collect(),
-        ..CurveValues::default()
-    })
-}
-
-/// The energies of a design, each with its dash pattern.
-type Energies = Vec<(&'static str, Vec<[f64; 2]>)>;
-
-fn puncture_energies(solved: &DesignCurves) -> Option<Energies> {
-    let path = &solved.puncture?.path;
-    Some(vec![
-        ("none", path.iter().map(|p| [p.displacement, p.substrate_energy]).collect()),
-        ("2 3", path.iter().map(|p| [p.displacement, p.contact_energy]).collect()),
-    ])
-}
-
-fn flexure_energies(solved: &DesignCurves) -> Option<Energies> {
-    let path = &solved.flexure?.path;
-    Some(vec![
-        ("none", path.iter().map(|p| [p.curvature, p.bending_energy]).collect()),
-        ("7 4", path.iter().map(|p| [p.curvature, p.axial_energy]).collect()),
-        ("2 3", path.iter().map(|p| [p.curvature, p.contact_energy]).collect()),
-    ])
-}
-
-/// The curve of a design.
-#[derive(Default)]
-struct CurveValues {
-    points: Vec<[f64; 2]>,
-    /// The unloading path, from the end of `points`.
-    back: Vec<[f64; 2]>,
-    crosses: Vec<[f64; 2]>,
-    rings: Vec<[f64; 2]>,
-    /// The point at which a guided needle first touches the scale beyond its top face.
-    passing: Vec<[f64; 2]>,
-    /// True if the segment after each point is unstable under a held depth.
-    unstable: Vec<bool>,
-    /// The limits of failure, each with its point.
-    limits: Vec<(FailureLimit, [f64; 2])>,
-}
-
-impl CurveValues {
-    fn all(&self) -> impl Iterator<Item = &[f64; 2]> {
-        self.points.iter().chain(&self.back).chain(self.limits.iter().map(|(_, at)| at))
-    }
-
-    fn in_units(&mut self, [x, y]: [f64; 2]) {
-        let Self { points, back, crosses, rings, passing, limits, .. } = self;
-        let all = [points, back, crosses, rings, passing].into_iter().flatten();
-        for point in all.chain(limits.iter_mut().map(|(_, at)| at)) {
-            *point = [point[0] * x, point[1] * y];
-        }
     }
 }
 
@@ -345,20 +202,7 @@ fn one_panel(
     let full = paper.width(WIDTH);
     // On narrow paper the legend starts at the left edge.
     let left = if paper.is_narrow(WIDTH) { 20.0 } else { MARGINS[0] };
-    let any = |has: fn(&CurveValues) -> bool| curves.iter().any(|curve| has(&curve.values));
-    let [always, ring, dotted] = text.notes;
-    let notes = [
-        (always, true),
-        (ring, any(|values| !values.rings.is_empty())),
-        (dotted, any(|values| values.unstable.contains(&true))),
-        ("▼ passing", any(|values| !values.passing.is_empty())),
-        ("thin dashes: the way back", any(|values| !values.back.is_empty())),
-        ("dots: limits of failure, the first one bold", any(|values| !values.limits.is_empty())),
-    ];
-    // Show only the notes that apply: all of them are wider than the figure.
-    let told = notes.into_iter().filter(|(words, occurs)| *occurs && !words.is_empty());
-    let words = told.map(|(words, _)| words).collect::<Vec<_>>().join("; ");
-    let words = wrapped(&words, 12.0, full - left - 12.0);
+    let words = wrapped(&notes(text, &curves), 12.0, full - left - 12.0);
     // The legend is below the notes.
     let entries = LEGEND + 16.0 * words.len().saturating_sub(1) as f64;
     let entries = [left, entries];
@@ -383,18 +227,33 @@ fn one_panel(
     }
     inside.extend(limits(&panel, &curves));
     for (k, (name, points)) in measured.iter().enumerate() {
-        let [x, y] = entry(entries, curves.len() + k);
         let dashes = DASHES[k % DASHES.len()];
         let curve = thin_line(&panel.spots(points.iter().copied()), dashes);
         inside.push(Element::group("measured").containing([curve]));
-        inside.push(thin_line(&[[x, y], [x + 40.0, y]], dashes));
-        // File names are plain text, without formulas.
-        let size = 12.0 * ((full - x - 60.0) / (6.4 * name.chars().count() as f64)).min(1.0);
-        let text = Element::new("text").at("x", x + 50.0).at("y", y + 4.0);
-        inside.push(text.at("font-size", size).with("fill", INK).text(name));
+        inside.extend(measured_legend(name, dashes, entry(entries, curves.len() + k), full));
     }
     let height = area.bottom() + MARGINS[2] - 8.0;
     Some(sheet(full, height, &format!("{name}: {}", text.title), inside))
+}
+
+/// Returns true if a curve has a mark.
+type IsMarked = fn(&CurveValues) -> bool;
+
+/// Returns the notes that apply to at least one curve: all of them are wider than the figure.
+fn notes(text: &FigureText, curves: &[Curve]) -> String {
+    let [always, ring, dotted] = text.notes;
+    let notes: [(&str, IsMarked); 6] = [
+        (always, |_| true),
+        (ring, |values| !values.rings.is_empty()),
+        (dotted, |values| values.unstable.contains(&true)),
+        ("▼ passing", |values| !values.passing.is_empty()),
+        ("thin dashes: the way back", |values| !values.back.is_empty()),
+        ("dots: limits of failure, the first one bold", |values| !values.limits.is_empty()),
+    ];
+    let shown = notes.into_iter().filter(|(words, occurs)| {
+        !words.is_empty() && curves.iter().any(|curve| occurs(&curve.values))
+    });
+    shown.map(|(words, _)| words).collect::<Vec<_>>().join("; ")
 }
 
 /// Returns the spot of entry `k` of a legend.
@@ -409,6 +268,15 @@ const BLACK: &str = "#000";
 fn thin_line(points: &[Spot], dashes: &'static str) -> Element {
     let line = polyline(points).with("stroke", BLACK).at("stroke-width", 0.9);
     line.with("stroke-dasharray", dashes).with("stroke-linejoin", "round")
+}
+
+/// Returns the legend of a measured curve: a line and the name of its file.
+fn measured_legend(name: &str, dashes: &'static str, [x, y]: Spot, right: f64) -> [Element; 2] {
+    // File names are plain text, without formulas.
+    let size = 12.0 * ((right - x - 60.0) / (6.4 * name.chars().count() as f64)).min(1.0);
+    let text = Element::new("text").at("x", x + 50.0).at("y", y + 4.0);
+    let text = text.at("font-size", size).with("fill", INK).text(name);
+    [thin_line(&[[x, y], [x + 40.0, y]], dashes), text]
 }
 
 /// Draws the mean of specimens with the band of one standard deviation, and its legend at a spot.
@@ -463,11 +331,11 @@ fn palette(designs: &[DesignCurves]) -> SlantPalette {
 
 /// Fits both axes to points, starting at zero.
 fn axes(labels: [&str; 2], points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
-    let axis = |name: &str, k: usize| {
+    let [x, y] = [0, 1].map(|k| {
         let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
-        ChartAxis::linear(name, low.min(0.0), high)
-    };
-    (axis(labels[0], 0), axis(labels[1], 1))
+        ChartAxis::linear(labels[k], low.min(0.0), high)
+    });
+    (x, y)
 }
 
 /// Returns a logarithmic axis for curves that differ by decades.
@@ -484,13 +352,14 @@ impl Curve {
     ///
     /// Each part has its dash pattern and line width.
     fn parts(&self) -> Vec<(&[[f64; 2]], &'static str, f64)> {
-        let CurveValues { points, back, unstable, .. } = &self.values;
-        let is_unstable = |k: usize| unstable.get(k) == Some(&true);
+        let CurveValues { points, back, .. } = &self.values;
         let mut parts = Vec::new();
         let mut start = 0;
         for end in 1..points.len() {
-            if end + 1 == points.len() || is_unstable(end) != is_unstable(start) {
-                let dashes = if is_unstable(start) { UNSTABLE } else { self.dashes };
+            if end + 1 == points.len()
+                || self.values.is_unstable(end) != self.values.is_unstable(start)
+            {
+                let dashes = if self.values.is_unstable(start) { UNSTABLE } else { self.dashes };
                 parts.push((&points[start..=end], dashes, 1.8));
                 start = end;
             }
@@ -502,22 +371,24 @@ impl Curve {
 }
 
 fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
-    let spots = |points: &[[f64; 2]]| panel.spots(points.iter().copied());
+    let values = &curve.values;
+    let [crosses, rings, passing] = [&values.crosses, &values.rings, &values.passing]
+        .map(|points| panel.spots(points.iter().copied()));
     let paths = curve.parts().into_iter().map(|(points, dashes, width)| {
-        polyline(&spots(points))
+        polyline(&panel.spots(points.iter().copied()))
             .with("stroke", curve.color.as_str())
             .at("stroke-width", width)
             .with("stroke-dasharray", dashes)
             .with("stroke-linejoin", "round")
     });
-    let crosses = apart(spots(&curve.values.crosses)).into_iter().flat_map(|[x, y]| {
+    let crosses = apart(crosses).into_iter().flat_map(|[x, y]| {
         [1.0, -1.0].map(|s| line([x - 3.0, y - 3.0 * s], [x + 3.0, y + 3.0 * s], INK, 0.8))
     });
-    let ring =
-        |at: Spot| circle(at, 6.5).with("fill", "none").with("stroke", RED).at("stroke-width", 2.2);
-    let rings = spots(&curve.values.rings).into_iter().map(ring);
+    let rings = rings
+        .into_iter()
+        .map(|at| circle(at, 6.5).with("fill", "none").with("stroke", RED).at("stroke-width", 2.2));
     // The tip of the triangle touches the curve.
-    let passing = spots(&curve.values.passing).into_iter().map(|[x, y]| {
+    let passing = passing.into_iter().map(|[x, y]| {
         let mark = polygon(&[[x, y], [x - 5.0, y - 9.0], [x + 5.0, y - 9.0]]);
         mark.with("fill", curve.color.as_str()).with("stroke", INK).with("class", "passing")
     });
@@ -545,64 +416,4 @@ fn legend(curve: &Curve, [x, y]: Spot, room: f64) -> Element {
     let size = fitting(&curve.name, 12.0, room);
     let name = label(&curve.name, [x + 50.0, y + 4.0], size, Anchor::Start);
     Element::group("legend").containing([sample, name.with("fill", INK)])
-}
-
-/// Returns a panel for each design, each with its own axes.
-fn panels(
-    name: &str,
-    text: &FigureText,
-    designs: &[DesignCurves],
-    values: fn(&DesignCurves) -> Option<Energies>,
-    paper: Paper,
-) -> Option<String> {
-    let units = text.physical(designs);
-    let labels = text.axes[usize::from(units.is_some())];
-    let palette = palette(designs);
-    let curves = |(k, solved): (usize, &DesignCurves)| {
-        let units = units.as_ref().map_or([1.0; 2], |units| units[k]);
-        Some(
-            values(solved)?
-                .into_iter()
-                .map(|(dashes, points)| {
-                    let mut values = CurveValues { points, ..CurveValues::default() };
-                    values.in_units(units);
-                    let color = palette.color(solved.case.design.slant_deg);
-                    Curve { name: curve_name(solved), color, dashes, values }
-                })
-                .collect(),
-        )
-    };
-    let solved: Vec<Vec<Curve>> = designs.iter().enumerate().filter_map(curves).collect();
-    if solved.is_empty() {
-        return None;
-    }
-    let [w, h] = ENERGY_PANEL;
-    let wanted = columns(solved.len()).min(3);
-    let natural = MARGINS[0] + wanted as f64 * (w + 84.0) - 60.0;
-    let full = paper.width(natural);
-    let room = full - MARGINS[0] - MARGINS[1];
-    let columns = paper.columns(wanted, room, LEAST_ENERGY_PANEL, 84.0);
-    let (w, h) = if paper.is_narrow(natural) {
-        ((room - 84.0 * (columns - 1) as f64) / columns as f64, NARROW_HEIGHT)
-    } else {
-        (w, h)
-    };
-    let first = Area { left: MARGINS[0], top: 86.0, width: w, height: h };
-    let mut inside =
-        vec![label(text.notes[0], [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
-    for (k, curves) in solved.iter().enumerate() {
-        let area = first.panel(k, columns, [84.0; 2]);
-        let points = curves.iter().flat_map(|curve| curve.values.all()).copied();
-        let (x, y) = axes(labels, &points.collect::<Vec<_>>());
-        let title = curves[0].name.clone();
-        let panel = ChartPanel { title, ..ChartPanel::new(area, &x, &y) };
-        inside.extend(panel.axes(58.0));
-        inside.extend(curves.iter().map(|curve| drawn(&panel, curve)));
-    }
-    let rows = solved.len().div_ceil(columns) as f64;
-    let title = format!("{name}: {}", text.title);
-    // One panel alone is narrower than its title.
-    let full =
-        if paper.is_narrow(natural) { full } else { natural.max(width(&title, 15.0) + 60.0) };
-    Some(sheet(full, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
 }

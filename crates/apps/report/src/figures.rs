@@ -22,7 +22,7 @@ use names::with_value;
 pub use parallel::ParallelFigure;
 pub use search::{EVALUATION, SearchFigure, SearchedDesign};
 
-use crate::designs::{AxisValues, Designs};
+use crate::designs::Designs;
 use crate::label::{Anchor, fitting, label, plain, wrapped};
 use crate::paper::Paper;
 use crate::svg::{Element, document, heading};
@@ -58,12 +58,13 @@ impl Quantity {
     ///
     /// Without samples it is the nominal value, in physical units if available.
     pub(crate) fn of(designs: &Designs, measure: &str) -> Self {
-        let quantile =
-            |end: &str| Some(format!("{measure}_{end}")).filter(|name| designs.has(name));
-        let shown = |name: String| physical(designs, &name).unwrap_or(name);
-        let column = shown(quantile("p50").unwrap_or_else(|| measure.to_owned()));
-        let band = quantile("p05").zip(quantile("p95"));
-        Self { column, band: band.map(|(low, high)| [shown(low), shown(high)]) }
+        let [low, median, high] = ["p05", "p50", "p95"]
+            .map(|end| Some(format!("{measure}_{end}")).filter(|name| designs.has(name)));
+        let band = low.zip(high);
+        Self {
+            column: shown_column(designs, median.as_deref().unwrap_or(measure)),
+            band: band.map(|(low, high)| [low, high].map(|name| shown_column(designs, &name))),
+        }
     }
 
     /// Returns all numbers that the axes must cover.
@@ -87,6 +88,11 @@ pub(crate) fn of_perfect(designs: &Designs) -> &'static str {
 /// Returns the column of a measure in newtons or millimetres, if the table has one.
 pub(crate) fn physical(designs: &Designs, measure: &str) -> Option<String> {
     physical_of(designs.headers().iter().map(String::as_str), measure).map(str::to_owned)
+}
+
+/// Returns the column of a measure in newtons or millimetres, or without units otherwise.
+pub(crate) fn shown_column(designs: &Designs, measure: &str) -> String {
+    physical(designs, measure).unwrap_or_else(|| measure.to_owned())
 }
 
 /// Returns the header that holds a measure in newtons or millimetres, if any.
@@ -121,12 +127,12 @@ pub fn figures(
     paper: Paper,
 ) -> Vec<Figure> {
     let parts = designs.parts();
-    let part = |(values, part): &(AxisValues<'_>, Designs)| {
+    let mut figures = Vec::new();
+    for (values, part) in parts.iter().take(PARTS) {
         let all = of_part(&title(name, values), part, paper).into_iter();
-        all.map(|figure| Figure { name: file_name(&figure.name, values), ..figure })
-            .collect::<Vec<_>>()
-    };
-    let mut figures: Vec<Figure> = parts.iter().take(PARTS).flat_map(part).collect();
+        figures
+            .extend(all.map(|figure| Figure { name: file_name(&figure.name, values), ..figure }));
+    }
     if let Some((designs, ranking)) = ranking {
         // User-defined criteria may have other axes, or fewer.
         let is_drawn = are_the_papers(ranking);

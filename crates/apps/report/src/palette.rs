@@ -49,8 +49,11 @@ impl SlantPalette {
 
     /// Returns the mark of a slant.
     pub fn mark(&self, slant_deg: f64) -> Mark {
-        let by_fifteen = || (slant_deg / 15.0).round() as usize;
-        let place = if self.is_by_fifteen() { by_fifteen() } else { self.place(slant_deg) };
+        let place = if self.is_by_fifteen() {
+            (slant_deg / 15.0).round() as usize
+        } else {
+            self.place(slant_deg)
+        };
         Mark::ALL[place % Mark::ALL.len()]
     }
 

@@ -175,16 +175,14 @@ mod tests {
 
     #[test]
     fn every_sample_is_counted_in_one_bar() {
-        let all = |values: &[f64]| {
+        let values: Vec<f64> = (0..100).map(|k| f64::from(k).sqrt()).collect();
+        let [bars, equal] = [&values[..], &[2.0; 3]].map(|values| {
             let histogram = Histogram { name: "x", measure: "y", values, drawn: None, bounds: &[] };
             histogram.bars()
-        };
-        let values: Vec<f64> = (0..100).map(|k| f64::from(k).sqrt()).collect();
-        let bars = all(&values);
+        });
         assert_eq!((bars.len(), bars.iter().map(|(.., count)| count).sum::<f64>()), (10, 100.0));
         // The first bar covers values up to a tenth of the range, which is only 0 here.
         assert_eq!((bars[0].0, bars[0].2), (0.0, 1.0));
-        let equal = all(&[2.0; 3]);
         assert_eq!(equal.iter().map(|(.., count)| count).sum::<f64>(), 3.0);
     }
 

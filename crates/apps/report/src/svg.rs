@@ -127,34 +127,35 @@ pub(crate) fn heading(title: Element) -> Element {
 
 /// Removes the title of a drawing and the space it takes, if there is one.
 pub fn untitled(svg: &str) -> String {
-    let parts = || {
-        let (before, rest) = svg.split_once("class=\"title\"")?;
-        let (before, _) = before.rsplit_once("<text")?;
-        let (_, after) = rest.split_once("</text>")?;
-        let (start, size) = before.split_once("viewBox=\"0 0 ")?;
-        let (size, end) = size.split_once('"')?;
-        let (width, height) = size.split_once(' ')?;
-        let lower = px(height.parse::<f64>().ok()? - TITLE);
-        let start =
-            start.replacen(&format!("height=\"{height}\""), &format!("height=\"{lower}\""), 1);
-        // The element `title` stays, for screen readers.
-        Some(format!("{start}viewBox=\"0 {TITLE} {width} {lower}\"{}{}", end, after.trim_start()))
-    };
-    parts().unwrap_or_else(|| svg.to_owned())
+    without_title(svg).unwrap_or_else(|| svg.to_owned())
+}
+
+fn without_title(svg: &str) -> Option<String> {
+    let (before, rest) = svg.split_once("class=\"title\"")?;
+    let (before, _) = before.rsplit_once("<text")?;
+    let (_, after) = rest.split_once("</text>")?;
+    let (start, size) = before.split_once("viewBox=\"0 0 ")?;
+    let (size, end) = size.split_once('"')?;
+    let (width, height) = size.split_once(' ')?;
+    let lower = px(height.parse::<f64>().ok()? - TITLE);
+    let start = start.replacen(&format!("height=\"{height}\""), &format!("height=\"{lower}\""), 1);
+    // The element `title` stays, for screen readers.
+    Some(format!("{start}viewBox=\"0 {TITLE} {width} {lower}\"{}{}", end, after.trim_start()))
 }
 
 /// Returns a drawing scaled to a printed width of `width` mm.
 pub fn resized(svg: &str, width: f64) -> String {
-    let parts = || {
-        // The root element is first, so the first width and height belong to the drawing.
-        let (start, rest) = svg.split_once(" width=\"")?;
-        let (across, rest) = rest.split_once("\" height=\"")?;
-        let (down, rest) = rest.split_once('"')?;
-        let height = px(width * down.parse::<f64>().ok()? / across.parse::<f64>().ok()?);
-        let width = px(width);
-        Some(format!("{start} width=\"{width}mm\" height=\"{height}mm\"{rest}"))
-    };
-    parts().unwrap_or_else(|| svg.to_owned())
+    in_millimetres(svg, width).unwrap_or_else(|| svg.to_owned())
+}
+
+fn in_millimetres(svg: &str, width: f64) -> Option<String> {
+    // The root element is first, so the first width and height belong to the drawing.
+    let (start, rest) = svg.split_once(" width=\"")?;
+    let (across, rest) = rest.split_once("\" height=\"")?;
+    let (down, rest) = rest.split_once('"')?;
+    let height = px(width * down.parse::<f64>().ok()? / across.parse::<f64>().ok()?);
+    let width = px(width);
+    Some(format!("{start} width=\"{width}mm\" height=\"{height}mm\"{rest}"))
 }
 
 /// Returns the smallest font size of a drawing printed `width` mm wide, in points.
@@ -216,11 +217,13 @@ pub(crate) fn arrow(from: Spot, to: Spot, color: &str, width: f64) -> Element {
     let head = (4.5 * width).min(0.7 * length);
     // Arrows have a positive length, so the direction is defined.
     let (along, across) = ([dx / length, dy / length], [-dy / length, dx / length]);
-    let back = |s: f64, side: f64| {
-        [0, 1].map(|k| to[k] - s * head * along[k] + side * 0.42 * head * across[k])
-    };
-    let shaft = line(from, back(0.8, 0.0), color, width);
-    let head = polygon(&[to, back(1.0, 1.0), back(0.75, 0.0), back(1.0, -1.0)]).with("fill", color);
+    // Distance behind the tip and to the side of the shaft, in lengths and widths of the head.
+    let corners = [(0.8, 0.0), (1.0, 1.0), (0.75, 0.0), (1.0, -1.0)];
+    let [end, left, notch, right] = corners.map(|(back, side)| {
+        [0, 1].map(|k| to[k] - back * head * along[k] + side * 0.42 * head * across[k])
+    });
+    let shaft = line(from, end, color, width);
+    let head = polygon(&[to, left, notch, right]).with("fill", color);
     Element::group("arrow").containing([shaft, head])
 }
 

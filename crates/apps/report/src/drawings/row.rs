@@ -302,11 +302,11 @@ impl<'a> RowSheet<'a> {
     fn contacts(&self, state: &RowSnapshot) -> Element {
         let radius = (0.09 * self.view.scale).clamp(4.0, 9.0);
         let first = state.scales.first().map_or(0, |scale| scale.scale);
-        let shown = |contact: &skin::Contact| {
+        let mut shown = self.placed_contacts(state);
+        shown.retain(|contact| {
             let left = first + contact.left as i64;
             self.first <= left && left < self.last
-        };
-        let shown: Vec<_> = self.placed_contacts(state).into_iter().filter(shown).collect();
+        });
         Element::group("contact").containing([
             contacts::halos(&self.view, &shown, radius),
             contacts::forces(&self.view, &shown, self.force),
@@ -405,12 +405,11 @@ impl<'a> RowSheet<'a> {
         let reach = (1.25 * along).max(34.0);
         let tilt = state.tilt_deg.to_radians();
         // A positive tilt is clockwise, like angles on paper, where y points down.
-        let at = |angle: f64, r: f64| [left[0] + r * angle.cos(), left[1] + r * angle.sin()];
         let arc: Vec<Spot> =
-            (0..=12).map(|k| at(tilt * f64::from(k) / 12.0, 0.8 * reach)).collect();
+            (0..=12).map(|k| on_circle(left, 0.8 * reach, tilt * f64::from(k) / 12.0)).collect();
         Element::group("tilt").containing([
-            line(left, at(0.0, reach), "#5b2a86", 1.0).with("stroke-dasharray", "4 2"),
-            line(left, at(tilt, reach), "#5b2a86", 1.0),
+            line(left, on_circle(left, reach, 0.0), "#5b2a86", 1.0).with("stroke-dasharray", "4 2"),
+            line(left, on_circle(left, reach, tilt), "#5b2a86", 1.0),
             polyline(&arc).with("stroke", "#5b2a86").at("stroke-width", 1.6),
         ])
     }
@@ -501,10 +500,10 @@ fn pose(state: &ScaleState) -> Pose {
 /// The range covers all scales in contact or in motion, and two more on each side, but none beyond
 /// the ends of the row.
 fn window(row: &Row, length: RowLength, states: &[RowSnapshot]) -> (i64, i64) {
-    let moved = |s: &ScaleState| s.displacement[0].hypot(s.displacement[1]);
-    let all = || states.iter().flat_map(|state| &state.scales);
-    let most = all().map(moved).fold(0.0, f64::max);
-    let moving = all().filter(|s| moved(s) > STILL * most).map(|s| s.scale);
+    let scales = states.iter().flat_map(|state| &state.scales);
+    let moved = scales.map(|s| (s.scale, s.displacement[0].hypot(s.displacement[1])));
+    let most = moved.clone().map(|(_, distance)| distance).fold(0.0, f64::max);
+    let moving = moved.filter(|(_, distance)| *distance > STILL * most).map(|(scale, _)| scale);
     let touching = states.iter().flat_map(|state| {
         let first = state.scales.first().map_or(0, |scale| scale.scale);
         state.contacts.iter().flat_map(move |contact| {
@@ -522,6 +521,11 @@ fn window(row: &Row, length: RowLength, states: &[RowSnapshot]) -> (i64, i64) {
             (first.max((1 - count) / 2), last.min(count / 2))
         }
     }
+}
+
+/// Returns a point of a circle; the angle is clockwise on paper, where y points down.
+fn on_circle(center: Spot, radius: f64, angle: f64) -> Spot {
+    [center[0] + radius * angle.cos(), center[1] + radius * angle.sin()]
 }
 
 /// Formats a number with three significant digits.

@@ -15,13 +15,13 @@ pub(super) fn scale_bar(view: &View, thickness_mm: Option<f64>, [x, y]: Spot) ->
     let px_per_mm = view.scale / thickness_mm?;
     let length = round_below(LONGEST / px_per_mm);
     let left = x - length * px_per_mm;
-    let tick = |x: f64| line([x, y - TICK], [x, y + TICK], INK, 1.0);
+    let [from, to] = [left, x].map(|x| line([x, y - TICK], [x, y + TICK], INK, 1.0));
     let text = format!("{} mm", text::number::text(length));
     let middle = [0.5 * (left + x), y - 6.0];
     Some(Element::group("scale-bar").containing([
         line([left, y], [x, y], INK, 1.0),
-        tick(left),
-        tick(x),
+        from,
+        to,
         label(&text, middle, 11.0, Anchor::Middle).with("fill", INK),
     ]))
 }

@@ -178,8 +178,8 @@ impl Shape {
             overlaps: Vec::new(),
         };
         // A strip has at least one gap, hence two scales.
-        let turn = |place: usize| state.scales[place][2];
-        shape.turned(-0.5 * (turn(0) + turn(state.scales.len() - 1)))
+        let [first, .., last] = state.scales.as_slice() else { return shape };
+        shape.turned(-0.5 * (first[2] + last[2]))
     }
 
     /// Returns the gap right of scale `left` and its two scales.
@@ -202,21 +202,17 @@ impl Shape {
         shape.turned(turn)
     }
 
-    fn turned(self, angle: f64) -> Self {
+    fn turned(mut self, angle: f64) -> Self {
         let pose = Pose::new(0.0, 0.0, angle);
-        let turn = |point: [f64; 2]| -> [f64; 2] { pose.turn(point.into()).into() };
-        let contact = |contact: Contact| Contact {
-            point: turn(contact.point),
-            force: turn(contact.force),
-            ..contact
-        };
-        let all = |points: Vec<[f64; 2]>| points.into_iter().map(turn).collect::<Vec<_>>();
-        Self {
-            bodies: self.bodies.into_iter().map(|body| body.map(turn)).collect(),
-            membrane: self.membrane.into_iter().map(all).collect(),
-            contacts: self.contacts.into_iter().map(contact).collect(),
-            overlaps: self.overlaps.into_iter().map(|(left, points)| (left, all(points))).collect(),
+        let bodies = self.bodies.iter_mut().flatten();
+        let membrane = self.membrane.iter_mut().flatten();
+        let overlaps = self.overlaps.iter_mut().flat_map(|(_, points)| points);
+        let contacts = self.contacts.iter_mut();
+        let contacts = contacts.flat_map(|contact| [&mut contact.point, &mut contact.force]);
+        for vector in bodies.chain(membrane).chain(overlaps).chain(contacts) {
+            *vector = pose.turn((*vector).into()).into();
         }
+        self
     }
 
     fn extent(&self) -> Extent {
@@ -255,21 +251,12 @@ fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
     // Move the arrows of a short gap apart.
     let apart = (0.5 * (50.0 - (right[0] - left[0]))).max(0.0);
     let (left, right) = (shifted(left, [-apart, 0.0]), shifted(right, [apart, 0.0]));
-    let around = |center: Spot, start: f64, sweep: f64| -> Element {
-        let at = |angle: f64| -> Spot {
-            [center[0] + 22.0 * angle.cos(), center[1] - 22.0 * angle.sin()]
-        };
-        let arc: Vec<Spot> = (0..=16).map(|k| at(start + sweep * f64::from(k) / 16.0)).collect();
-        let tip = at(start + 1.12 * sweep);
-        let curve = polyline(&arc).with("stroke", INK).at("stroke-width", 1.8);
-        Element::group("moment").containing([curve, arrow(arc[14], tip, INK, 1.8)])
-    };
     // The arrows run outwards from below the base, so that they do not cross slanted scales.
     let turn = 2.0;
     let [of_left, of_right] = if inward {
-        [around(left, 5.3, -turn), around(right, -2.16, turn)]
+        [moment_arrow(left, 5.3, -turn), moment_arrow(right, -2.16, turn)]
     } else {
-        [around(left, 5.3 - turn, turn), around(right, turn - 2.16, -turn)]
+        [moment_arrow(left, 5.3 - turn, turn), moment_arrow(right, turn - 2.16, -turn)]
     };
     Element::group("moments").containing([
         of_left,
@@ -277,6 +264,18 @@ fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
         label("$M$", shifted(left, [-30.0, 26.0]), 13.0, Anchor::Middle),
         label("$M$", shifted(right, [30.0, 26.0]), 13.0, Anchor::Middle),
     ])
+}
+
+/// Draws an arrow along the arc from angle `start` over `sweep`, counter-clockwise if positive.
+fn moment_arrow(center: Spot, start: f64, sweep: f64) -> Element {
+    let arc: [Spot; 18] = std::array::from_fn(|k| {
+        // The last point is the tip of the arrow, beyond the end of the line.
+        let part = if k < 17 { k as f64 / 16.0 } else { 1.12 };
+        let angle = start + sweep * part;
+        [center[0] + 22.0 * angle.cos(), center[1] - 22.0 * angle.sin()]
+    });
+    let curve = polyline(&arc[..17]).with("stroke", INK).at("stroke-width", 1.8);
+    Element::group("moment").containing([curve, arrow(arc[14], arc[17], INK, 1.8)])
 }
 
 fn shifted([x, y]: Spot, [dx, dy]: [f64; 2]) -> Spot {

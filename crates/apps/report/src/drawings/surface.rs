@@ -35,12 +35,11 @@ fn folded<'a>(
     poses: &'a [(i64, Pose)],
 ) -> impl Iterator<Item = [[f64; 2]; 2]> + 'a {
     poses.windows(2).filter_map(move |pair| {
-        let ends = |body: Body| {
+        let [[from, to], ends] = [Body::default(), body].map(|body| {
             let [[_, from, ..], [to, ..]] =
                 [&pair[0], &pair[1]].map(|(i, pose)| corners(row, body, *i as f64, pose));
             [from, to]
-        };
-        let [from, to] = ends(Body::default());
-        (to[0] <= from[0]).then(|| ends(body))
+        });
+        (to[0] <= from[0]).then_some(ends)
     })
 }

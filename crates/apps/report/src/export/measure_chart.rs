@@ -43,16 +43,16 @@ impl MeasureChart {
     /// Creates the chart for a table with this header; `None` if it is not the table of a measure.
     pub fn new(table: &str, header: &StringRecord) -> Option<Self> {
         MEASURE_TABLES.iter().find(|(measure, _)| *measure == table)?;
-        let place = |name: &str| header.iter().position(|column| column == name);
         let name = physical_of(header, table).unwrap_or(table);
-        let value = ColNum::try_from(place(name)?).ok()?;
+        let value = ColNum::try_from(place(header, name)?).ok()?;
         let along: Vec<_> = ALONG
             .into_iter()
             .filter_map(|name| {
-                Some(AxisColumn { name, place: place(name)?, first: None, varies: false })
+                let place = place(header, name)?;
+                Some(AxisColumn { name, place, first: None, varies: false })
             })
             .collect();
-        let apart = place(APART);
+        let apart = place(header, APART);
         (!along.is_empty()).then(|| Self {
             name: name.to_owned(),
             value,
@@ -128,4 +128,8 @@ impl MeasureChart {
         let runs = self.runs.iter().zip(ends);
         runs.map(|((first, value), last)| (format!("{APART} {value}"), *first, last)).collect()
     }
+}
+
+fn place(header: &StringRecord, name: &str) -> Option<usize> {
+    header.iter().position(|column| column == name)
 }

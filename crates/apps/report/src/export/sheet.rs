@@ -110,8 +110,9 @@ impl Sheet {
             page.set_print_fit_to_pages(1, 0);
         }
         let columns = header.iter().zip(profiles).enumerate();
-        let column = |(place, (name, profile))| SheetColumn::new(table, place, name, profile);
-        let columns: Vec<_> = columns.map(column).collect();
+        let columns: Vec<_> = columns
+            .map(|(place, (name, profile))| SheetColumn::new(table, place, name, profile))
+            .collect();
         let formats = Formats::new(4);
         for (column, name) in columns.iter().zip(header) {
             page.write_string_with_format(0, column.place, name, &formats.header)?;

@@ -11,9 +11,9 @@ pub(super) fn contours(
     value: &impl Fn(usize, usize) -> Option<f64>,
     level: f64,
 ) -> Vec<[Place; 2]> {
-    let squares = |i| (0..size[1].saturating_sub(1)).map(move |j| (i, j));
-    let squares = (0..size[0].saturating_sub(1)).flat_map(squares);
-    squares.flat_map(|(i, j)| square([i, j], value, level).unwrap_or_default()).collect()
+    let [columns, rows] = size.map(|count| count.saturating_sub(1));
+    let squares = (0..columns).flat_map(|i| (0..rows).map(move |j| [i, j]));
+    squares.flat_map(|at| square(at, value, level).unwrap_or_default()).collect()
 }
 
 /// Joins segments that share ends into lines.
@@ -115,15 +115,11 @@ mod tests {
     #[test]
     fn contours_of_a_saddle_follow_its_mean_value() {
         // High values at two opposite corners, so that the mean decides.
-        let saddle = |high: f64| move |i: usize, j: usize| Some(if i == j { high } else { 0.0 });
         for (high, cuts_off_the_low) in [(3.0, true), (1.5, false)] {
-            let pieces = contours([2, 2], &saddle(high), 1.0);
+            let pieces = contours([2, 2], &|i, j| Some(if i == j { high } else { 0.0 }), 1.0);
             assert_eq!(pieces.len(), 2);
-            let [from, to] = pieces[0];
-            let near = |corner: [f64; 2]| {
-                [from, to].iter().all(|p| p[0] == corner[0] || p[1] == corner[1])
-            };
-            assert_eq!(near([1.0, 0.0]), cuts_off_the_low, "{pieces:?}");
+            let is_near = pieces[0].iter().all(|place| place[0] == 1.0 || place[1] == 0.0);
+            assert_eq!(is_near, cuts_off_the_low, "{pieces:?}");
         }
     }
 

@@ -392,20 +392,13 @@ impl Map<'_> {
 
     /// Returns the row of the design in each cell.
     fn rows(&self) -> HashMap<[usize; 2], usize> {
-        let position = |values: &DistinctNumbers, column, row| {
-            values.position(self.designs.number(column, row)?)
-        };
-        (0..self.designs.count())
-            .filter_map(|row| {
-                Some((
-                    [
-                        position(&self.x, self.subject.x, row)?,
-                        position(&self.y, self.subject.y, row)?,
-                    ],
-                    row,
-                ))
-            })
-            .collect()
+        let axes = [(&self.x, self.subject.x), (&self.y, self.subject.y)];
+        let rows = (0..self.designs.count()).filter_map(|row| {
+            let [x, y] =
+                axes.map(|(values, column)| values.position(self.designs.number(column, row)?));
+            Some(([x?, y?], row))
+        });
+        rows.collect()
     }
 
     fn cells(&self, at: &HashMap<[usize; 2], usize>) -> Element {
@@ -440,14 +433,14 @@ impl Map<'_> {
             self.subject.scale.place(value)
         };
         let [width, height] = self.cell();
-        let place = |[i, j]: [f64; 2]| {
-            [self.area.left + (i + 0.5) * width, self.area.bottom() - (j + 0.5) * height]
-        };
         let size = self.size();
         let (mut drawn, mut values) = (Vec::new(), Vec::new());
         for (level, text) in self.subject.levels() {
             for line in joined(contours(size, &value, level)) {
-                let line: Vec<Spot> = line.into_iter().map(place).collect();
+                let line = line.into_iter().map(|[i, j]| {
+                    [self.area.left + (i + 0.5) * width, self.area.bottom() - (j + 0.5) * height]
+                });
+                let line: Vec<Spot> = line.collect();
                 // A dark line over a wider light one is visible on all colours.
                 drawn.extend([("#fff", 2.8), (INK, 1.2)].map(|(color, width)| {
                     polyline(&line).with("stroke", color).at("stroke-width", width)

@@ -55,11 +55,14 @@ fn symbol(column: &str) -> Option<(&'static str, &'static str)> {
 
 /// Returns a name without unit as words.
 fn words(name: &str) -> String {
-    let quantile = |(end, words): &(&str, &'static str)| Some((name.strip_suffix(end)?, *words));
-    let (name, quantile) = QUANTILES.iter().find_map(quantile).unwrap_or((name, ""));
+    let mut quantiles = QUANTILES.iter();
+    let quantile = quantiles.find_map(|(end, words)| Some((name.strip_suffix(end)?, *words)));
+    let (name, quantile) = quantile.unwrap_or((name, ""));
     let named = NAMED.iter().find(|(column, ..)| without_unit(column).0 == name);
-    let plain = || name.replace("_over_t", "/t").replace('_', " ");
-    quantile.to_owned() + &named.map_or_else(plain, |(_, words, ..)| (*words).to_owned())
+    match named {
+        Some((_, words, ..)) => format!("{quantile}{words}"),
+        None => quantile.to_owned() + &name.replace("_over_t", "/t").replace('_', " "),
+    }
 }
 
 /// Returns the name of a column as words, with the unit in parentheses.

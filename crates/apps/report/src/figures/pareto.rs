@@ -40,6 +40,12 @@ pub(crate) struct CriterionAxis {
 }
 
 impl CriterionAxis {
+    /// Returns the value shown for a design.
+    fn value(&self, designs: &Designs, row: usize) -> Option<f64> {
+        let value = designs.number(&self.column, row)?;
+        Some(if self.is_inverse { value.recip() } else { value })
+    }
+
     /// Returns the column shown, with the direction of better values.
     pub(crate) fn criterion(&self) -> Criterion {
         let is_better_large = (self.sign > 0.0) != self.is_inverse;
@@ -105,16 +111,13 @@ pub(crate) fn figure(
     let room = full - left - margin;
     let columns = paper.columns(3, room, LEAST, between[0]);
     let width = (room - between[0] * (columns - 1) as f64) / columns as f64;
-    let value = |k: usize, row| {
-        let CriterionAxis { column, is_inverse, .. } = &criteria[k];
-        let value = designs.number(column, row)?;
-        Some(if *is_inverse { value.recip() } else { value })
-    };
-    let axis = |k: usize| {
-        let label = &criteria[k].labels[usize::from(width < 200.0)];
-        ChartAxis::fit(label, rows.iter().filter_map(|row| value(k, *row)))
-    };
-    let axes: Vec<ChartAxis> = (0..4).map(axis).collect();
+    let axes: Vec<ChartAxis> = criteria
+        .iter()
+        .map(|criterion| {
+            let label = &criterion.labels[usize::from(width < 200.0)];
+            ChartAxis::fit(label, rows.iter().filter_map(|row| criterion.value(designs, *row)))
+        })
+        .collect();
     let palette = designs.palette();
     let dot = circle([0.0, 0.0], 1.6).with("fill", "currentColor").with("id", "dot");
     let start = if paper.is_narrow(WIDTH) { 20.0 } else { LEFT };
@@ -128,12 +131,14 @@ pub(crate) fn figure(
     for (k, (i, j)) in PAIRS.into_iter().enumerate() {
         let panel = ChartPanel::new(first.panel(k, columns, between), &axes[i], &axes[j]);
         inside.extend(panel.axes(48.0));
-        let point = |&row: &usize| {
-            let [x, y] = [value(i, row)?, value(j, row)?];
+        let points = rows.iter().filter_map(|&row| {
+            let [x, y] =
+                [&criteria[i], &criteria[j]].map(|criterion| criterion.value(designs, row));
+            let (x, y) = x.zip(y)?;
             let better = [criteria[i].sign * x, criteria[j].sign * y];
             Some(Point { row, criteria: better, spot: panel.place(x, y)? })
-        };
-        let points: Vec<Point> = rows.iter().filter_map(point).collect();
+        });
+        let points: Vec<Point> = points.collect();
         let pair = [criteria[i].column.as_str(), &criteria[j].column].join(" ");
         inside.push(front(&points, designs, &palette).with("data-criteria", pair));
     }

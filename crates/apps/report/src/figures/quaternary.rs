@@ -69,18 +69,17 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>, paper
 /// darker.
 fn regions(designs: &Designs, winners: &[RankedDesign<'_>], listed: usize) -> Vec<RegionLook> {
     const SHADES: [f64; 6] = [0.0, 0.55, -0.45, 0.3, -0.25, 0.78];
-    let rows = || winners.iter().map(RankedDesign::row).take(listed);
-    let slant = |row: usize| designs.number("slant_deg", row).unwrap_or(90.0);
     let palette = designs.palette();
-    rows()
-        .enumerate()
-        .zip('A'..)
-        .map(|((k, row), letter)| {
-            let before = rows().take(k).filter(|other| slant(*other) == slant(row)).count();
-            let color = shaded(&palette.color(slant(row)), SHADES[before % SHADES.len()]);
-            RegionLook { row, color, letter: letter.to_string() }
-        })
-        .collect()
+    let mut slants: Vec<f64> = Vec::new();
+    let mut regions = Vec::new();
+    for (row, letter) in winners.iter().map(RankedDesign::row).take(listed).zip('A'..) {
+        let slant = designs.number("slant_deg", row).unwrap_or(90.0);
+        let before = slants.iter().filter(|other| **other == slant).count();
+        let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
+        regions.push(RegionLook { row, color, letter: letter.to_string() });
+        slants.push(slant);
+    }
+    regions
 }
 
 fn badge(text: &str, [x, y]: Spot) -> Element {
@@ -94,14 +93,13 @@ fn badge(text: &str, [x, y]: Spot) -> Element {
 ///
 /// The entry ends 14 px left of `right`.
 fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot, right: f64) -> Element {
-    let value = |column| designs.text(column, region.row);
     let lengths = ["gap", "length"].map(|length| {
         let in_mm = format!("{length}_mm");
         let column = if designs.has(&in_mm) { in_mm } else { format!("{length}_over_t") };
         with_value(&(column.as_str(), designs.text(&column, region.row)))
     });
-    let slant = value("slant_deg");
-    let text = format!("{}:  {},  $α$ = {slant}°", value("design"), lengths.join(",  "));
+    let [design, slant] = ["design", "slant_deg"].map(|column| designs.text(column, region.row));
+    let text = format!("{design}:  {},  $α$ = {slant}°", lengths.join(",  "));
     // Narrow paper has no room for the row.
     let row = (right >= NARROW).then_some(right - 120.0);
     let room = row.unwrap_or(right) - x - 44.0;
@@ -138,21 +136,23 @@ fn further(designs: &Designs, row: usize, spot: Spot, right: f64) -> Option<Elem
 
 /// Draws a few scales of a row, to scale, in 110 by 34 px.
 fn small_row(designs: &Designs, row: usize, [x, y]: Spot) -> Option<Element> {
-    let number = |column| designs.number(column, row);
+    let lengths = ["length_over_t", "gap_over_t", "slant_deg"];
+    let [length, gap, slant] = lengths.map(|column| designs.number(column, row));
     let base = if designs.text("base", row) == "2L" { 1.0 } else { 0.5 };
-    let half = base * number("length_over_t")?;
-    let scale = Parallelogram::new(half, number("slant_deg")?).ok()?;
-    let pitch = Row::new(scale, number("gap_over_t")?).ok()?.pitch();
+    let half = base * length?;
+    let scale = Parallelogram::new(half, slant?).ok()?;
+    let pitch = Row::new(scale, gap?).ok()?.pitch();
     let room = 100.0;
     let size = (room / (scale.shift() + 2.0 * half + (4.0 * pitch).max(1.0))).min(30.0);
     let free = room / size - scale.shift() - 2.0 * half;
     let count = ((free / pitch).floor() + 1.0).min(60.0);
-    let place = |i: usize, corner: geometry::Vec2| {
-        [x + size * (half + i as f64 * pitch + corner.x), y - size * corner.y]
-    };
     // The count is a small integer.
     let bodies =
-        (0..count as usize).map(|i| polygon(&scale.corners().map(|corner| place(i, corner))));
+        (0..count as usize).map(|i| {
+            polygon(&scale.corners().map(|corner| {
+                [x + size * (half + i as f64 * pitch + corner.x), y - size * corner.y]
+            }))
+        });
     Some(
         Element::group("row")
             .with("fill", "#d5dee6")

@@ -51,20 +51,19 @@ impl SearchFigure<'_> {
 
     /// Returns the chart as SVG.
     pub fn svg(&self) -> String {
-        let axis = |k: usize| {
+        let [x, y] = [0, 1].map(|k| {
             let designs = self.designs.iter().map(|design| design.place[k]);
             let all = designs.chain(self.line.iter().map(|place| place[k]));
             ChartAxis::fit(&self.name(k), all)
-        };
-        let (x, y) = (axis(0), axis(1));
+        });
         let panel = ChartPanel::new(AREA, &x, &y);
-        let dots = |met: bool| {
+        let dots = [false, true].map(|met| {
             let designs = self.designs.iter().filter(|design| design.met == met);
             let spots = panel.spots(designs.map(|design| design.place));
             let shade = SHADES[usize::from(met)];
             let dots = spots.into_iter().map(|spot| circle(spot, 1.8).with("fill", shade));
             Element::group(if met { "met" } else { "short" }).containing(dots)
-        };
+        });
         let spots = panel.spots(self.line.iter().copied());
         let line = polyline(&spots).with("stroke", RED).at("stroke-width", 1.6);
         let ends = spots.into_iter().map(|spot| circle(spot, 2.6).with("fill", RED));
@@ -75,7 +74,8 @@ impl SearchFigure<'_> {
         let legend = label(&text, [AREA.left, 52.0], 12.0, Anchor::Start).with("fill", INK);
         let mut inside = vec![legend];
         inside.extend(panel.axes(54.0));
-        inside.extend([dots(false), dots(true), line, Element::group("best").containing(ends)]);
+        inside.extend(dots);
+        inside.extend([line, Element::group("best").containing(ends)]);
         sheet(WIDTH, HEIGHT, self.title, inside)
     }
 }

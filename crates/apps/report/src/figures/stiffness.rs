@@ -3,7 +3,7 @@
 use results::columns::name;
 
 use super::names::axis_label;
-use super::{of_perfect, physical, sheet, thinned};
+use super::{of_perfect, sheet, shown_column, thinned};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, MarkLook, design_mark, mark_legend};
 use crate::designs::Designs;
@@ -34,8 +34,7 @@ pub(crate) fn figure(name: &str, designs: &Designs, paper: Paper) -> String {
     let (legend, below) = mark_legend(&palette, designs.any_folded(), [start, 50.0], full - 16.0);
     let mut inside = vec![legend];
     // Samples have no stiffness, so both axes show the perfect design.
-    let physical = |measure: &str| physical(designs, measure).unwrap_or(measure.to_owned());
-    let force = physical(name::CRITICAL_FORCE);
+    let force = shown_column(designs, name::CRITICAL_FORCE);
     let x = ChartAxis::fit(&axis_label(&force), designs.numbers(&force));
     let first = Area {
         left: MARGINS[0],
@@ -44,7 +43,7 @@ pub(crate) fn figure(name: &str, designs: &Designs, paper: Paper) -> String {
         height: HEIGHTS[usize::from(columns == 1)],
     };
     for (k, (measure, title)) in STIFFNESSES.into_iter().enumerate() {
-        let stiffness = physical(measure);
+        let stiffness = shown_column(designs, measure);
         let y = ChartAxis::fit(&axis_label(&stiffness), designs.numbers(&stiffness));
         let area = first.panel(k, columns, between);
         let title = title.to_owned();

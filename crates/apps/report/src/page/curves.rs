@@ -67,43 +67,53 @@ pub(super) fn figure(page: &Page, is_log: bool) -> Option<String> {
 /// The page selects the axes for two curves and scales both curves to them. A logarithmic vertical
 /// axis is the same for all.
 fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) -> Vec<Element> {
-    let solved = || page.solved.iter().filter(|design| (kind.points)(design).len() > 1);
-    let size = |design: &PageDesign| {
-        [0, 1].map(|k| (kind.points)(design).iter().map(|point| point[k]).fold(0.0, f64::max))
-    };
+    let solved: Vec<(&PageDesign, [f64; 2])> = page
+        .solved
+        .iter()
+        .filter(|design| (kind.points)(design).len() > 1)
+        .map(|design| {
+            let points = (kind.points)(design);
+            (design, [0, 1].map(|k| points.iter().map(|point| point[k]).fold(0.0, f64::max)))
+        })
+        .collect();
     let ends =
-        [0, 1].map(|k| ends(solved().map(|design| size(design)[k]).filter(|size| *size > 0.0)));
-    let logarithmic = ChartAxis::logarithmic(labels[1], ends[1].0 / DECADES, ends[1].1);
-    let axis = |k: usize, high: f64| ChartAxis::exact(labels[k], 0.0, high);
+        [0, 1].map(|k| ends(solved.iter().map(|(_, size)| size[k]).filter(|size| *size > 0.0)));
+    let logarithmic =
+        is_log.then(|| ChartAxis::logarithmic(labels[1], ends[1].0 / DECADES, ends[1].1));
     let [across, up] = [0, 1].map(|k| rungs(ends[k]));
     let up = if is_log { vec![1.0] } else { up };
-    let own = |high: f64| if is_log { logarithmic.clone() } else { axis(1, high) };
     let mut drawn = Vec::new();
     for (name, ticks) in [("x", &across), ("y", &up)] {
         for &high in ticks {
-            let (x, y) = (&axis(0, high), &own(high));
-            let panel = ChartPanel::new(area, x, y);
+            let [x, y] = axes(labels, logarithmic.as_ref(), high);
+            let panel = ChartPanel::new(area, &x, &y);
             let ticks = if name == "x" { panel.x_ticks() } else { panel.y_ticks() };
             let rung = Element::group("rung").with("data-axis", name);
             drawn.push(rung.with("data-high", high.to_string()).containing(ticks));
         }
     }
-    let (x, y) = (&axis(0, 1.0), &own(1.0));
-    let panel = ChartPanel::new(area, x, y);
+    let [x, y] = axes(labels, logarithmic.as_ref(), 1.0);
+    let panel = ChartPanel::new(area, &x, &y);
     drawn.extend([area.border(), panel.x_name(), panel.y_name(56.0)]);
     let origin = format!("{} {}", area.left, area.bottom());
-    let curves =
-        Element::group("curves").at("stroke-width", 2.2).containing(solved().map(|design| {
-            let [width, height] = if is_log { [size(design)[0], 1.0] } else { size(design) };
-            // Omit points that a logarithmic axis cannot show.
-            let points = (kind.points)(design).iter();
-            let places = points.filter_map(|&[x, y]| panel.place(x / width, y / height));
-            let spots: Vec<Spot> = simplified(&places.collect::<Vec<_>>());
-            let curve = polyline(&spots).with("class", "curve").with("data-x", width.to_string());
-            curve.with("data-y", height.to_string()).with("data-design", design.number.as_str())
-        }));
+    let curves = solved.iter().map(|(design, size)| {
+        let [width, height] = if is_log { [size[0], 1.0] } else { *size };
+        // Omit points that a logarithmic axis cannot show.
+        let points = (kind.points)(design).iter();
+        let places = points.filter_map(|&[x, y]| panel.place(x / width, y / height));
+        let spots: Vec<Spot> = simplified(&places.collect::<Vec<_>>());
+        let curve = polyline(&spots).with("class", "curve").with("data-x", width.to_string());
+        curve.with("data-y", height.to_string()).with("data-design", design.number.as_str())
+    });
+    let curves = Element::group("curves").at("stroke-width", 2.2).containing(curves);
     let whole = Element::group("panel").with("data-origin", origin);
     vec![whole.containing(drawn).containing([curves])]
+}
+
+/// Returns axes from 0 to `high`; the vertical one is replaced by a logarithmic axis, if any.
+fn axes(labels: [&str; 2], logarithmic: Option<&ChartAxis>, high: f64) -> [ChartAxis; 2] {
+    let [x, y] = labels.map(|label| ChartAxis::exact(label, 0.0, high));
+    [x, logarithmic.cloned().unwrap_or(y)]
 }
 
 /// Returns round upper ends of axes, from the smallest curve to the largest.

@@ -53,12 +53,6 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
     let headers = page.designs.headers();
     let columns = headers.iter().zip(&page.columns);
     let varied = page.designs.varied();
-    let measured_by = |name: &str| -> Vec<_> {
-        measurement_conditions(name)
-            .into_iter()
-            .filter(|parameter| varied.contains(parameter))
-            .collect()
-    };
     let last = [shown(Shown::Then), shown(Shown::Last)].concat();
     json!({
         "name": visible(&page.name),
@@ -80,7 +74,8 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
         "numeric": headers.iter().filter(|header| page.designs.has(header)).collect::<Vec<_>>(),
         "columns": columns.map(|(name, (unit, meaning))| json!({
             "name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key),
-            "measuredBy": measured_by(name),
+            "measuredBy": measurement_conditions(name).into_iter()
+                .filter(|parameter| varied.contains(parameter)).collect::<Vec<_>>(),
         })).collect::<Vec<_>>(),
         "count": page.designs.count(),
         "slants": slants(page.designs.values("slant_deg")),

@@ -2,6 +2,7 @@
 //!
 //! The page unpacks the visible figures, and marks and hides elements in them.
 
+use std::collections::HashSet;
 use std::io::{self, Write};
 
 use ranking::{CRITERIA, TetrahedralGrid};
@@ -96,8 +97,8 @@ pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>>
     let designs = &page.designs;
     let mut parts = designs.parts();
     // Prefer the parts with the best designs, which are the ones that were solved again.
-    let is_solved = |number: &str| page.solved.iter().any(|design| design.number == number);
-    parts.sort_by_key(|(_, part)| !(0..part.count()).any(|row| is_solved(part.design(row))));
+    let solved: HashSet<&str> = page.solved.iter().map(|design| design.number.as_str()).collect();
+    parts.sort_by_key(|(_, part)| !(0..part.count()).any(|row| solved.contains(part.design(row))));
     let measures = measures(designs);
     let mut figures = FigureWriter { out, written: Vec::new() };
     parts.iter().take(PARTS).try_for_each(|part| figures.part(part, &measures))?;
@@ -118,16 +119,16 @@ pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>>
 ///
 /// Large tables have fewer.
 fn measures(designs: &Designs) -> Vec<String> {
-    let is_shown = |header: &&String| {
+    let most = MEASURES.min(MARKS / designs.count().max(1));
+    let shown = designs.headers().iter().filter(|header| {
         let is_papers = MULTIPLES.iter().any(|(measure, _)| header == measure);
         let is_other = ["design", name::COVERAGE].contains(&header.as_str());
         !is_papers
             && !is_other
             && parameter_of(header).is_none()
             && designs.values(header).len() > 1
-    };
-    let most = MEASURES.min(MARKS / designs.count().max(1));
-    designs.headers().iter().filter(is_shown).take(most).cloned().collect()
+    });
+    shown.take(most).cloned().collect()
 }
 
 /// Returns the rows of the covered designs that have all criteria of the paper.

@@ -82,25 +82,19 @@ impl PageFront {
     ///
     /// The line is drawn if the designs form a front of two objectives.
     fn panel(&self, grid: &Designs, pair: &[&str; 2], area: Area, panels: usize) -> Vec<Element> {
-        let axis = |column: &str| {
+        let [x, y] = &pair.map(|column| {
             let values = grid.numbers(column).chain(self.designs.numbers(column));
             ChartAxis::fit(&axis_label(column), values)
-        };
-        let (x, y) = (&axis(pair[0]), &axis(pair[1]));
+        });
         let panel = ChartPanel::new(area, x, y);
-        let spot = |designs: &Designs, row: usize| {
-            let [x, y] = pair.map(|column| designs.number(column, row));
-            panel.place(x?, y?)
-        };
-        let mark = |shape: &str, [x, y]: Spot| {
-            Element::new("use").with("href", shape).at("x", x).at("y", y)
-        };
         let of_grid = thinned(grid.count(), panels).filter_map(|row| {
-            let mark = mark("#grid-design", spot(grid, row)?).with("color", COLORS[1]);
+            let mark = mark("#grid-design", spot(&panel, grid, pair, row)?);
+            let mark = mark.with("color", COLORS[1]);
             Some(mark.with("data-design", grid.design(row)))
         });
-        let mut found: Vec<(usize, Spot)> =
-            (0..self.designs.count()).filter_map(|k| Some((k, spot(&self.designs, k)?))).collect();
+        let found = (0..self.designs.count())
+            .filter_map(|row| Some((row, spot(&panel, &self.designs, pair, row)?)));
+        let mut found: Vec<(usize, Spot)> = found.collect();
         // Sort from left to right for the line, because the table may have another order.
         found.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
         let joined = if self.objectives.len() == 2 { found.as_slice() } else { &[] };
@@ -136,4 +130,14 @@ impl PageFront {
             "values": values.collect::<Map<_, _>>(),
         })
     }
+}
+
+/// Returns the spot of a design on a panel of two columns.
+fn spot(panel: &ChartPanel, designs: &Designs, pair: &[&str; 2], row: usize) -> Option<Spot> {
+    let [x, y] = pair.map(|column| designs.number(column, row));
+    panel.place(x?, y?)
+}
+
+fn mark(shape: &str, [x, y]: Spot) -> Element {
+    Element::new("use").with("href", shape).at("x", x).at("y", y)
 }

@@ -19,8 +19,8 @@ pub(super) fn simplified(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut parts = vec![(0, last)];
     while let Some((first, last)) = parts.pop() {
         let line = [points[first], points[last]];
-        let away = |k: usize| (k, distance(points[k], line, size));
-        let farthest = (first + 1..last).map(away).max_by(|a, b| a.1.total_cmp(&b.1));
+        let distances = (first + 1..last).map(|k| (k, distance(points[k], line, size)));
+        let farthest = distances.max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((k, _)) = farthest.filter(|(_, away)| *away > TOLERANCE) {
             kept[k] = true;
             parts.extend([(first, k), (k, last)]);
@@ -31,8 +31,7 @@ pub(super) fn simplified(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 /// Returns the distance of a point from a segment, relative to the size of the curve.
 fn distance(point: [f64; 2], [from, to]: [[f64; 2]; 2], size: [f64; 2]) -> f64 {
-    let scaled = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| (b[k] - a[k]) / size[k]);
-    let (along, away) = (scaled(from, to), scaled(from, point));
+    let [along, away] = [to, point].map(|end| [0, 1].map(|k| (end[k] - from[k]) / size[k]));
     let squared = along[0] * along[0] + along[1] * along[1];
     let part =
         if squared > 0.0 { (along[0] * away[0] + along[1] * away[1]) / squared } else { 0.0 };

@@ -71,15 +71,15 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
 
     let puncture = solved_puncture(&case);
     let flexure = skin::flexure::solve(&design, &case.common, &case.flexure).expect("a design");
-    let of = |case| DesignCurves {
+    let curves = DesignCurves {
         number: "1".to_owned(),
-        case,
+        case: &case,
         puncture: Some(&puncture),
         flexure: Some(&flexure),
         on_bodies: &[],
         limits: &[],
     };
-    let figures = report::curves("x", &[of(&case)], None, report::Paper::WIDE);
+    let figures = report::curves("x", std::slice::from_ref(&curves), None, report::Paper::WIDE);
     assert_eq!(figures.len(), 4);
     for figure in &figures {
         let is_physical = ["N<", "N mm", "mJ"].iter().any(|unit| figure.svg.contains(unit));
@@ -87,7 +87,8 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
     }
     // Next to a design without a material both are dimensionless.
     let plain = Case { material: sweep::Material::default(), ..case };
-    for figure in report::curves("x", &[of(&case), of(&plain)], None, report::Paper::WIDE) {
+    let both = [curves.clone(), DesignCurves { case: &plain, ..curves }];
+    for figure in report::curves("x", &both, None, report::Paper::WIDE) {
         assert!(figure.svg.contains("dimensionless"), "{}", figure.name);
     }
 
@@ -109,7 +110,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
 /// A needle that passes has a triangle on its curve, explained in the note.
 #[test]
 fn the_passage_of_a_needle_is_marked_on_its_curve() {
-    let marks = |needle: &str| {
+    let marks = ["guided", "free"].map(|needle| {
         let case = case(&design(75.0), &format!("needle = '{needle}'"), "");
         let (number, puncture) = ("1".to_owned(), solved_puncture(&case));
         let of = DesignCurves {
@@ -122,8 +123,8 @@ fn the_passage_of_a_needle_is_marked_on_its_curve() {
         };
         let svg = report::curves("x", &[of], None, report::Paper::WIDE).remove(0).svg;
         [svg.matches("class=\"passing\"").count(), svg.matches("▼ passing").count()]
-    };
-    assert_eq!([marks("guided"), marks("free")], [[1, 1], [0, 0]]);
+    });
+    assert_eq!(marks, [[1, 1], [0, 0]]);
 }
 
 /// With friction, slipping contacts have rings, sticking ones discs; the caption counts both.

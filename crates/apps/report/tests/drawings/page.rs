@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::Read as _;
 
 use ranking::{CRITERIA, Ranking, TetrahedralGrid};
-use report::{Designs, MapRequest, Page, PageDesign, Paper, figures, map, untitled};
+use report::{Designs, Figure, MapRequest, Page, PageDesign, Paper, figures, map, untitled};
 use results::Results;
 
 /// A table of 24 designs with made-up values.
@@ -200,21 +200,22 @@ fn the_page_lists_numeric_columns() {
 fn figures_of(html: &str) -> Vec<(String, String)> {
     let data = html.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next());
     let data: serde_json::Value = serde_json::from_str(data.expect("data")).expect("JSON");
-    let unpacked = |figure: &serde_json::Value| {
-        let packed = html.split(&format!("id={}>", figure["svg"])).nth(1)?.split('<').next()?;
-        let bits =
-            packed.chars().flat_map(|c| (0..7).rev().map(move |k| (u32::from(c) >> k & 1) as u8));
-        let bits: Vec<u8> = bits.collect();
-        let packed: Vec<u8> = bits
-            .chunks_exact(8)
-            .map(|eight| eight.iter().fold(0, |byte, bit| byte << 1 | bit))
-            .collect();
-        let mut svg = String::new();
-        flate2::read::DeflateDecoder::new(packed.as_slice()).read_to_string(&mut svg).ok()?;
-        Some((format!("{} {}", figure["kind"].as_str()?, figure["choice"].as_str()?), svg))
-    };
     let figures = data["figures"].as_array().expect("figures").iter();
-    figures.map(|figure| unpacked(figure).expect("a figure")).collect()
+    figures.map(|figure| unpacked(html, figure).expect("a figure")).collect()
+}
+
+fn unpacked(html: &str, figure: &serde_json::Value) -> Option<(String, String)> {
+    let packed = html.split(&format!("id={}>", figure["svg"])).nth(1)?.split('<').next()?;
+    let bits =
+        packed.chars().flat_map(|c| (0..7).rev().map(move |k| (u32::from(c) >> k & 1) as u8));
+    let bits: Vec<u8> = bits.collect();
+    let packed: Vec<u8> = bits
+        .chunks_exact(8)
+        .map(|eight| eight.iter().fold(0, |byte, bit| byte << 1 | bit))
+        .collect();
+    let mut svg = String::new();
+    flate2::read::DeflateDecoder::new(packed.as_slice()).read_to_string(&mut svg).ok()?;
+    Some((format!("{} {}", figure["kind"].as_str()?, figure["choice"].as_str()?), svg))
 }
 
 #[test]
@@ -233,21 +234,22 @@ fn a_page_has_the_same_figures_as_files() {
     for (name, kind) in kinds {
         let file = files.iter().find(|figure| figure.name == name).expect("a file");
         let (_, svg) = own.iter().find(|(own, _)| own == kind).expect("a figure");
-        let drawn = |svg: &str| svg.split_once("</title>").expect("a title").1.to_owned();
-        assert!(drawn(svg) == drawn(&untitled(&file.svg)), "{name}");
+        let file = untitled(&file.svg);
+        let [own, file] = [svg, &file].map(|svg| svg.split_once("</title>").expect("a title").1);
+        assert!(own == file, "{name}");
         assert!(svg.contains("data-design=\"0007\""), "{name}: marks know their designs");
     }
 }
 
 #[test]
 fn curves_of_solved_designs_share_one_chart() {
-    let solved = |number: &str, force| PageDesign {
+    let solved = [("0001", 2.0), ("0002", 0.02)].map(|(number, force)| PageDesign {
         number: number.to_owned(),
         puncture: vec![[0.0, 0.0], [0.1, force]],
         flexure: vec![[0.0, 0.0]],
         ..PageDesign::default()
-    };
-    let solved = vec![solved("0001", 2.0), solved("0002", 0.02)];
+    });
+    let solved = Vec::from(solved);
     let all = figures_of(&html_of(&Page { solved, ..page(designs()) }));
     for choice in ["curves linear", "curves log"] {
         let (_, svg) = all.iter().find(|(kind, _)| kind == choice).expect("curves");
@@ -278,14 +280,12 @@ fn table_with(columns: &[Column]) -> String {
 /// Returns the marks of a figure: design and position.
 fn marks(svg: &str) -> Vec<(&str, &str)> {
     let uses = svg.split("<use ").filter(|text| text.contains("data-design"));
-    let attribute = |text: &'_ str, name: &str| -> Option<std::ops::Range<usize>> {
-        let start = text.find(&format!("{name}=\""))? + name.len() + 2;
-        Some(start..start + text[start..].find('"')?)
-    };
-    uses.filter_map(|text| {
-        Some((&text[attribute(text, "data-design")?], &text[attribute(text, "y")?]))
-    })
-    .collect()
+    uses.filter_map(|text| Some((attribute(text, "data-design")?, attribute(text, "y")?))).collect()
+}
+
+fn attribute<'t>(text: &'t str, name: &str) -> Option<&'t str> {
+    let start = text.find(&format!("{name}=\""))? + name.len() + 2;
+    text[start..].split_once('"').map(|(value, _)| value)
 }
 
 fn figure<'a>(all: &'a [report::Figure], name: &str) -> &'a str {
@@ -294,11 +294,6 @@ fn figure<'a>(all: &'a [report::Figure], name: &str) -> &'a str {
 
 #[test]
 fn figures_of_random_gaps_show_the_median_and_the_band() {
-    let sampled = |scale: [fn(u32) -> f64; 3]| {
-        let names = ["critical_force_p05", "critical_force_p50", "critical_force_p95"];
-        let columns: Vec<_> = names.into_iter().zip(scale).collect();
-        figures("x", &Designs::of(&results(&table_with(&columns))), None, Paper::WIDE)
-    };
     let (one, other) = (
         sampled([|k| 0.1 * f64::from(k), |k| 0.2 * f64::from(k), |k| 0.5 * f64::from(k)]),
         // The perfect designs are the same, but their medians differ.
@@ -312,6 +307,13 @@ fn figures_of_random_gaps_show_the_median_and_the_band() {
     let perfect = figures("x", &designs(), None, Paper::WIDE);
     assert!(!figure(&perfect, "critical-force").contains("class=\"band\""));
     assert!(figure(&sampled([|_| 1.0; 3]), "stiffness").contains("of the perfect designs"));
+}
+
+/// Draws designs with quantiles of the critical force, as functions of the row.
+fn sampled(quantiles: [fn(u32) -> f64; 3]) -> Vec<Figure> {
+    let names = ["critical_force_p05", "critical_force_p50", "critical_force_p95"];
+    let columns: Vec<_> = names.into_iter().zip(quantiles).collect();
+    figures("x", &Designs::of(&results(&table_with(&columns))), None, Paper::WIDE)
 }
 
 #[test]

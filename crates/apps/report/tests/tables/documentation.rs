@@ -200,8 +200,9 @@ fn descriptions_of_the_other_sweeps_are_true() {
     // Goals that recommend a design use a guided needle.
     let guided = DesignGoal::read(&root().join("sweeps/goals/strong-under-a-needle.toml"), &[]);
     let of_goal = guided.expect("a goal").space.sweep().grid().case(0).punctured();
-    let of_sweep = |file: &str| read(file).grid().case(0).punctured();
-    for puncture in [of_goal, of_sweep("sweeps/glove.toml"), of_sweep("sweeps/smoke.toml")] {
+    let [glove, smoke] = ["sweeps/glove.toml", "sweeps/smoke.toml"]
+        .map(|file| read(file).grid().case(0).punctured());
+    for puncture in [of_goal, glove, smoke] {
         assert_eq!(puncture.needle, Needle::Guided { friction: 0.3 });
         assert!(puncture.load_position < 1.0);
     }

@@ -78,12 +78,16 @@ fn extreme_numbers_failures_and_texts_are_preserved() {
     assert_eq!(sheet(&file, "failures"), expected(failures, ','));
     assert_eq!(names(&file), "summary designs failures columns");
     let guide = sheet(&file, "columns");
-    let text = |text: &str| Data::String(text.to_owned());
-    assert_eq!(guide[0], ["sheet", "column", "unit", "meaning"].map(text));
+    let columns = ["sheet", "column", "unit", "meaning"].map(text_cell);
+    assert_eq!(guide[0], columns);
     assert_eq!(guide.len(), 1 + 6 + 4, "a line for every column");
-    let slope = ["designs", "critical_force", "E_s L t/(1-nu^2)"].map(text);
+    let slope = ["designs", "critical_force", "E_s L t/(1-nu^2)"].map(text_cell);
     assert_eq!(guide[3][..3], slope);
     assert!(guide.iter().flatten().all(|cell| *cell != Data::Empty));
+}
+
+fn text_cell(text: &str) -> Data {
+    Data::String(text.to_owned())
 }
 
 #[test]
@@ -91,13 +95,12 @@ fn tables_with_decimal_commas_make_the_same_workbook() {
     let place = tempfile::tempdir().expect("a folder");
     let plain = "design,gap_over_t,coverage\r\n0001,0.1,0.25\r\n0002,0.2,1e-7\r\n";
     let comma = "\u{feff}design;gap_over_t;coverage\r\n0001;0,1;0,25\r\n0002;0,2;1e-7\r\n";
-    let write = |folder: &str, table: &str| {
+    let [one, other] = [("plain", plain), ("comma", comma)].map(|(folder, table)| {
         let folder = place.path().join(folder);
         fs::create_dir(&folder).expect("writable");
         fs::write(folder.join("designs.csv"), table).expect("writable");
         fs::read(exported(&folder)).expect("a workbook")
-    };
-    let (one, other) = (write("plain", plain), write("comma", comma));
+    });
     assert!(one == other, "the same bytes");
 }
 
@@ -137,17 +140,16 @@ fn failures_are_red_and_measures_have_a_colour_scale() {
     assert!(archive.contains("state=\"frozen\""));
     let styles = zip_text(&file, "xl/styles.xml");
     let formats = styles.split("<cellXfs").nth(1).expect("formats");
-    let style = |cell: &str| {
+    let [complete, missing, status] = ["A2", "A3", "C3"].map(|cell| {
         let cell = archive.split(&format!("<c r=\"{cell}\" s=\"")).nth(1).expect("a cell");
-        cell.split('"').next().expect("a style").parse::<usize>().expect("a number")
-    };
-    let fill = |cell: &str| {
-        let format = formats.split("<xf ").nth(style(cell) + 1).expect("a format");
+        let style = cell.split('"').next().expect("a style");
+        let style: usize = style.parse().expect("a number");
+        let format = formats.split("<xf ").nth(style + 1).expect("a format");
         format.split("fillId=\"").nth(1).expect("a fill").split('"').next().expect("a number")
-    };
-    assert_eq!(fill("A2"), "0", "a design with every value is not red");
-    assert_ne!(fill("A3"), "0");
-    assert_eq!(fill("A3"), fill("C3"));
+    });
+    assert_eq!(complete, "0", "a design with every value is not red");
+    assert_ne!(missing, "0");
+    assert_eq!(missing, status);
     assert!(styles.contains("FFFFC7CE"));
 }
 
@@ -166,16 +168,16 @@ fn the_first_sheet_describes_the_run() {
         .expect("a ranking");
     ranking::write_ranking(place.path(), &ranking).expect("writable");
     let cells = sheet(&exported(place.path()), "summary");
-    let line = |row: &Vec<Data>| {
+    let lines = cells.iter().map(|row| {
         let cells = row.iter().filter(|cell| **cell != Data::Empty);
         cells.map(ToString::to_string).collect::<Vec<_>>().join(" | ")
-    };
-    let lines: Vec<_> =
-        cells.iter().map(line).take_while(|line| !line.starts_with("Definition")).collect();
-    insta::assert_snapshot!(lines.join("\n"));
-    let definition = cells.iter().map(line).find(|line| line.starts_with("contact.c2"));
+    });
+    let lines: Vec<String> = lines.collect();
+    let first = lines.iter().take_while(|line| !line.starts_with("Definition"));
+    insta::assert_snapshot!(first.cloned().collect::<Vec<_>>().join("\n"));
+    let definition = lines.iter().find(|line| line.starts_with("contact.c2"));
     assert_eq!(
-        definition.as_deref(),
+        definition.map(String::as_str),
         Some("contact.c2 | 0.23 | - | exponent C2 of the contact law")
     );
 }
@@ -214,20 +216,21 @@ fn zip_text(workbook: &Path, name: &str) -> String {
 #[test]
 fn invalid_workbook_names_and_missing_tables_are_rejected() {
     let place = tempfile::tempdir().expect("a folder");
-    let refused = |name: &str| {
-        let error = report::export(&opened(place.path()), &[], &place.path().join(name))
-            .expect_err("refused");
-        error.to_string().replace(&place.path().display().to_string(), "R")
-    };
-    insta::assert_snapshot!(refused("x.xlsx"), @"R: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit");
+    insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit");
     fs::write(place.path().join("designs.csv"), "design,coverage\r\n0001,1,2\r\n")
         .expect("writable");
-    insta::assert_snapshot!(refused("x.xlsx"), @"R/designs.csv: cannot be read (line 2 has 3 cells, the first one 2), expected a table that squama writes");
+    insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R/designs.csv: cannot be read (line 2 has 3 cells, the first one 2), expected a table that squama writes");
     fs::write(place.path().join("designs.csv"), b"design,\xff\r\n").expect("writable");
-    insta::assert_snapshot!(refused("x.xlsx"), @"R/designs.csv: cannot be read (it is no text), expected a table that squama writes");
-    insta::assert_snapshot!(refused("designs.csv"), @"R/designs.csv: a workbook needs a name that ends in .xlsx");
-    insta::assert_snapshot!(refused("designs.csv/x.xlsx"), @"R/designs.csv: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
+    insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R/designs.csv: cannot be read (it is no text), expected a table that squama writes");
+    insta::assert_snapshot!(refused(place.path(), "designs.csv"), @"R/designs.csv: a workbook needs a name that ends in .xlsx");
+    insta::assert_snapshot!(refused(place.path(), "designs.csv/x.xlsx"), @"R/designs.csv: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
     assert_eq!(fs::read_dir(place.path()).expect("a folder").count(), 1, "nothing is left");
+}
+
+/// Returns the error of an export of a folder `R`.
+fn refused(folder: &Path, name: &str) -> String {
+    let error = report::export(&opened(folder), &[], &folder.join(name)).expect_err("refused");
+    error.to_string().replace(&folder.display().to_string(), "R")
 }
 
 #[test]

@@ -1,0 +1,130 @@
+//! Values of the curves of a design.
+
+use skin::flexure::FlexurePoint;
+use skin::puncture::{Puncture, PuncturePoint, Weakest};
+
+use super::{DesignCurves, FailureLimit};
+
+/// Largest level of a limit that is shown, over the largest force of the path.
+const HIGHEST_LEVEL: f64 = 1.5;
+
+/// The curve of a design.
+#[derive(Default)]
+pub(super) struct CurveValues {
+    pub points: Vec<[f64; 2]>,
+    /// The unloading path, from the end of `points`.
+    pub back: Vec<[f64; 2]>,
+    pub crosses: Vec<[f64; 2]>,
+    pub rings: Vec<[f64; 2]>,
+    /// The point at which a guided needle first touches the scale beyond its top face.
+    pub passing: Vec<[f64; 2]>,
+    /// True if the segment after each point is unstable under a held depth.
+    pub unstable: Vec<bool>,
+    /// The limits of failure, each with its point.
+    pub limits: Vec<(FailureLimit, [f64; 2])>,
+}
+
+impl CurveValues {
+    /// Returns all points that the axes must cover.
+    pub fn all(&self) -> impl Iterator<Item = &[f64; 2]> {
+        self.points.iter().chain(&self.back).chain(self.limits.iter().map(|(_, at)| at))
+    }
+
+    /// Returns true if the segment after point `k` is unstable under a held depth.
+    pub fn is_unstable(&self, k: usize) -> bool {
+        self.unstable.get(k) == Some(&true)
+    }
+
+    /// Multiplies all points by the factors of both axes.
+    pub fn in_units(&mut self, [x, y]: [f64; 2]) {
+        let Self { points, back, crosses, rings, passing, limits, .. } = self;
+        let all = [points, back, crosses, rings, passing].into_iter().flatten();
+        for point in all.chain(limits.iter_mut().map(|(_, at)| at)) {
+            *point = [point[0] * x, point[1] * y];
+        }
+    }
+}
+
+/// Returns the force over the displacement of the needle.
+pub(super) fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
+    let puncture = solved.puncture?;
+    let back = puncture.unloading.iter().flat_map(|back| &back.path);
+    let crosses = puncture.events.iter().map(|event| force_point(&event.point));
+    // Stability under prescribed depth, because a needle can follow such a path.
+    let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
+    let fold = puncture.folds.first().map(|fold| force_point(&fold.point));
+    let passage = &puncture.measures.passage;
+    let passing = passage.passing_displacement.zip(passage.passing_force);
+    // A truncated path may end before this event.
+    let passing = passing.map(<[f64; 2]>::from).filter(|[displacement, _]| {
+        puncture.path.iter().any(|point| point.displacement >= *displacement)
+    });
+    Some(CurveValues {
+        points: puncture.path.iter().map(force_point).collect(),
+        back: back.map(force_point).collect(),
+        crosses: crosses.collect(),
+        rings: fold.into_iter().collect(),
+        passing: passing.into_iter().collect(),
+        unstable: unstable.collect(),
+        limits: shown_limits(solved, puncture),
+    })
+}
+
+fn force_point(point: &PuncturePoint) -> [f64; 2] {
+    [point.displacement, point.force]
+}
+
+/// Lists the limits on a path; a level far above it is not shown.
+fn shown_limits(solved: &DesignCurves, puncture: &Puncture) -> Vec<(FailureLimit, [f64; 2])> {
+    let highest = puncture.path.iter().map(|point| point.force).fold(0.0, f64::max);
+    let limits = solved
+        .limits
+        .iter()
+        .filter(|limit| limit.displacement.is_some() || limit.force <= HIGHEST_LEVEL * highest);
+    limits.map(|limit| (*limit, [limit.displacement.unwrap_or_default(), limit.force])).collect()
+}
+
+/// Returns the critical force over the load position.
+pub(super) fn places(solved: &DesignCurves) -> Option<CurveValues> {
+    let all = &solved.puncture?.places;
+    let weakest = Weakest::from_positions(all).ok().and_then(|of| Some([of.place?, of.force?]));
+    let forces: Vec<_> = all.iter().map(|p| (p.position, p.force)).collect();
+    Some(with_missing_forces(&forces, weakest)).filter(|curve| !curve.points.is_empty())
+}
+
+/// Returns the critical force over the curvature of the body.
+pub(super) fn bodies(solved: &DesignCurves) -> Option<CurveValues> {
+    let forces = solved.on_bodies;
+    let known = forces.iter().filter_map(|(curvature, force)| Some([*curvature, (*force)?]));
+    let worst = known.reduce(|a, b| if b[1] < a[1] { b } else { a });
+    Some(with_missing_forces(forces, worst)).filter(|curve| curve.points.len() > 1)
+}
+
+/// Returns the curve through the known forces, with a ring at one of them.
+///
+/// It is dotted where forces between two known ones are missing.
+fn with_missing_forces(forces: &[(f64, Option<f64>)], ring: Option<[f64; 2]>) -> CurveValues {
+    let points: Vec<_> = forces.iter().filter_map(|(x, force)| Some([*x, (*force)?])).collect();
+    let between = points.windows(2).map(|ends| ends[0][0]..ends[1][0]);
+    let unstable = between
+        .map(|range| forces.iter().any(|(x, force)| force.is_none() && range.contains(x)))
+        .collect();
+    CurveValues { points, rings: ring.into_iter().collect(), unstable, ..CurveValues::default() }
+}
+
+fn moment_point(point: &FlexurePoint) -> [f64; 2] {
+    [point.curvature, point.moment]
+}
+
+/// Returns the moment over the curvature.
+pub(super) fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
+    let flexure = solved.flexure?;
+    let back = flexure.unloading.iter().flat_map(|back| &back.path);
+    let crosses = flexure.events.iter().map(|event| moment_point(&event.point));
+    Some(CurveValues {
+        points: flexure.path.iter().map(moment_point).collect(),
+        back: back.map(moment_point).collect(),
+        crosses: crosses.collect(),
+        ..CurveValues::default()
+    })
+}
