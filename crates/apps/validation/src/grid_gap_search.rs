@@ -7,7 +7,7 @@ use anyhow::{Context as _, bail};
 use optimisation::{
     Answer, BestDesign, DesignGoal, Found, Judgement, SearchOptions, SearchProgress,
 };
-use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
+use ranking::{CRITERIA, Ranking, TetrahedralGrid, Weights};
 use run::{Program, Start};
 use text::number;
 
@@ -130,11 +130,11 @@ impl FrontOverGrid {
             .filter(|d| d.compliance.is_some_and(|c| c >= LEAST_COMPLIANCE))
             .filter_map(|d| Some([d.critical_force?, d.coverage?]))
             .collect();
-        let beaten = |a: &&[f64; 2]| grid.iter().any(|b| b != *a && at_least(b, *a));
+        let beaten = grid.iter().filter(|a| grid.iter().any(|b| b != *a && at_least(b, *a)));
         Ok(Self {
             designs: front.len(),
             grid: grid.len(),
-            grid_front: grid.iter().filter(|a| !beaten(a)).count(),
+            grid_front: grid.len() - beaten.count(),
             undominated: grid.iter().filter(|a| !front.iter().any(|b| at_least(b, *a))).count(),
         })
     }
@@ -163,14 +163,11 @@ fn ends(ranking: &Ranking<'_>) -> String {
     let designs: Vec<_> = ranking.by_fitness(Weights::BALANCED).collect();
     // Values instead of criteria, because the goal itself inverts the penetration.
     let ends = CRITERIA.iter().enumerate().map(|(c, criterion)| {
-        let better = |a: &&RankedDesign<'_>, b: &&RankedDesign<'_>| {
-            a.criterion(c).total_cmp(&b.criterion(c))
-        };
-        let value = |design: Option<&RankedDesign<'_>>| {
-            number::text(design.map_or(f64::NAN, |design| design.value(c)))
-        };
-        let (worst, best) = (designs.iter().min_by(better), designs.iter().max_by(better));
-        format!("{} = [{}, {}]", criterion.column, value(worst), value(best))
+        let worst = designs.iter().min_by(|a, b| a.criterion(c).total_cmp(&b.criterion(c)));
+        let best = designs.iter().max_by(|a, b| a.criterion(c).total_cmp(&b.criterion(c)));
+        let [worst, best] = [worst, best]
+            .map(|design| number::text(design.map_or(f64::NAN, |design| design.value(c))));
+        format!("{} = [{worst}, {best}]", criterion.column)
     });
     format!("{{ {} }}", ends.collect::<Vec<_>>().join(", "))
 }

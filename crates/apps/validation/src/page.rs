@@ -130,17 +130,19 @@ impl CheckedClaim {
         bases: usize,
         shown: impl Fn(&[&Finding]) -> bool,
     ) -> Vec<String> {
-        let row = |(k, ours): (usize, &CheckedStatement)| {
+        let mut rows = Vec::new();
+        for (k, ours) in self.statements.iter().enumerate() {
             let says = if ours.says.is_empty() { &self.claim.claim } else { &ours.says };
-            let all = || std::iter::once(ours).chain(others.iter().map(|of| &of.statements[k]));
+            let all = std::iter::once(ours).chain(others.iter().map(|of| &of.statements[k]));
             let found: Vec<Vec<_>> =
-                (0..bases).map(|base| all().map(|of| &of.found[base]).collect()).collect();
+                (0..bases).map(|base| all.clone().map(|of| &of.found[base]).collect()).collect();
             let cells: Vec<_> =
                 found.iter().flatten().map(|of| format!("{}: {}", of.verdict, of.ours)).collect();
-            let row = format!("| {}: {says} | {} |", self.claim.id, cells.join(" | "));
-            found.iter().any(|found| shown(found)).then_some(row)
-        };
-        self.statements.iter().enumerate().filter_map(row).collect()
+            if found.iter().any(|found| shown(found)) {
+                rows.push(format!("| {}: {says} | {} |", self.claim.id, cells.join(" | ")));
+            }
+        }
+        rows
     }
 }
 

@@ -185,8 +185,8 @@ impl ChoiceEffect {
                 // Count only the losses, because the page reports failures caused by a choice.
                 let lost = pairs.iter().filter(|(a, b)| a.is_some() && b.is_none()).count();
                 let designs = changes.len();
-                let at = |place: usize| changes.get(place).copied().unwrap_or(f64::NAN);
-                let changes = [at(0), at(designs / 2), at(designs.saturating_sub(1))];
+                let changes = [0, designs / 2, designs.saturating_sub(1)]
+                    .map(|place| changes.get(place).copied().unwrap_or(f64::NAN));
                 let both: Vec<_> =
                     pairs.iter().filter_map(|pair| Some([pair.0?, pair.1?])).collect();
                 let (setting, ranks) = (setting.clone(), ranking::rank_correlation(&both));
@@ -199,20 +199,19 @@ impl ChoiceEffect {
 impl Headlines {
     /// Returns the main results of a study.
     pub(crate) fn of(study: &Study) -> Self {
-        let nothing = || "none".to_owned();
         let best = study.design(0.1, 0.1, 75.0);
-        let force = best.and_then(|design| design.critical_force).map_or_else(nothing, digits);
+        let force = best.and_then(|design| design.critical_force);
         // A study without a ranking has a row that says so, because that is a result, too.
         let ranking = Ranking::new(&study.results, TetrahedralGrid::default()).ok();
-        let winner = |weights| {
+        let weights = std::iter::once(Weights::BALANCED).chain(Weights::alone());
+        let mut winners = weights.map(|weights| {
             let winner = ranking.as_ref().map(|ranking| ranking.winner(weights).row());
-            winner.map_or_else(nothing, |row| named(&study.designs[row]))
-        };
-        let mut alone = Weights::alone().map(winner);
+            winner.map_or_else(|| "none".to_owned(), |row| named(&study.designs[row]))
+        });
         Self {
-            force,
-            balanced: winner(Weights::BALANCED),
-            corners: std::array::from_fn(|_| alone.next().unwrap_or_default()),
+            force: force.map_or_else(|| "none".to_owned(), digits),
+            balanced: winners.next().unwrap_or_default(),
+            corners: std::array::from_fn(|_| winners.next().unwrap_or_default()),
         }
     }
 }

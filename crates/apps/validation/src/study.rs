@@ -100,9 +100,9 @@ impl Study {
     }
 
     fn setting(&self, row: usize) -> String {
-        let open = |parameter: &&Parameter| !is_geometry(parameter);
-        let axes = self.sweep.grid().axes().iter().map(Axis::parameter).filter(open);
-        axes.map(|parameter| {
+        let axes = self.sweep.grid().axes().iter().map(Axis::parameter);
+        let open = axes.filter(|parameter| !is_geometry(parameter));
+        open.map(|parameter| {
             format!("{} = {}", parameter.key, self.results.parameter(row, parameter))
         })
         .collect::<Vec<_>>()
@@ -141,29 +141,31 @@ impl Study {
 }
 
 fn designs(results: &Results) -> Result<Vec<MeasuredDesign>, InvalidResults> {
-    let number = |row, column| results.number(row, results.column(column)?);
     (0..results.len())
         .map(|row| {
-            let parameter = |column| Ok(number(row, column)?.unwrap_or(f64::NAN));
             Ok(MeasuredDesign {
-                gap: parameter("gap_over_t")?,
-                length: parameter("length_over_t")?,
-                slant: parameter("slant_deg")?,
-                coverage: number(row, name::COVERAGE)?,
-                critical_force: number(row, name::CRITICAL_FORCE)?,
-                penetration: number(row, name::PENETRATION)?,
-                compliance: number(row, name::COMPLIANCE)?,
-                initial_compliance: number(row, name::INITIAL_COMPLIANCE)?,
+                gap: number(results, row, "gap_over_t")?.unwrap_or(f64::NAN),
+                length: number(results, row, "length_over_t")?.unwrap_or(f64::NAN),
+                slant: number(results, row, "slant_deg")?.unwrap_or(f64::NAN),
+                coverage: number(results, row, name::COVERAGE)?,
+                critical_force: number(results, row, name::CRITICAL_FORCE)?,
+                penetration: number(results, row, name::PENETRATION)?,
+                compliance: number(results, row, name::COMPLIANCE)?,
+                initial_compliance: number(results, row, name::INITIAL_COMPLIANCE)?,
                 bends_to_contact: results.text(row, results.column(name::FLEXURE_CONTACT)?)
                     == "yes",
-                first_contact: number(row, name::FIRST_CONTACT)?,
-                initial_stiffness: number(row, name::INITIAL_STIFFNESS)?,
-                max_stiffness: number(row, name::MAX_STIFFNESS)?,
-                gap_stretch_min: number(row, name::GAP_STRETCH_MIN)?,
-                gap_stretch_max: number(row, name::GAP_STRETCH_MAX)?,
-                fold_force: number(row, name::FOLD_FORCE)?,
-                sound_force: number(row, name::SOUND_FORCE)?,
+                first_contact: number(results, row, name::FIRST_CONTACT)?,
+                initial_stiffness: number(results, row, name::INITIAL_STIFFNESS)?,
+                max_stiffness: number(results, row, name::MAX_STIFFNESS)?,
+                gap_stretch_min: number(results, row, name::GAP_STRETCH_MIN)?,
+                gap_stretch_max: number(results, row, name::GAP_STRETCH_MAX)?,
+                fold_force: number(results, row, name::FOLD_FORCE)?,
+                sound_force: number(results, row, name::SOUND_FORCE)?,
             })
         })
         .collect()
+}
+
+fn number(results: &Results, row: usize, column: &str) -> Result<Option<f64>, InvalidResults> {
+    results.number(row, results.column(column)?)
 }

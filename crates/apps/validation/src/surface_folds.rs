@@ -31,18 +31,15 @@ impl SurfaceFolds {
         neo_hookean: &[Study; 2],
         claims: [&[CheckedClaim]; 2],
     ) -> Self {
-        let is_concerned = |claim: &&CheckedClaim| CONCERNED.contains(&claim.claim.id.as_str());
-        let pairs = || claims[0].iter().zip(claims[1]);
-        let concerned = pairs().filter(|(claim, _)| is_concerned(claim));
-        let turned = pairs()
-            .filter(|(claim, other)| !is_concerned(claim) && claim.verdicts != other.verdicts);
-        Self {
-            rows: rows(linear, neo_hookean),
-            claims: concerned
-                .flat_map(|(claim, other)| claim.rows_beside(&[other], 2, |_| true))
-                .collect(),
-            turned: turned.map(|(claim, _)| claim.claim.id.clone()).collect(),
+        let (mut rows_of_claims, mut turned) = (Vec::new(), Vec::new());
+        for (claim, other) in claims[0].iter().zip(claims[1]) {
+            if CONCERNED.contains(&claim.claim.id.as_str()) {
+                rows_of_claims.extend(claim.rows_beside(&[other], 2, |_| true));
+            } else if claim.verdicts != other.verdicts {
+                turned.push(claim.claim.id.clone());
+            }
         }
+        Self { rows: rows(linear, neo_hookean), claims: rows_of_claims, turned }
     }
 
     /// Returns the parts of the page in Markdown, by their names.
@@ -59,35 +56,39 @@ impl SurfaceFolds {
     }
 }
 
+/// A function that computes a cell of a row for a study.
+type Count = fn(&Study) -> String;
+
 /// Returns the rows of the counts of each study.
 fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
     let studies = [&linear[0], &neo_hookean[0], &linear[1], &neo_hookean[1]];
-    let of_each = |what: &str, count: fn(&Study) -> String| {
-        let [a, b, c, d] = studies.map(count);
-        [what.to_owned(), a, b, c, d]
-    };
-    let mut rows = vec![
-        of_each("designs with a surface fold before 10°", |study| {
+    let counts: [(&str, Count); 7] = [
+        ("designs with a surface fold before 10°", |study| {
             study.designs.iter().filter(|design| folds(design)).count().to_string()
         }),
-        of_each("of the 60 with the largest `F_c*`", |study| {
+        ("of the 60 with the largest `F_c*`", |study| {
             strongest(study).into_iter().filter(|design| folds(design)).count().to_string()
         }),
-        of_each("force at the fold over `F_c*`: smallest, median, largest", |study| {
+        ("force at the fold over `F_c*`: smallest, median, largest", |study| {
             spread(
                 study.designs.iter().filter_map(|d| Some(d.fold_force? / d.critical_force?)),
                 digits,
             )
         }),
-        of_each("width of the tightest gap at 10°, over that at rest", |study| {
+        ("width of the tightest gap at 10°, over that at rest", |study| {
             spread(study.designs.iter().filter_map(|d| d.gap_stretch_min).reduce(f64::min), digits)
         }),
-        of_each("width of the widest", |study| {
+        ("width of the widest", |study| {
             spread(study.designs.iter().filter_map(|d| d.gap_stretch_max).reduce(f64::max), digits)
         }),
-        of_each("largest `F_c*`", |study| largest(study, |design| design.critical_force)),
-        of_each("largest force before a fold", |study| largest(study, |d| d.sound_force)),
+        ("largest `F_c*`", |study| largest(study, |design| design.critical_force)),
+        ("largest force before a fold", |study| largest(study, |d| d.sound_force)),
     ];
+    let rows = counts.into_iter().map(|(what, count)| {
+        let [a, b, c, d] = studies.map(count);
+        [what.to_owned(), a, b, c, d]
+    });
+    let mut rows: Vec<[String; 5]> = rows.collect();
     for (what, folded) in [("that fold", true), ("that do not", false)] {
         let changes = [0, 1].map(|base| changes(&linear[base], &neo_hookean[base], folded));
         let [paper, as_written] = changes;
@@ -108,8 +109,10 @@ fn folds(design: &MeasuredDesign) -> bool {
 fn strongest(study: &Study) -> Vec<&MeasuredDesign> {
     let mut designs: Vec<_> = study.designs.iter().collect();
     // Designs without a critical force sort last.
-    let force = |design: &MeasuredDesign| design.critical_force.unwrap_or(f64::NEG_INFINITY);
-    designs.sort_by(|a, b| force(b).total_cmp(&force(a)));
+    designs.sort_by(|a, b| {
+        let [a, b] = [a, b].map(|design| design.critical_force.unwrap_or(f64::NEG_INFINITY));
+        b.total_cmp(&a)
+    });
     designs.truncate(STRONGEST);
     designs
 }

@@ -49,20 +49,20 @@ impl PlaneFrame {
         loaded: usize,
         drive: Drive,
     ) -> Option<Self> {
-        let beam = |pair: &[FrameNode]| {
+        let beams = nodes.windows(2).map(|pair| {
             let [from, to] = [pair[0].place, pair[1].place];
             CorotationalBeam::new((to[0] - from[0]).hypot(to[1] - from[1]), axial, 1.0).ok()
-        };
-        let beams = nodes.windows(2).map(beam).collect::<Option<Vec<_>>>()?;
-        let control = |k: usize, scale| Control { index: 3 * loaded + k, scale };
+        });
+        let beams = beams.collect::<Option<Vec<_>>>()?;
         let stiffest = beams.iter().map(|beam| axial / beam.length()).fold(1.0, f64::max);
         // Residuals are scaled by the stiffest beam, also at fixed nodes.
         let units = vec![stiffest; 3 * nodes.len() + 1];
         let controls = match drive {
             // The negative scale starts the path downwards, because `u_y` points up.
-            Drive::Depth(depth) => [control(1, -depth), control(0, depth), control(2, 1.0)],
-            Drive::Load(load) => [control(3, load), control(1, -1.0), control(0, 1.0)],
+            Drive::Depth(depth) => [(1, -depth), (0, depth), (2, 1.0)],
+            Drive::Load(load) => [(3, load), (1, -1.0), (0, 1.0)],
         };
+        let controls = controls.map(|(k, scale)| Control { index: 3 * loaded + k, scale });
         Some(Self { nodes, beams, loaded, controls, units })
     }
 

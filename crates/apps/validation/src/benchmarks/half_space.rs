@@ -37,14 +37,15 @@ pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
 fn square() -> anyhow::Result<Vec<Benchmark>> {
     // A width of `2a` equals the length of the base.
     let [x, y, phi] = springs(ALONE, 2.0)?.direct;
-    let square = |name, source, values| Benchmark::new(name, source, values, 1e-4);
     let known = "converged boundary elements";
     let exact = half_space::SQUARE;
-    let mut all = vec![
-        square("rigid square punch, normal: α_y", "Borodachev 1976", [exact.normal, y]),
-        square("square sheared, ν = 0.5: α_x", known, [exact.shear, x]),
-        square("square tilted: α_φ", known, [exact.rocking, phi]),
+    let square = [
+        ("rigid square punch, normal: α_y", "Borodachev 1976", [exact.normal, y]),
+        ("square sheared, ν = 0.5: α_x", known, [exact.shear, x]),
+        ("square tilted: α_φ", known, [exact.rocking, phi]),
     ];
+    let square = square.map(|(name, source, values)| Benchmark::new(name, source, values, 1e-4));
+    let mut all = Vec::from(square);
     // The reference has three decimals.
     let row = six(&springs(0.2, 2.0)?);
     let printed = [half_space::THREE_SQUARES_DIRECT, half_space::THREE_SQUARES_COUPLING];
@@ -59,29 +60,31 @@ fn square() -> anyhow::Result<Vec<Benchmark>> {
 /// Compares the coefficient with the largest difference from a much finer mesh.
 fn converged() -> anyhow::Result<Vec<Benchmark>> {
     let corners = [(0.05, 0.25), (0.05, 80.0), (0.2, 2.0), (2.0, 20.0), (80.0, 0.25), (80.0, 80.0)];
-    let worst = |(gap, width)| {
+    let mut all = Vec::new();
+    for (gap, width) in corners {
         let ours = six(&springs(gap, width)?);
         let fine = extrapolated(&footprint(gap, width)?, [16, 24])?;
         // Relative to the direct coefficient, because a vanishing coupling has no significant
         // digits.
-        let off = |k: &usize| ((ours[*k] - fine[*k]) / fine[k % 3]).abs();
-        let k = (0..6).max_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
+        let off: [f64; 6] = std::array::from_fn(|k| ((ours[k] - fine[k]) / fine[k % 3]).abs());
+        let k = (0..6).max_by(|a, b| off[*a].total_cmp(&off[*b])).unwrap_or(0);
         let name = format!("d/a = {gap}, b/a = {width}: {} (the worst)", NAMES[k]);
-        Ok(Benchmark::new(name, "16 and 24 cells a side, extrapolated", [fine[k], ours[k]], 3e-3))
-    };
-    corners.into_iter().map(worst).collect()
+        let source = "16 and 24 cells a side, extrapolated";
+        all.push(Benchmark::new(name, source, [fine[k], ours[k]], 3e-3));
+    }
+    Ok(all)
 }
 
 /// Compares isolated rectangles with formulas of soil dynamics.
 fn formulas(width: f64) -> anyhow::Result<Vec<Benchmark>> {
     let ours = springs(ALONE, width)?.direct;
     let pais_kausel = half_space::pais_kausel(width).values();
-    let row = |name: &str, source, values| {
-        Benchmark::new(format!("rectangle b/a = {width}: {name}"), source, values, 0.06)
-    };
     let pais = (0..3)
-        .map(|k| row(NAMES[k], "formula of Pais & Kausel 1988, ± 6 %", [pais_kausel[k], ours[k]]));
+        .map(|k| (NAMES[k], "formula of Pais & Kausel 1988, ± 6 %", [pais_kausel[k], ours[k]]));
     let vertical = [half_space::gazetas_normal(width), ours[1]];
-    let gazetas = row("α_y", "formula of Gazetas 1991, ± 6 %", vertical);
-    Ok(pais.chain([gazetas]).collect())
+    let all = pais.chain([("α_y", "formula of Gazetas 1991, ± 6 %", vertical)]);
+    let all = all.map(|(name, source, values)| {
+        Benchmark::new(format!("rectangle b/a = {width}: {name}"), source, values, 0.06)
+    });
+    Ok(all.collect())
 }

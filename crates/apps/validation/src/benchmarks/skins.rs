@@ -34,15 +34,16 @@ fn isolated_scale() -> anyhow::Result<Vec<Benchmark>> {
         rotation: a.powi(3) * springs.direct[2],
         arm: [a + design.slant_deg.to_radians().tan(), 1.0],
     };
-    let row = |name, exact, ours: Option<f64>| {
+    let rows = [
+        ("F_c*", exact.force(tilt) / design.length, measures.critical_force),
+        ("u_c*", exact.displacement(tilt), measures.critical_displacement),
+    ];
+    let rows = rows.into_iter().map(|(name, exact, ours)| {
         let values = [exact, ours.context("an isolated scale does not tilt")?];
         let name = format!("isolated scale, slant 45°: {name}");
-        anyhow::Ok(Benchmark::new(name, "closed form", values, 1e-9))
-    };
-    Ok(vec![
-        row("F_c*", exact.force(tilt) / design.length, measures.critical_force)?,
-        row("u_c*", exact.displacement(tilt), measures.critical_displacement)?,
-    ])
+        Ok(Benchmark::new(name, "closed form", values, 1e-9))
+    });
+    rows.collect()
 }
 
 /// Compares the bending of upright blocks before and at their first contact.
@@ -50,7 +51,7 @@ fn bending() -> anyhow::Result<Vec<Benchmark>> {
     let design = Design { gap: 0.1, length: 1.0, slant_deg: 0.0, base: Base::L, width: 1.0 };
     let (gap, pitch) = (design.gap, design.gap + design.length);
     let missing = "upright blocks do not meet";
-    let bent = |elements_per_gap| {
+    let [one, many] = [MembraneMesh::Elements(1), MembraneMesh::Auto].map(|elements_per_gap| {
         let parameters = flexure::FlexureParameters {
             // On the 100 t of the sweeps, upright blocks with this gap never touch.
             membrane_length: 10.0,
@@ -58,26 +59,22 @@ fn bending() -> anyhow::Result<Vec<Benchmark>> {
             ..flexure::FlexureParameters::default()
         };
         flexure::solve(&design, &Common::default(), &parameters)
-    };
-    let (one, many) = (bent(MembraneMesh::Elements(1))?, bent(MembraneMesh::Auto)?);
+    });
+    let (one, many) = (one?, many?);
     let free = one.path.get(1).context(missing)?;
     let [coarse, fine] = [&one, &many].map(|of| of.events.first().context(missing));
     let (coarse, fine) = (coarse?.point, fine?.point);
-    let row = |name: &str, values, band| {
+    let stiffness = [moment_over_curvature(gap, pitch), free.moment / free.curvature];
+    let curvature = [contact_curvature(gap, pitch), fine.curvature];
+    let coarse_moment = [contact_moment_of_polygon(gap, 1), coarse.moment];
+    let rows = [
+        ("M*/κ* before contact", stiffness, 1e-10),
+        ("M* at first contact, elastica", [CONTACT_MOMENT, fine.moment], 1e-9),
+        ("κ* at first contact, elastica", curvature, 1e-9),
+        ("M* at first contact, 1 element", coarse_moment, 1e-9),
+    ];
+    let rows = rows.map(|(name, values, band)| {
         Benchmark::new(format!("upright blocks, d/t = 0.1: {name}"), "closed form", values, band)
-    };
-    Ok(vec![
-        row(
-            "M*/κ* before contact",
-            [moment_over_curvature(gap, pitch), free.moment / free.curvature],
-            1e-10,
-        ),
-        row("M* at first contact, elastica", [CONTACT_MOMENT, fine.moment], 1e-9),
-        row("κ* at first contact, elastica", [contact_curvature(gap, pitch), fine.curvature], 1e-9),
-        row(
-            "M* at first contact, 1 element",
-            [contact_moment_of_polygon(gap, 1), coarse.moment],
-            1e-9,
-        ),
-    ])
+    });
+    Ok(rows.into())
 }

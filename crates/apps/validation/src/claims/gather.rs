@@ -33,12 +33,11 @@ const HALVINGS: i32 = 10;
 
 /// Gathers the evidence of a study.
 pub(super) fn gather(study: &Study) -> Evidence {
-    let curves = |among: fn(&MeasuredDesign) -> bool, by: DesignParameter| curves(study, among, by);
     Evidence {
         designs: study.designs.clone(),
-        by_slant: curves(|d| (d.gap, d.length) == (0.1, 1.0), SLANT),
-        by_length: curves(|d| (d.gap, d.slant) == (0.1, 45.0) && d.is_in_figures(), LENGTH),
-        by_gap: curves(|d| (d.length, d.slant) == (0.5, 45.0), GAP),
+        by_slant: curves(study, |d| (d.gap, d.length) == (0.1, 1.0), SLANT),
+        by_length: curves(study, |d| (d.gap, d.slant) == (0.1, 45.0) && d.is_in_figures(), LENGTH),
+        by_gap: curves(study, |d| (d.length, d.slant) == (0.5, 45.0), GAP),
         loaded: loaded(study),
         kink: two_blocks(study).as_ref().and_then(kink),
         strips: strips(study).unwrap_or_default(),
@@ -157,11 +156,11 @@ fn two_blocks(study: &Study) -> Option<Puncture> {
 /// Returns the ratio of the mean stiffnesses in the steps after and before the first contact.
 fn kink(puncture: &Puncture) -> Option<f64> {
     let first = puncture.path.iter().position(|point| point.contacts > 0)?;
-    let stiffness = |at: usize| {
+    let [before, after] = [first.checked_sub(1)?, first].map(|at| {
         let [from, to] = [puncture.path.get(at)?, puncture.path.get(at + 1)?];
         Some((to.force - from.force) / (to.displacement - from.displacement))
-    };
-    Some(stiffness(first)? / stiffness(first.checked_sub(1)?)?)
+    });
+    Some(after? / before?)
 }
 
 /// Bends the strips of Fig. 11b.
@@ -185,7 +184,6 @@ fn bent(study: &Study, slant: f64, length: f64) -> Option<Flexure> {
 }
 
 fn bent_strip(slant: f64, bent: &Flexure) -> BentStrip {
-    let axial = |point: &flexure::FlexurePoint| point.axial_energy / point.bending_energy;
     let free = bent.path.iter().filter(|p| p.contacts == 0 && p.bending_energy > 0.0);
     let slopes: Vec<f64> =
         bent.path.iter().filter(|point| point.contacts > 0).map(|point| point.stiffness).collect();
@@ -194,20 +192,25 @@ fn bent_strip(slant: f64, bent: &Flexure) -> BentStrip {
     let last = slopes.last().filter(|_| bent.status == Status::Complete);
     BentStrip {
         slant,
-        axial_before: free.map(axial).fold(0.0, f64::max),
-        axial_at_end: bent.path.last().map_or(0.0, axial),
+        axial_before: free.map(axial_share).fold(0.0, f64::max),
+        axial_at_end: bent.path.last().map_or(0.0, axial_share),
         softening: last.zip(steepest).map(|(last, steepest)| last / steepest),
     }
+}
+
+fn axial_share(point: &flexure::FlexurePoint) -> f64 {
+    point.axial_energy / point.bending_energy
 }
 
 fn balanced(study: &Study) -> Option<Balanced> {
     let ranking = Ranking::new(&study.results, TetrahedralGrid::default()).ok()?;
     let best = ranking.winner(Weights::BALANCED);
-    let design = |row: usize| study.designs.get(row).copied();
-    let printed = |row| design(row).is_some_and(|d| (d.gap, d.length, d.slant) == (0.7, 0.1, 60.0));
-    let printed = ranking.winners().into_iter().find(|winner| printed(winner.row()));
+    let printed = ranking.winners().into_iter().find(|winner| {
+        let design = study.designs.get(winner.row());
+        design.is_some_and(|d| (d.gap, d.length, d.slant) == (0.7, 0.1, 60.0))
+    });
     Some(Balanced {
-        best: design(best.row())?,
+        best: study.designs.get(best.row()).copied()?,
         fitness: best.fitness,
         share: 100.0 * best.share(),
         // A design without a win has 0 % of the weightings.

@@ -57,9 +57,9 @@ pub(super) fn contact_is_delayed(evidence: &Evidence) -> Option<Measured> {
     let contacts: Vec<_> = evidence.by_gap.iter().map(|curve| Some(curve.contact?[0])).collect();
     let touching = contacts.iter().rposition(Option::is_some)?;
     // The step from the last row with contact to the first row without contact also counts.
-    let later = |i: usize| (i > touching).then_some(f64::INFINITY);
     let line = contacts.iter().take(touching + 2).enumerate();
-    let steps = TrendSteps::rising(&[line.map(|(i, contact)| contact.or(later(i))).collect()]);
+    let line = line.map(|(i, contact)| contact.or((i > touching).then_some(f64::INFINITY)));
+    let steps = TrendSteps::rising(&[line.collect()]);
     let shown = format!("{steps}: {}", listed(&contacts));
     Some(Measured { value: steps.percent()?, shown })
 }

@@ -28,8 +28,9 @@ impl Verdict {
     ///
     /// It is reproduced if all are, and not reproduced if none is, not even in part.
     pub(crate) fn of_all(statements: &[Self]) -> Self {
-        let all = |verdict| statements.iter().all(|found| *found == verdict);
-        Self::graded(all(Self::Reproduced), !all(Self::NotReproduced))
+        let is_whole = statements.iter().all(|found| *found == Self::Reproduced);
+        let is_partial = statements.iter().any(|found| *found != Self::NotReproduced);
+        Self::graded(is_whole, is_partial)
     }
 }
 
