@@ -309,6 +309,22 @@ impl Explorer {
         })
     }
 
+    /// Returns the kind of needle that a control requires, if any.
+    fn needle_of_control(&self, over_t: &str) -> Option<&'static str> {
+        // For a free needle, friction determines the critical tilt, so only one of them has a
+        // control.
+        let grid = self.sweep.grid();
+        let friction_is_given =
+            grid.base().needle_friction.is_some() || grid.axis(key::NEEDLE_FRICTION).is_some();
+        let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
+        match over_t {
+            key::NEEDLE_FRICTION if !friction_says_tilt => Some("guided"),
+            key::CRITICAL_TILT if friction_says_tilt => Some("guided"),
+            key::NEEDLE_RADIUS => Some("guided"),
+            _ => None,
+        }
+    }
+
     /// Creates the control of a parameter, over the values of its axis or variable, or a default
     /// range.
     fn control(&self, &(over_t, label, range, opens_at, if_given): &Offered) -> Option<Control> {
@@ -329,17 +345,6 @@ impl Explorer {
         if if_given && span.is_none() && own.number().is_none() {
             return None;
         }
-        // For a free needle, friction determines the critical tilt, so only one of them has a
-        // control.
-        let friction_is_given =
-            grid.base().needle_friction.is_some() || grid.axis(key::NEEDLE_FRICTION).is_some();
-        let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
-        let only = match over_t {
-            key::NEEDLE_FRICTION if !friction_says_tilt => Some("guided"),
-            key::CRITICAL_TILT if friction_says_tilt => Some("guided"),
-            key::NEEDLE_RADIUS => Some("guided"),
-            _ => None,
-        };
         let [min, max] = span.unwrap_or(range.map(|end| end * factor));
         // The first design of several is a corner of the grid and seldom a good one.
         let middle = min + opens_at * (max - min);
@@ -370,7 +375,7 @@ impl Explorer {
             value,
             zero: is_sharp.then_some("sharp"),
             words,
-            only,
+            only: self.needle_of_control(over_t),
             is_radius: false,
         })
     }

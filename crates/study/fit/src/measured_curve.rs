@@ -137,16 +137,7 @@ impl MeasuredCurve {
             let problem = "a quote (\") is not closed, expected it in pairs".to_owned();
             return Err(wrong(rows.open_quote, problem));
         }
-        let mut tables = rows.tables(|row| Header::known(&rows, row).is_some());
-        let longest = tables.iter().find(|table| table.is_longest);
-        // If the definition names the columns, a repetition of the row above the longest table
-        // begins another specimen.
-        let repeated = longest.and_then(|table| table.above.clone().last());
-        if columns.is_some() {
-            let repeated = repeated.filter(|row| rows.is_text(*row));
-            let repeated = repeated.map(|row| &rows.all[row].cells);
-            tables = rows.tables(|row| Some(&rows.all[row].cells) == repeated);
-        }
+        let tables = tables(&rows, columns.is_some());
         if tables.is_empty() {
             let header = Header::find(&rows, 0..rows.all.len(), columns);
             header.curves().map_err(|problem| wrong(header.line(&rows), problem))?;
@@ -209,14 +200,8 @@ impl MeasuredCurve {
         let last = table.rows.iter().copied().rfind(|row| rows.are_numbers(*row, indices));
         for &row in &table.rows {
             let Row { line, cells, .. } = &rows.all[row];
-            // A number with a decimal comma between commas would become two cells.
-            let mut beyond = cells.iter().skip(names.len());
-            if !header.is_given && beyond.any(|cell| !cell.is_empty()) {
-                let (found, columns) = (cells.len(), names.len());
-                let problem = format!(
-                    "has {found} cells under {columns} columns, expected as many (with a decimal comma, ; between cells)"
-                );
-                return Err((*line, problem));
+            if !header.is_given {
+                check_width(cells, names.len()).map_err(|problem| (*line, problem))?;
             }
             let pair = indices.map(|index| rows.all[row].cell(index));
             if pair == ["", ""] {
@@ -302,6 +287,33 @@ impl MeasuredCurve {
     pub(crate) fn branches(&self) -> Branches {
         loading::branches(&self.points, &self.lines)
     }
+}
+
+/// Finds the tables of the specimens in a file.
+fn tables(rows: &Rows, are_columns_named: bool) -> Vec<NumberTable> {
+    let tables = rows.tables(|row| Header::known(rows, row).is_some());
+    if !are_columns_named {
+        return tables;
+    }
+    // If the definition names the columns, a repetition of the row above the longest table begins
+    // another specimen.
+    let longest = tables.iter().find(|table| table.is_longest);
+    let repeated = longest.and_then(|table| table.above.clone().last());
+    let repeated = repeated.filter(|row| rows.is_text(*row)).map(|row| &rows.all[row].cells);
+    rows.tables(|row| Some(&rows.all[row].cells) == repeated)
+}
+
+/// Refuses a row with more cells than columns.
+///
+/// A number with a decimal comma between commas would become two cells.
+fn check_width(cells: &csv::StringRecord, columns: usize) -> Result<(), String> {
+    if cells.iter().skip(columns).all(str::is_empty) {
+        return Ok(());
+    }
+    Err(format!(
+        "has {} cells under {columns} columns, expected as many (with a decimal comma, ; between cells)",
+        cells.len()
+    ))
 }
 
 /// Reads a text file, or returns the problem.

@@ -29,6 +29,7 @@ enum Place {
     Before,
     /// Displacement or curvature in model units, and the point of the model there.
     On(f64, CurvePoint),
+    /// Beyond the end of the path.
     Beyond,
 }
 
@@ -108,17 +109,7 @@ impl FitDefinition {
         let [touching, back] = [loading, unloading].map(touching);
         let found = path.solve(&case, &sought, [&touching, &back])?;
         let last = last(&touching, &found);
-        let mut found = found.into_iter().enumerate();
-        let mut places = Vec::new();
-        for at in wanted {
-            let found = if at > 0.0 { found.next() } else { None };
-            places.push(match found {
-                Some((_, Some(point))) => Place::On(at, point),
-                Some((k, None)) if k < touching.len() => Place::Beyond,
-                // The needle does not touch yet, or no longer below the residual displacement.
-                None | Some(_) => Place::Before,
-            });
-        }
+        let places = places(&wanted, found, touching.len());
         let modelled = places.iter().map(|place| match place {
             Place::Before => zero[1],
             Place::On(_, point) => zero[1] + units[1] * point.value,
@@ -285,6 +276,24 @@ impl Path<'_> {
 /// Returns the positive displacements or curvatures, which lie on the path.
 fn touching(wanted: &[f64]) -> Vec<f64> {
     wanted.iter().copied().filter(|place| *place > 0.0).collect()
+}
+
+/// Returns the positions of measured points, from the points found on the path.
+///
+/// The first `loading` points found are on the loading branch.
+fn places(wanted: &[f64], found: CurvePoints, loading: usize) -> Vec<Place> {
+    let mut found = found.into_iter().enumerate();
+    let mut places = Vec::new();
+    for &at in wanted {
+        let found = if at > 0.0 { found.next() } else { None };
+        places.push(match found {
+            Some((_, Some(point))) => Place::On(at, point),
+            Some((k, None)) if k < loading => Place::Beyond,
+            // The needle does not touch yet, or no longer below the residual displacement.
+            None | Some(_) => Place::Before,
+        });
+    }
+    places
 }
 
 /// Returns the value at the farthest point that the path reaches.

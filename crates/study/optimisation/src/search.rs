@@ -140,24 +140,7 @@ fn find(
     let rescaled = ends(goal, rows);
     let judge = Judge::rescaling(&goal.nominal(), &rescaled);
     let nominal = Search { space: &goal.space, evaluations, judge: &judge, progress };
-    // Goals about parameters and mass alone have no contacts and no kinks, so peaks do not matter.
-    let on_peaks = if nominal.judge.has_regions() {
-        points_on_peaks(&goal.space, nominal.judge, goal.seed)
-    } else {
-        Vec::new()
-    };
-    progress.begin(SearchPart::Sample, on_peaks.len(), on_peaks.len() as u64);
-    let known = points.len();
-    let points = [points, on_peaks].concat();
-    // The journal holds the space-filling points already: only points on peaks are solved here.
-    let mut history: Vec<Candidate> = points
-        .into_par_iter()
-        .enumerate()
-        .map(|(k, point)| {
-            let _task = (k >= known).then(|| progress.task(1));
-            Ok(nominal.evaluate(SearchStage::Sample, &point, false)?.0)
-        })
-        .collect::<Result<_, _>>()?;
+    let mut history = first_candidates(&nominal, points, goal.seed)?;
     let mut limits = Limits { goal, tightened: goal.clone(), rescaled: &rescaled };
     let mut answer = limits.nominal_answer(&nominal, &mut history)?;
     if goal.is_about_samples() {
@@ -178,27 +161,56 @@ fn find(
     let judge = Judge::rescaling(&limits.tightened, &rescaled);
     let search = Search { judge: &judge, ..nominal };
     let left_out = LeftOutDesigns::of(&search, &history);
+    Ok(Found {
+        regions: region_count(&search, &history),
+        history,
+        answer,
+        left_out,
+        starts: progress.starts(),
+        evaluations: evaluations.count(),
+        searched: limits.tightened.requirements,
+        rescaled,
+        missed,
+        rounding,
+    })
+}
+
+/// Evaluates the space-filling points, and points on coverage peaks.
+fn first_candidates(
+    nominal: &Search<'_>,
+    points: Vec<SpacePoint>,
+    seed: u64,
+) -> Result<Vec<Candidate>, Halt> {
+    // Goals about parameters and mass alone have no contacts and no kinks, so peaks do not matter.
+    let on_peaks = if nominal.judge.has_regions() {
+        points_on_peaks(nominal.space, nominal.judge, seed)
+    } else {
+        Vec::new()
+    };
+    nominal.progress.begin(SearchPart::Sample, on_peaks.len(), on_peaks.len() as u64);
+    let known = points.len();
+    // The journal holds the space-filling points already: only points on peaks are solved here.
+    [points, on_peaks]
+        .concat()
+        .into_par_iter()
+        .enumerate()
+        .map(|(k, point)| {
+            let _task = (k >= known).then(|| nominal.progress.task(1));
+            Ok(nominal.evaluate(SearchStage::Sample, &point, false)?.0)
+        })
+        .collect()
+}
+
+/// Counts the regions of the space that hold candidates.
+fn region_count(search: &Search<'_>, history: &[Candidate]) -> usize {
     let mut regions: Vec<Region> = Vec::new();
-    for candidate in &history {
-        let region = region(&search, candidate);
+    for candidate in history {
+        let region = region(search, candidate);
         if !regions.contains(&region) {
             regions.push(region);
         }
     }
-    let (starts, evaluations) = (progress.starts(), evaluations.count());
-    let (searched, regions) = (limits.tightened.requirements, regions.len());
-    Ok(Found {
-        history,
-        answer,
-        left_out,
-        starts,
-        regions,
-        evaluations,
-        rescaled,
-        searched,
-        missed,
-        rounding,
-    })
+    regions.len()
 }
 
 /// Number of searches with tighter limits after the first.

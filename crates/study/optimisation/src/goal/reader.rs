@@ -108,32 +108,19 @@ impl DesignGoal {
         if !refused.is_empty() {
             return Err(InvalidDefinition::several(refused));
         }
-        let GoalSection {
-            objectives,
-            requirements,
-            standards,
-            sound,
-            confirm,
-            round,
-            samples,
-            points,
-            skins,
-            seed,
-            ..
-        } = section;
         Ok(Self {
             space,
-            objectives: objectives.into_iter().map(|(objective, _)| objective).collect(),
-            requirements: requirements.into_iter().map(|(requirement, _)| requirement).collect(),
-            standards,
+            objectives: section.objectives.into_iter().map(|(objective, _)| objective).collect(),
+            requirements: section.requirements.into_iter().map(|(required, _)| required).collect(),
+            standards: section.standards,
             fitness,
-            sound,
-            confirm,
-            round: round.map(|(round, _)| round),
-            samples,
-            points,
-            realisations: skins,
-            seed,
+            sound: section.sound,
+            confirm: section.confirm,
+            round: section.round.map(|(round, _)| round),
+            samples: section.samples,
+            points: section.points,
+            realisations: section.skins,
+            seed: section.seed,
             text: to_toml(entries),
         })
     }
