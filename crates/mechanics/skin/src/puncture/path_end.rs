@@ -66,11 +66,13 @@ impl PunctureEnd {
     /// Returns the end of a path, unless an event before it may change the result of a neighbour.
     pub(super) fn new(problem: &Problem, followed: &Followed) -> Option<Self> {
         let Followed { watch, path, status, .. } = followed;
+        if !problem.has_end() || *status != Status::Complete {
+            return None;
+        }
         let folds_for_good = watch.folds.least_dip >= LEAST_STRETCH;
         // A tilt that reverses may reach its critical value on another branch of a neighbour.
         let tilts_on = watch.record.path.is_sorted_by_key(|point| point.tilt_deg);
-        let is_complete = problem.has_end() && *status == Status::Complete;
-        if !(is_complete && folds_for_good && tilts_on) {
+        if !(folds_for_good && tilts_on) {
             return None;
         }
         Some(Self::at(problem, path.system().layout, TargetPoint::of_path(path)?))

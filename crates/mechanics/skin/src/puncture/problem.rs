@@ -28,7 +28,7 @@ use crate::{Common, Design, PathDetail, Sample, Status, Unloading};
 /// It covers the round-off of a symmetric row.
 const STRAIGHT_DEG: f64 = 1e-6;
 
-/// Factors on the largest step with which a path is followed again, in turn.
+/// Factors by which the largest step is reduced, in turn, when a path is followed again.
 const FINER_STEPS: [f64; 2] = [0.25, 0.05];
 
 /// Depth, relative to the largest one, below which a path is back at rest.
