@@ -6,7 +6,7 @@ use solver::{Continuation, Settings, State, System, Termination};
 use crate::problems::{StringOverFloor, arch, arch_on_spring, bump, corner};
 use crate::scaled::Scaled;
 use crate::walls::Walls;
-use crate::{changes, extrema, follow, steps};
+use crate::{changes, extrema, follow, follow_modes, steps};
 
 #[test]
 fn a_bump_activates_and_deactivates_its_constraint() {
@@ -54,7 +54,7 @@ fn a_bump_within_one_step_is_not_missed() {
 fn a_bump_within_a_later_step_is_not_missed() {
     for (start, step) in [(0.4, 1.0), (0.9, 0.7), (0.7, 0.6)] {
         let rest = State { z: vec![start, 0.0, 0.5 * start], active: vec![false], mode: () };
-        let mut path = Continuation::new(bump(), rest, steps(step));
+        let mut path = Continuation::new(Scaled::by_one(bump()), rest, steps(step));
         let points: Vec<_> = path.by_ref().collect();
         assert_eq!(path.termination(), Some(Termination::Reached));
         let changes = changes(&points);
@@ -75,7 +75,8 @@ fn a_thin_wall_within_one_step_is_not_missed() {
     for system in [Walls::new(vec![wall]), Walls::measured_by_the_load(vec![wall])] {
         for start in [0.0, 0.1, 0.35] {
             let rest = State { z: vec![start, 0.0, start], active: vec![false], mode: () };
-            let points: Vec<_> = Continuation::new(system.clone(), rest, steps(2.0)).collect();
+            let points: Vec<_> =
+                Continuation::new(Scaled::by_one(system.clone()), rest, steps(2.0)).collect();
             let places =
                 changes(&points).iter().map(|(point, _)| point.state.z[0]).collect::<Vec<_>>();
             assert_eq!(places.len(), 2, "from {start}: {places:?}");
@@ -130,10 +131,14 @@ fn a_shielded_wall_stays_open() {
 /// Units are arbitrary: the path has the same points, in equal number.
 #[test]
 fn a_path_does_not_depend_on_the_units_of_its_unknowns() {
-    fn compare<S: System + Clone>(system: S, factors: Vec<f64>, settings: Settings) {
+    fn compare(
+        system: impl System<Mode = ()> + Clone + 'static,
+        factors: Vec<f64>,
+        settings: Settings,
+    ) {
         let (ours, stop) = follow(system.clone(), settings);
         let scaled = Scaled::new(system, factors);
-        let (theirs, same) = follow(scaled.clone(), settings);
+        let (theirs, same) = follow_modes(scaled.clone(), settings);
         assert_eq!((stop, ours.len()), (same, theirs.len()));
         for (ours, theirs) in ours.iter().zip(&theirs) {
             assert_eq!(ours.event, theirs.event);

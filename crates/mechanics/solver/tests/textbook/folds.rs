@@ -5,6 +5,7 @@ use solver::{Continuation, Settings, State, Termination};
 use std::f64::consts::TAU;
 
 use crate::problems::{Bratu, SPRING, arch, arch_on_spring, circle};
+use crate::scaled::Scaled;
 use crate::{extrema, follow, steps};
 
 #[test]
@@ -63,7 +64,7 @@ fn a_snap_back_does_not_depend_on_the_steps() {
 #[test]
 fn a_circle_is_followed_all_the_way_round() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
-    let mut path = Continuation::new(circle(), start, Settings::default());
+    let mut path = Continuation::new(Scaled::by_one(circle()), start, Settings::default());
     let (mut turned, mut before) = (0.0, path.point().clone());
     loop {
         let point = path.next().unwrap();
@@ -89,7 +90,8 @@ fn a_circle_is_followed_all_the_way_round() {
 #[test]
 fn steps_with_sharp_turns_are_shortened() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
-    let points: Vec<_> = Continuation::new(circle(), start, steps(1.0)).take(100).collect();
+    let points: Vec<_> =
+        Continuation::new(Scaled::by_one(circle()), start, steps(1.0)).take(100).collect();
     let turns = points.windows(2).map(|pair| {
         let [from, to] = [&pair[0], &pair[1]].map(|point| &point.leaving[..]);
         let along = (from[0] * to[0] + from[1] * to[1]) / from[0].hypot(from[1]).powi(2);
@@ -104,7 +106,7 @@ fn steps_with_sharp_turns_are_shortened() {
 #[test]
 fn the_load_of_a_circle_turns_at_the_top_and_at_the_bottom() {
     let start = State { z: vec![0.6, -0.8], active: Vec::new(), mode: () };
-    let path = Continuation::new(circle(), start, Settings::default());
+    let path = Continuation::new(Scaled::by_one(circle()), start, Settings::default());
     let points: Vec<_> = path.take(300).collect();
     let extrema = extrema(&points);
     assert!(extrema.len() > 4);
@@ -144,7 +146,8 @@ fn a_path_is_the_same_every_time() {
 
 #[test]
 fn intermediate_equilibria_lie_on_the_path() {
-    let mut path = Continuation::new(arch(), State::at_rest(&arch()), Settings::default());
+    let mut path =
+        Continuation::new(Scaled::by_one(arch()), State::at_rest(&arch()), Settings::default());
     let start = path.point().clone();
     let end = path.nth(1).unwrap();
     for fraction in [0.0, 0.25, 1.0] {

@@ -5,7 +5,7 @@ use solver::{
     Blocks, Change, Control, Residual, State, System, Tangent, Termination, check_tangent,
 };
 
-use crate::{follow, steps};
+use crate::{follow_modes, steps};
 
 /// Friction coefficient, and relative normal-force increase with displacement.
 const FRICTION: f64 = 0.2;
@@ -117,7 +117,7 @@ const LEFT: f64 = FRICTION / (1.0 - FRICTION * WEDGE);
 #[test]
 fn a_block_sticks_slips_sticks_and_slips_back() {
     for (in_blocks, largest) in [(true, 0.2), (false, 0.2), (true, 0.03), (false, 1.0)] {
-        let (points, stop) = follow(block(in_blocks), steps(largest));
+        let (points, stop) = follow_modes(block(in_blocks), steps(largest));
         assert_eq!(stop, Termination::Reached);
         let changes: Vec<_> = points.iter().filter(|point| point.event.is_some()).collect();
         let [slides, stops, back, _] = &changes[..] else { panic!("{changes:?}") };
@@ -136,7 +136,7 @@ fn a_block_sticks_slips_sticks_and_slips_back() {
 /// The tangent of a slipping block is unsymmetric; both eliminations handle it.
 #[test]
 fn the_tangent_of_a_slipping_block_agrees_with_differences() {
-    let (points, _) = follow(block(true), steps(0.05));
+    let (points, _) = follow_modes(block(true), steps(0.05));
     for point in points {
         check_tangent(&block(true), &point.state, 1e-8).unwrap_or_else(|wrong| {
             // Rows of slip distances may differ: the tangent has the slope of the condition if a

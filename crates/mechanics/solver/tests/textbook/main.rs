@@ -12,6 +12,7 @@ mod tangents;
 mod walls;
 mod work;
 
+use scaled::Scaled;
 use solver::{Continuation, Equilibrium, Event, Settings, State, System, Termination};
 
 /// Returns settings with a largest step.
@@ -20,7 +21,18 @@ fn steps(largest: f64) -> Settings {
 }
 
 /// Returns all points of a path from rest, and the reason of its end.
-fn follow<S: System>(system: S, settings: Settings) -> (Vec<Equilibrium<S::Mode>>, Termination) {
+fn follow(
+    system: impl System<Mode = ()> + 'static,
+    settings: Settings,
+) -> (Vec<Equilibrium>, Termination) {
+    follow_modes(Scaled::by_one(system), settings)
+}
+
+/// Follows the path of a system with any modes, see [`follow`].
+fn follow_modes<S: System>(
+    system: S,
+    settings: Settings,
+) -> (Vec<Equilibrium<S::Mode>>, Termination) {
     let rest = State::at_rest(&system);
     let mut path = Continuation::new(system, rest, settings);
     let points = path.by_ref().collect();

@@ -4,10 +4,16 @@ use approx::assert_relative_eq;
 use solver::{Continuation, Equilibrium, Peak, State, System};
 
 use crate::problems::{arch, kink, step, two_laws};
+use crate::scaled::Scaled;
 use crate::steps;
 
 /// Returns the largest slope `dp/du` from rest, at points and between them.
-fn steepest<S: System>(system: S, largest_step: f64) -> [f64; 2] {
+fn steepest(system: impl System<Mode = ()> + 'static, largest_step: f64) -> [f64; 2] {
+    steepest_of_modes(Scaled::by_one(system), largest_step)
+}
+
+/// Returns the largest slope of a system with any modes, see [`steepest`].
+fn steepest_of_modes<S: System>(system: S, largest_step: f64) -> [f64; 2] {
     let load = system.load();
     largest(system, largest_step, |_, direction| direction[load] / direction[0])
 }
@@ -81,10 +87,11 @@ fn a_maximum_close_behind_a_kink_is_found() {
 #[test]
 fn a_maximum_very_close_behind_a_kink_is_found() {
     for largest_step in [0.13, 0.047, 0.011] {
-        let [_, refined] = largest(kink::<400>(), largest_step, |state, direction| {
-            let away = (0.5 - state.z[0]).max(state.z[0] - 0.55).max(0.0);
-            direction[2] / direction[0] - away
-        });
+        let [_, refined] =
+            largest(Scaled::by_one(kink::<400>()), largest_step, |state, direction| {
+                let away = (0.5 - state.z[0]).max(state.z[0] - 0.55).max(0.0);
+                direction[2] / direction[0] - away
+            });
         assert_relative_eq!(refined, steepest_behind_the_kink(400.0), max_relative = 1e-6);
     }
 }
@@ -92,7 +99,7 @@ fn a_maximum_very_close_behind_a_kink_is_found() {
 #[test]
 fn a_peak_before_a_change_of_mode_belongs_to_the_earlier_mode() {
     for largest_step in [0.047, 0.031] {
-        let [_, refined] = steepest(two_laws(), largest_step);
+        let [_, refined] = steepest_of_modes(two_laws(), largest_step);
         assert_relative_eq!(refined, 3.0, max_relative = 1e-8);
     }
 }

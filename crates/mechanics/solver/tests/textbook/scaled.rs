@@ -1,30 +1,92 @@
-//! Problems in other units.
+//! Systems behind a pointer, in their own or in other units.
+//!
+//! The solver is then compiled for one type instead of one for each problem.
 
 use std::borrow::Cow;
+use std::rc::Rc;
 
 use solver::{BandMatrix, Change, Control, Residual, State, System, Tangent};
+
+/// Methods of a [`System`] without history, callable through a pointer.
+trait Problem {
+    fn size(&self) -> usize;
+    fn half_bandwidth(&self) -> usize;
+    fn load(&self) -> usize;
+    fn load_only_pushes(&self) -> bool;
+    fn constraints(&self) -> &[usize];
+    fn residual(&self, state: &State, residual: &mut Residual);
+    fn tangent(&self, state: &State) -> BandMatrix;
+    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64;
+    fn transition(&self, state: &mut State, change: Change) -> Option<usize>;
+}
+
+impl<S: System<Mode = ()>> Problem for S {
+    fn size(&self) -> usize {
+        System::size(self)
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        System::half_bandwidth(self)
+    }
+
+    fn load(&self) -> usize {
+        System::load(self)
+    }
+
+    fn load_only_pushes(&self) -> bool {
+        System::load_only_pushes(self)
+    }
+
+    fn constraints(&self) -> &[usize] {
+        System::constraints(self)
+    }
+
+    fn residual(&self, state: &State, residual: &mut Residual) {
+        System::residual(self, state, residual);
+    }
+
+    fn tangent(&self, state: &State) -> BandMatrix {
+        let mut matrix = BandMatrix::new(System::size(self), System::half_bandwidth(self));
+        System::tangent(self, state, &mut matrix);
+        matrix
+    }
+
+    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+        System::slope(self, state, constraint, direction)
+    }
+
+    fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
+        System::transition(self, state, change)
+    }
+}
 
 /// System in other units: `factors` multiply unknowns and control scales.
 ///
 /// The path is the same.
 #[derive(Clone)]
-pub struct Scaled<S> {
-    system: S,
+pub struct Scaled {
+    system: Rc<dyn Problem>,
     factors: Vec<f64>,
     controls: Vec<Control>,
 }
 
-impl<S: System> Scaled<S> {
+impl Scaled {
     /// Factors of constraints must be positive.
-    pub fn new(system: S, factors: Vec<f64>) -> Self {
+    pub fn new(system: impl System<Mode = ()> + 'static, factors: Vec<f64>) -> Self {
         let mut controls = system.controls().to_vec();
         for control in &mut controls {
             control.scale *= factors[control.index];
         }
-        Self { system, factors, controls }
+        Self { system: Rc::new(system), factors, controls }
     }
 
-    fn unscaled_state(&self, state: &State<S::Mode>) -> State<S::Mode> {
+    /// Returns a system in its own units.
+    pub fn by_one(system: impl System<Mode = ()> + 'static) -> Self {
+        let factors = vec![1.0; System::size(&system)];
+        Self::new(system, factors)
+    }
+
+    fn unscaled_state(&self, state: &State) -> State {
         State { z: self.unscaled(&state.z), ..state.clone() }
     }
 
@@ -34,8 +96,8 @@ impl<S: System> Scaled<S> {
     }
 }
 
-impl<S: System> System for Scaled<S> {
-    type Mode = S::Mode;
+impl System for Scaled {
+    type Mode = ();
 
     fn size(&self) -> usize {
         self.system.size()
@@ -49,6 +111,10 @@ impl<S: System> System for Scaled<S> {
         self.system.load()
     }
 
+    fn load_only_pushes(&self) -> bool {
+        self.system.load_only_pushes()
+    }
+
     fn controls(&self) -> &[Control] {
         &self.controls
     }
@@ -57,30 +123,26 @@ impl<S: System> System for Scaled<S> {
         self.system.constraints()
     }
 
-    fn mode_at_rest(&self) -> S::Mode {
-        self.system.mode_at_rest()
-    }
+    fn mode_at_rest(&self) {}
 
-    fn residual(&self, state: &State<S::Mode>, residual: &mut Residual) {
+    fn residual(&self, state: &State, residual: &mut Residual) {
         self.system.residual(&self.unscaled_state(state), residual);
     }
 
-    fn tangent(&self, state: &State<S::Mode>, matrix: &mut impl Tangent) {
-        let mut inner = BandMatrix::new(self.size(), self.half_bandwidth());
-        self.system.tangent(&self.unscaled_state(state), &mut inner);
-        for row in 0..self.size() {
+    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
+        let inner = self.system.tangent(&self.unscaled_state(state));
+        for row in 0..self.factors.len() {
             for column in inner.columns(row) {
                 matrix.add(row, column, inner.get(row, column) / self.factors[column]);
             }
         }
     }
 
-    fn slope(&self, state: &State<S::Mode>, constraint: usize, direction: &[f64]) -> f64 {
-        let direction = self.unscaled(direction);
-        self.system.slope(&self.unscaled_state(state), constraint, &direction)
+    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+        self.system.slope(&self.unscaled_state(state), constraint, &self.unscaled(direction))
     }
 
-    fn transition(&self, state: &mut State<S::Mode>, change: Change) -> Option<usize> {
+    fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
         self.system.transition(state, change)
     }
 }

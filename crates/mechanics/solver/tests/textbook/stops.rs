@@ -6,6 +6,7 @@ use solver::{Condition, Continuation, Event, Newton, NewtonFailure, Settings, St
 use crate::problems::{
     Stiff, Unwilling, arch, circle, column, jump, kink, parabola, pushed_arch, root, step,
 };
+use crate::scaled::Scaled;
 use crate::{extrema, follow, steps};
 
 #[test]
@@ -43,7 +44,8 @@ fn a_stationary_control_parameter_is_singular() {
 /// A column under compression buckles at the load 1.
 #[test]
 fn a_path_keeps_its_branch_at_a_bifurcation() {
-    let mut path = Continuation::new(column(), State::at_rest(&column()), Settings::default());
+    let mut path =
+        Continuation::new(Scaled::by_one(column()), State::at_rest(&column()), Settings::default());
     assert!(path.by_ref().all(|point| point.state.z[1] == 0.0));
     assert_eq!((path.termination(), path.is_unique()), (Some(Termination::Reached), false));
 }
@@ -52,7 +54,7 @@ fn a_path_keeps_its_branch_at_a_bifurcation() {
 fn a_path_without_end_has_too_many_points() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let settings = Settings { max_points: 50, ..Settings::default() };
-    let mut path = Continuation::new(circle(), start, settings);
+    let mut path = Continuation::new(Scaled::by_one(circle()), start, settings);
     assert_eq!(path.by_ref().count(), 50);
     assert_eq!(path.termination(), Some(Termination::TooManyPoints));
 }
@@ -71,7 +73,7 @@ fn smaller_steps_raise_the_limit_on_work() {
 #[test]
 fn a_path_that_goes_to_and_fro_makes_no_progress() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
-    let mut path = Continuation::new(circle(), start, Settings::default());
+    let mut path = Continuation::new(Scaled::by_one(circle()), start, Settings::default());
     let points = path.by_ref().count();
     assert_eq!(path.termination(), Some(Termination::NoProgress));
     assert!((100..10_000).contains(&points), "{points}");
@@ -80,7 +82,7 @@ fn a_path_that_goes_to_and_fro_makes_no_progress() {
 #[test]
 fn a_path_outside_the_domain_of_its_equations_is_not_finite() {
     let start = State { z: vec![0.0, 0.5_f64.sqrt()], active: Vec::new(), mode: () };
-    let mut path = Continuation::new(root(), start, Settings::default());
+    let mut path = Continuation::new(Scaled::by_one(root()), start, Settings::default());
     let last = path.by_ref().last().unwrap();
     assert_eq!(path.termination(), Some(Termination::NotFinite));
     assert_relative_eq!(last.state.z[0], 0.5, max_relative = 1e-6);
@@ -103,7 +105,8 @@ fn a_constraint_that_cannot_change_sides_is_singular() {
 /// Equations with large terms are satisfied up to their large round-off.
 #[test]
 fn equations_are_satisfied_relative_to_their_terms() {
-    let mut path = Continuation::new(Stiff, State::at_rest(&Stiff), Settings::default());
+    let mut path =
+        Continuation::new(Scaled::by_one(Stiff), State::at_rest(&Stiff), Settings::default());
     let end = path.by_ref().last().unwrap();
     assert_eq!(path.termination(), Some(Termination::Reached));
     assert_relative_eq!(end.state.z[1], 1.0_f64.sin(), max_relative = 1e-12);
