@@ -25,10 +25,10 @@ const PARTS: u64 = 10_000;
 pub const RESUMED: &str =
     "ending without the designs in progress; a second signal ends at once; --resume continues";
 
-/// Completed fraction from which the remaining time is extrapolated.
+/// Minimum completed fraction for an extrapolation of the remaining time.
 const ENOUGH: f64 = 0.05;
 
-/// Number of advances after which the remaining time is extrapolated from a smaller fraction.
+/// Number of advances that also suffice for an extrapolation, at a smaller completed fraction.
 // The work of one design varies by a factor of ten and more, so a few designs do not predict the
 // remaining time.
 const ADVANCES: usize = 30;

@@ -125,7 +125,7 @@ pub fn share_bars(name: &str, measures: &[Shares]) -> String {
         inside.push(name.with("fill", INK));
         inside.extend(parts(shares, &sources, y));
     }
-    let title = format!("{name}: where the spread comes from, share of the variance");
+    let title = format!("{name}: sources of the spread, as fractions of the variance");
     sheet(WIDTH, top + ROW * measures.len() as f64 + 16.0, &title, inside)
 }
 

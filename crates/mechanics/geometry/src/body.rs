@@ -98,7 +98,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     #[test]
-    fn frames_lie_on_a_circle_and_add_up() {
+    fn frames_lie_on_a_circle_and_compose() {
         let body = Body { curvature: 0.25 };
         let [first, second, both] = [0.7, 1.2, 1.9].map(|arc| body.frame(arc));
         let centre = Vec2::new(0.0, -4.0);

@@ -56,9 +56,9 @@ impl Unknown {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
     Parameter(&'static Parameter),
-    /// Parameter of the specimen of one curve.
+    /// Parameter of the specimen of one curve, with the index of the curve.
     Specimen(&'static Parameter, usize),
-    /// Offset of a curve: its number, then 0 for the first axis or 1 for the second.
+    /// Offset of a curve: index of the curve, and of the axis (0 or 1).
     Offset(usize, usize),
 }
 
@@ -71,7 +71,7 @@ pub(crate) struct TestCurve {
     pub(crate) unloading: usize,
     /// Displacement or curvature at which unloading begins.
     pub(crate) turn: f64,
-    /// Ends of branches, holds and drops.
+    /// Positions of the ends of branches, of holds and of drops.
     pub(crate) events: Vec<CurveEvent>,
     pub(crate) case: Case,
     /// Parameters set in the table of this curve. Unknowns do not change them.

@@ -447,7 +447,7 @@ mod tests {
         let message = message.expect_err("another unit").to_string();
         assert_eq!(
             message,
-            "a.csv:3: the unit of column 3 makes it force_lbf, but columns names it force_N; expected the same unit"
+            "a.csv:3: column 3 is force_lbf according to its unit in the file, but columns states force_N; expected the same unit"
         );
         let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
         assert_eq!(curve[0].points, [[1.0, 2.0], [3.0, 4.0]]);

@@ -33,16 +33,18 @@ const EXPECTED_PROFILE: u64 = 60;
 /// It is larger than any other residual, but finite: the solver stops at infinite residuals.
 const UNSOLVABLE: f64 = 1e6;
 
-/// Gradient at convergence.
+/// Gradient of the sum of squares at convergence.
 ///
 /// Residuals are divided by the noise, so the sum of their squares is about the number of points.
 const FLAT: f64 = 1e-7;
 
 /// Relative change of the sum of squares at convergence.
 ///
-/// The unknowns then change by some `1e-4` of their confidence intervals.
+/// The unknowns then change by about `1e-4` of their confidence intervals.
 const CHANGED: f64 = 1e-9;
-/// Relative change at convergence of the points of a profile, which only locate its ends.
+/// Relative change of the sum of squares at convergence of a point of a profile.
+///
+/// It is larger, because these points only locate the ends of a confidence interval.
 const CHANGED_IN_PROFILE: f64 = 1e-5;
 
 /// Residuals of all curves, divided by the noise.

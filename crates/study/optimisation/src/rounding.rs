@@ -43,7 +43,7 @@ pub struct Rounding {
 /// Evaluated points of the lattice, as factors of the steps.
 type Known = Vec<(Vec<i64>, Candidate)>;
 
-/// Rounds `best` if the goal wants it, in place.
+/// Rounds `best` in place if the goal requests it.
 ///
 /// If no rounded design meets all requirements, `best` stays. `search` and `finer` judge by the
 /// limits of the search, `finer` with more samples. Adds the evaluated designs to `history`.
@@ -76,9 +76,10 @@ pub(crate) fn round(
     Ok(Some(Rounding { step, unit, exact, rounded: None }))
 }
 
-/// Solves a rounded design like a best design: with more samples, new samples and checks.
+/// Verifies a rounded design like a best design.
 ///
-/// `None` if more samples contradict its requirements.
+/// That is, evaluates it on more samples, confirms it on independent samples, and runs the checks.
+/// `None` if it violates a requirement on the larger number of samples.
 fn refined(
     goal: &DesignGoal,
     finer: &Search<'_>,

@@ -97,7 +97,8 @@ fn runs_killed_at_random_moments_make_the_same_tables() {
         assert!(!list.contains(".partial"), "{list}");
     }
     let kills = campaign.kills;
-    // Of fifty runs at least fifty kills, twenty of them midway, and three runs with several kills.
+    // Fifty runs must contain at least fifty kills, twenty of them midway through a run, and three
+    // runs with several kills.
     for (found, of_fifty) in [(kills.all, 50), (kills.midway, 20), (kills.repeated, 3)] {
         assert!(found >= of_fifty * runs() / 50, "{kills:?}");
     }

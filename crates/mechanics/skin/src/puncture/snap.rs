@@ -8,7 +8,7 @@ use super::{At, PunctureMeasures, PuncturePoint};
 use crate::contacts::SkinPoint;
 use crate::record::Skin;
 
-/// Tolerance on the rate of the depth at its maximum, over the rates at the ends.
+/// Tolerance on the rate of the depth at its maximum, relative to the rates at the segment ends.
 const FLAT: f64 = 1e-9;
 /// Maximum number of evaluations in the search for a maximum of the depth.
 const EVALUATIONS: usize = 60;
@@ -20,17 +20,17 @@ const HALVINGS: i32 = 20;
 
 /// Snap-through under a monotonically descending needle.
 ///
-/// Where the depth turns back the needle leaves the path, and it meets the path again where the
-/// depth is as large once more.
+/// The needle leaves the path at a maximum of the depth, and returns to it where the depth reaches
+/// that maximum again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Snap {
-    /// Equilibrium at which the depth turns back.
+    /// Equilibrium at the maximum of the depth.
     pub point: PuncturePoint,
-    /// `F*` there minus `F*` where the depth is as large again.
+    /// `F*` at the maximum of the depth minus `F*` where the path reaches that depth again.
     ///
-    /// `None` if the path ends earlier.
+    /// `None` if the path ends first.
     pub drop: Option<f64>,
-    /// Number of contact events before it.
+    /// Number of contact events before the maximum.
     pub events_before: usize,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct SnapObserver {
     instability: Vec<Instability>,
     /// Point at which stability under load control is lost.
     pub(super) load_limit: Option<SkinPoint>,
-    /// Point at which the depth first turns back.
+    /// First maximum of the depth.
     pub(super) depth_limit: Option<SkinPoint>,
     snaps: Vec<Snap>,
 }
@@ -117,7 +117,7 @@ impl SnapObserver {
         }
     }
 
-    /// Returns the snap that has not landed yet.
+    /// Returns the snap that has not returned to the path yet.
     fn open_snap(&mut self) -> Option<&mut Snap> {
         self.snaps.last_mut().filter(|snap| snap.drop.is_none())
     }
@@ -151,7 +151,7 @@ impl SnapObserver {
 }
 
 impl Snap {
-    /// Finds the point within a segment at which the depth of the snap recurs.
+    /// Finds the point within a segment at which the depth reaches its value at the snap again.
     fn land(&mut self, path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) {
         let depth = self.point.displacement;
         if path.system().depth(&to.state.z) < depth {
@@ -174,7 +174,7 @@ impl Snap {
     }
 }
 
-/// Finds the point at which the depth turns back, within a segment or at its start.
+/// Finds the maximum of the depth within a segment or at its start.
 fn turning_point(
     path: &mut Continuation<Chain>,
     from: &SkinPoint,

@@ -279,10 +279,11 @@ fn a_radius_needs_a_guided_needle() {
     }
 }
 
-/// A tip narrower than the gap touches nothing: it is through without a force, with and without
-/// friction, and its position is the weakest.
+/// A tip narrower than the gap touches no scale and passes without force.
+///
+/// This holds with and without friction, and the gap is the weakest position.
 #[test]
-fn a_tip_that_fits_into_a_gap_is_through_without_a_force() {
+fn a_tip_narrower_than_the_gap_passes_without_force() {
     let wide = design(0.8612, 0.2262, 0.34, Base::L);
     for friction in [0.0, 0.3] {
         let needle = Needle::Guided { friction };

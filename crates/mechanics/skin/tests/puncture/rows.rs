@@ -46,10 +46,9 @@ fn automatic_rows_grow_where_scales_touch() {
     assert!(domino[1] >= 4 * domino[0], "{domino:?}");
 }
 
-/// The step to the critical tilt ends beyond it by round-off, and the contact there reaches more
-/// scales.
+/// The last step exceeds the critical tilt by round-off, and a contact there requires a longer row.
 #[test]
-fn a_row_that_grows_at_the_critical_tilt_is_completed() {
+fn a_row_extended_at_the_critical_tilt_is_solved_to_the_end() {
     let known = Calibrations::default();
     let design = design(
         0.501_236_456_022_181_6,
@@ -126,7 +125,8 @@ fn scales_out_of_reach_of_contact_are_in_equilibrium() {
             .collect();
         assert_eq!(row.len(), scales);
         assert_eq!(complete(&puncture).scales, scales);
-        // Only the substrate acts on scales before the first contact and behind the last.
+        // Only the substrate acts on scales to the left of the first pair in contact and to the
+        // right of the last.
         let touched: Vec<i64> = puncture.events.iter().filter_map(|e| e.left_scale).collect();
         let (first, last) = (touched.iter().min().unwrap(), touched.iter().max().unwrap() + 1);
         for (i, state) in puncture.scales.iter().enumerate() {

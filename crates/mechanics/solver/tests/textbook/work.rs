@@ -72,7 +72,7 @@ fn a_steep_target_takes_few_iterations() {
 }
 
 #[test]
-fn paths_with_constraints() {
+fn paths_with_constraints_take_few_iterations() {
     assert_at_most(&work(bump(), Settings::default()), &[8, 47]);
     assert_at_most(&work(bump(), steps(1.0)), &[5, 23]);
     assert_at_most(&work(corner(), Settings::default()), &[22, 155]);
@@ -106,7 +106,7 @@ fn places<S: System>(system: S, largest_step: f64) -> usize {
 }
 
 #[test]
-fn maxima_between_points() {
+fn a_maximum_between_points_takes_few_evaluations() {
     let mut tanh = step();
     tanh.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
     let counts = [0.13, 0.047, 0.017].map(|step| places(Scaled::by_one(tanh.clone()), step));

@@ -34,7 +34,7 @@ fn numbers(row: &RowStiffness) -> Vec<f64> {
 /// for a traction `i` along `x`.
 fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
     let kappa = 3.0 - 4.0 * ratio;
-    // U, V, and the tractions over i and 1, of each field at the bottom and at the top.
+    // For each field at the bottom and at the top: U, V, shear traction divided by i, normal traction.
     let [bottom, top] = [-1.0, 0.0].map(|y: f64| {
         let fields = [1.0, -1.0].map(|s: f64| {
             let e = (s * k * y).exp();

@@ -69,7 +69,7 @@ impl Header {
             return None;
         }
         let below = (row + 1..rows.all.len()).take(2).take_while(|row| rows.is_text(*row)).count();
-        // Units stand in the row below, or below a row of remarks.
+        // Units are in the row below, or below a row of remarks.
         let with_units = (1..=below).map(|units| Self::at(rows, row, units));
         let header = with_units.into_iter().find(|header| curves(&header.names).is_ok());
         let header = header.or_else(|| {
@@ -82,7 +82,7 @@ impl Header {
         header.map(|header| Self { is_known: true, ..header })
     }
 
-    /// Returns the header in a row, with units in the row `units` below it, or without for 0.
+    /// Returns the header in a row, with units from `units` rows below it; 0 means no units.
     fn at(rows: &Rows, row: usize, units: usize) -> Self {
         let mut names = Vec::new();
         for (column, name) in rows.all[row].cells.iter().enumerate() {
@@ -101,14 +101,14 @@ impl Header {
             if let Some(stated) = in_file.and_then(|name| contradiction(given, name)) {
                 let column = column + 1;
                 return Err(format!(
-                    "the unit of column {column} makes it {stated}, but columns names it {given}; expected the same unit"
+                    "column {column} is {stated} according to its unit in the file, but columns states {given}; expected the same unit"
                 ));
             }
         }
         if self.is_known { Ok(curves) } else { Err(missing(&self.names)) }
     }
 
-    /// Returns the line of the names, if they are in the file.
+    /// Returns the line number of the names, if they are in the file.
     pub fn line(&self, rows: &Rows) -> Option<u64> {
         (!self.rows.is_empty()).then(|| rows.all[self.rows.start].line)
     }

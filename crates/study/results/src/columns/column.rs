@@ -81,10 +81,10 @@ pub fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
     Column::new("design", "-", "position of the design in the grid of its sweep", cell)
 }
 
-/// Returns the header for a parameter.
+/// Returns the column header of a parameter.
 ///
-/// It is its key, unless a measured value has the same name. For example, the solved row may have
-/// more scales than `scales` requests, and the number of gaps follows from the length of the strip.
+/// The header is the key, unless a measured value has that name. For example, the solved row may
+/// have more scales than the parameter `scales` requests; the column `scales` is the solved number.
 fn header(parameter: &Parameter) -> &'static str {
     match parameter.key {
         "scales" => "scales_asked",

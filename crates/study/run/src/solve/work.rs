@@ -121,12 +121,13 @@ impl Drop for WorkPiece<'_> {
 /// Expected work of the parts of a design.
 #[derive(Clone, Copy, Debug)]
 struct Parts {
-    /// Everything except samples.
+    /// Work on the ideal design, without its samples.
     ideal: u64,
-    /// One imperfect row.
+    /// Work on one imperfect row.
     row: u64,
-    /// One imperfect strip, which is solved gap by gap.
+    /// Work on one imperfect strip, which is solved gap by gap.
     strip: u64,
+    /// Number of samples.
     samples: u64,
 }
 

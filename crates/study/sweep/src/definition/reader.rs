@@ -210,7 +210,7 @@ impl Reader {
         Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid, variables, deviations })
     }
 
-    /// Returns the errors of combinations of keys that are valid by themselves.
+    /// Returns errors for invalid combinations of keys with individually valid values.
     fn wrong_together(&self, file: &Place) -> Vec<InvalidDefinition> {
         let mut wrong: Vec<_> = self.contradictions().collect();
         wrong.extend(self.fixed_variables());

@@ -173,7 +173,8 @@ fn tangent_matches_finite_differences() {
         let design = design(gap, length, slant);
         for_segments(guided_path(&design, friction, inside, 0.1), |path, from, to| {
             if path.spans(from, to)[0].abs() < 1e-6 {
-                // Two simultaneous events: forces that start to act are too small for differences.
+                // At two simultaneous events, the forces that start to act are too small for finite
+                // differences.
                 return;
             }
             let Some(between) = path.between(from, to, 0.5) else { return };
