@@ -83,9 +83,9 @@ pub enum CornerContact {
     Open,
     /// A corner rests on an edge: `λ` acts.
     Edge(CornerEdge),
-    /// The corners are together: `λ` and `λ'` act.
+    /// The two corners coincide: `λ` and `λ'` act.
     ///
-    /// The variant holds the contact that arrived here.
+    /// The value is the corner and edge in contact before the corners coincided.
     Corner(CornerEdge),
     /// A side and the neighbour's end lie flush: `λ`, at the given edge, and `λ''` act.
     Flush(CornerEdge),

@@ -38,7 +38,7 @@ pub struct Fitted {
     pub means: Vec<MeanCurve>,
     /// Number of solved skins.
     pub solutions: usize,
-    /// Number of fits that started again from a better minimum on a profile.
+    /// Number of restarts from a better minimum on a profile.
     pub restarts: usize,
     /// Design of the definition, with the estimates.
     pub sweep: Sweep,
@@ -171,9 +171,9 @@ pub enum FitError {
     /// The definition has no unknowns.
     #[error("there are no unknowns; add [variables] or offsets to a [[curve]]")]
     NothingSought,
-    /// Profiles have found better minima again and again.
+    /// Profiles kept finding better minima, up to the maximum number of restarts.
     #[error(
-        "no lasting minimum was found: the sum of squares is too rough; narrow the ranges of [variables]"
+        "the search did not converge: the sum of squares has too many local minima; narrow the ranges of [variables]"
     )]
     Unsettled,
     /// No evaluated skin within the ranges can be solved.
@@ -189,7 +189,7 @@ const SETTLED: f64 = 1e-3;
 const LEAST_NOISE: f64 = 1e-8;
 /// Singular values below this fraction of the largest are round-off.
 const ROUND_OFF: f64 = 1e-6;
-/// Maximum number of fits from better minima that profiles find.
+/// Maximum number of restarts from better minima on profiles.
 const RESTARTS: usize = 6;
 /// Correlation above which the curves determine only a combination of undetermined unknowns.
 const TOGETHER: f64 = 0.9;

@@ -132,7 +132,7 @@ impl Sweep {
     /// Returns true if any design is also solved with imperfections.
     pub fn is_imperfect(&self) -> bool {
         ["gap_cv", "slant_sd_deg"].into_iter().any(|key| {
-            // The table has the columns if at least one design scatters.
+            // One imperfect design suffices: the table then has the columns of the samples.
             let largest = self.grid.axis(key).map(|axis| axis.span().1);
             largest
                 .or_else(|| Parameter::named(key)?.get(self.grid.base()).number())

@@ -72,7 +72,7 @@ pub(crate) enum ParameterKind {
         range: Range,
         field: fn(&mut Case) -> &mut Option<f64>,
     },
-    /// A count, or a word for none.
+    /// A count, or a word that stands for no count.
     CountOrWord {
         range: CountRange,
         word: &'static str,

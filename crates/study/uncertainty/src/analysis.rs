@@ -193,8 +193,8 @@ impl<'a> Analysis<'a> {
         let deviations = self.sweep.deviations();
         let mut scattered = DesignRow { case: nominal.case, ..nominal.row.clone() };
         draw::scatter(&mut scattered.case, deviations);
-        // Skip this without scatter: derivatives for single scales cost a solution for each kind of
-        // scale.
+        // Derivatives with respect to single scales cost a solution for each kind of scale. Skip
+        // them if there is no scatter.
         let scatters = !scattered.case.imperfection.is_none();
         let single = if scatters {
             uninterrupted(|| self.differentiating.scatter(&nominal.case))

@@ -53,7 +53,7 @@ fn bending() -> anyhow::Result<Vec<Benchmark>> {
     let missing = "upright blocks do not meet";
     let [one, many] = [MembraneMesh::Elements(1), MembraneMesh::Auto].map(|elements_per_gap| {
         let parameters = flexure::FlexureParameters {
-            // On the 100 t of the sweeps, upright blocks with this gap never touch.
+            // With the length of the sweeps, 100 t, upright blocks with this gap never touch.
             membrane_length: 10.0,
             elements_per_gap,
             ..flexure::FlexureParameters::default()

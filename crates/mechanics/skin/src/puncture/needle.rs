@@ -137,9 +137,9 @@ impl GuidedNeedle {
         let radius = parameters.needle_radius.unwrap_or(0.0);
         let (slots, unknowns_per_touch, constraints_per_touch) = if radius > 0.0 {
             let of_scale = of_scale(friction > 0.0);
-            // All but the tangential force.
+            // Every unknown except the tangential force has a constraint.
             let constraints = if friction > 0.0 { of_scale - 1 } else { of_scale };
-            // Inverts the number of unknowns to the number of touches.
+            // Compute the number of touches from the number of unknowns.
             ((layout.needle - 1 - ENDINGS) / of_scale, of_scale, constraints)
         } else {
             (SHARP_SLOTS, UNKNOWNS_PER_TOUCH, CONSTRAINTS_PER_TOUCH)

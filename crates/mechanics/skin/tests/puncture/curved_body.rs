@@ -79,7 +79,7 @@ fn faces_of_upright_blocks_are_apart_as_on_the_arc() {
         let parameters = PunctureParameters { failure, ..on_body(1.0 / radius) };
         let measures = solve(&design(gap, length, 0.0), &parameters).measures;
         let half = 0.5 * (gap + length) / radius.abs();
-        // The bases on a convex body, the tops on a concave one.
+        // The nearest corners are the bases on a convex body, and the tops on a concave body.
         let corners = if radius > 0.0 { radius } else { -radius - 1.0 };
         let expected = 2.0 * (corners * half.sin() - 0.5 * length * half.cos());
         assert_relative_eq!(measures.failure.clearance.unwrap(), expected, max_relative = 1e-12);
@@ -435,7 +435,8 @@ fn deviation((design, parameters): &(Design, PunctureParameters)) -> Option<(Des
     for steps in [-2.0, -1.0, 1.0, 2.0] {
         let curvature = parameters.curvature + steps * step;
         let moved = solve(design, &PunctureParameters { curvature, ..*parameters });
-        // A different sequence of contacts means a kink within the difference.
+        // A different sequence of contacts means that the force has a kink between the points of
+        // the finite difference.
         if moved.status != Status::Complete || moved.events.len() != solved.events.len() {
             return None;
         }

@@ -147,9 +147,7 @@ fn a_tip_between_two_scales_loads_both_equally() {
     }
 }
 
-/// Positions of a round tip cover one pitch, including between two scales.
-///
-/// They repeat after a pitch.
+/// Positions of a round tip cover one pitch, including between two scales, and repeat after it.
 #[test]
 fn load_positions_cover_the_pitch() {
     let known = Calibrations::default();

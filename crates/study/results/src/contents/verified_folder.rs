@@ -403,7 +403,11 @@ fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, Inv
         return Err(refuse("it is no regular file"));
     }
     if metadata.len() < extent.bytes {
-        return Err(refuse(&format!("it had {} bytes and has {}", extent.bytes, metadata.len())));
+        return Err(refuse(&format!(
+            "it had {} bytes and now has {}",
+            extent.bytes,
+            metadata.len()
+        )));
     }
     // A resumed run appends to the journal, so only the stated extent must be unchanged.
     let found = JournalExtent::read(&path, extent.bytes, extent.lines);

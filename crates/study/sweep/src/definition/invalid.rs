@@ -100,7 +100,7 @@ pub enum Problem {
     },
     /// A pitch is given in addition to a gap and a length.
     #[error(
-        "cannot be combined with {other} at {place}: the pitch is base and gap; keep two of gap, length and pitch"
+        "cannot be combined with {other} at {place}: pitch = base + gap; keep two of gap, length and pitch"
     )]
     Pitch {
         /// One of the other keys.

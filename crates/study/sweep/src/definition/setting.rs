@@ -176,7 +176,7 @@ fn case_of(table: &KeyValues) -> Case {
         }));
     }
     let mut case = Case::default();
-    // In addition to a gap, the pitch determines a length.
+    // A pitch and a gap together determine a length.
     case.in_mm.pitch_determines_length = [key::PITCH, key::GAP]
         .iter()
         .all(|key| written.iter().any(|(parameter, _)| parameter.is_or_determines(key)));
