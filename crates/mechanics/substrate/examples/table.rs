@@ -136,7 +136,7 @@ fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     Ok(numbers)
 }
 
-/// Returns the additional value of a long row over a short one, over `α`.
+/// Returns the difference between a reaction in a long row and in a short one, divided by `α`.
 fn added(long: &[f64], short: &[f64], scale: usize, direction: usize) -> f64 {
     (reaction(long, scale, direction) - reaction(short, scale, direction)) / short[direction]
 }

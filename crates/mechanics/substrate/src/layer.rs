@@ -91,13 +91,13 @@ pub struct Layer {
 /// Displacements in two directions for a load in each, `E* = 1`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Displacements {
-    /// Normal displacement of a normal load.
+    /// Normal displacement due to a normal load.
     pub normal: f64,
-    /// Displacement along the row of a load along it.
+    /// Displacement along the row due to a load along the row.
     pub shear: f64,
-    /// Displacement along the row of a normal load.
+    /// Displacement along the row due to a normal load.
     ///
-    /// The normal displacement of a load along the row has the opposite sign.
+    /// The normal displacement due to a load along the row has the opposite sign.
     pub cross: f64,
 }
 

@@ -68,7 +68,7 @@ pub enum InvalidMap {
     #[error("--y {0}: is on the horizontal axis already; choose another parameter")]
     Twice(String),
     /// The column has no numbers.
-    #[error("--of {0}: designs.csv has no such column of numbers")]
+    #[error("--of {0}: designs.csv has no numeric column of this name")]
     NoNumbers(String),
     /// No design has the given values.
     #[error("--at {found}: no design has it, expected one of {}", known.join(", "))]

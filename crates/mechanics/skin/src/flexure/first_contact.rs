@@ -183,7 +183,7 @@ impl BareGap {
         if stands && self.offset > -1.0 && upright <= LARGEST_ROTATION {
             return (upright <= farthest).then_some(upright);
         }
-        // Start behind zero, where the arc has an infinite radius.
+        // Start above zero, because the radius of the arc is infinite at zero.
         let looks =
             (1..=SAMPLES).map(|look| LARGEST_ROTATION * f64::from(look) / f64::from(SAMPLES));
         let mut open = 0.0;

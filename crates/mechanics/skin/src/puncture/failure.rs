@@ -160,7 +160,7 @@ const LIMIT_TOLERANCE: f64 = 2e-12;
 /// Evaluations after which a bracket is as narrow as an `f64` allows.
 const EVALUATIONS: usize = 100;
 
-/// Step along the path direction, relative to its largest component, for the slope at its end.
+/// Change of the fastest unknown in the backward difference for the slope at a point.
 const STEP: f64 = 1e-6;
 
 /// Returns the point of a segment at which linear bending of elastic scales ends.

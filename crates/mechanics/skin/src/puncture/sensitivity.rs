@@ -391,8 +391,8 @@ fn at_turn<const N: usize>(
 
 /// Lists the quantities at the critical tilt and at the first fold.
 ///
-/// The largest valid force belongs to whichever comes first. Both are missing if a scale `is_bent`
-/// before.
+/// The largest valid force belongs to the earlier of the two points. If the path ended earlier,
+/// because a scale `is_bent` beyond linear theory, only the quantities at the fold remain.
 fn at_end_and_fold(
     folds: bool,
     is_bent: bool,

@@ -63,7 +63,7 @@ impl<S: System> Continuation<S> {
     fn distance(&self) -> f64 {
         let drive = self.progress(&self.point.leaving);
         let left = self.system.target() - drive.signum() * self.progress(&self.point.state.z);
-        // The target limits the step only if the control parameter measures it.
+        // The target limits the step only if the control parameter changes along the path.
         if drive.abs() >= DRIVES { self.step.min(left) } else { self.step }
     }
 

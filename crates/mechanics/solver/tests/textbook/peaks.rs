@@ -55,7 +55,7 @@ fn the_largest_slope_is_located_between_points() {
 }
 
 #[test]
-fn a_largest_slope_at_the_start_stays_there() {
+fn a_largest_slope_at_the_start_of_the_path_is_found() {
     let mut system = arch();
     system.controls[0].scale = 1.0;
     let [sampled, refined] = steepest(system, 0.05);

@@ -25,7 +25,7 @@ fn the_paper_sweep_is_numbered_as_in_its_tables() {
 }
 
 #[test]
-fn numbers_grow_wider_with_the_grid() {
+fn design_numbers_have_more_digits_on_large_grids() {
     let text = "name = 'x'\n[designs]\ngap_over_t = { from = 0.001, to = 1, step = 0.001 }";
     assert_eq!(sweep(text).grid().number(41).to_string(), "00042");
 }

@@ -279,8 +279,7 @@ impl Chain {
         needle.end_sliding(state, slot);
         let TipState::Passing { forward } = touch.tip_state else {
             self.move_to(needle, state, slot, next, TipState::Passing { forward: onward });
-            // The force is still the one of the previous face, so the limit on this side has to
-            // hold.
+            // The force still acts on the previous face, so its limit on this side must hold.
             return Some(if onward { FACE_START } else { FACE_END });
         };
         let face_length = self.tip(&state.z, touch.scale, next)?.length;
@@ -297,8 +296,8 @@ impl Chain {
             state.active[needle.number(slot, sliding)] = true;
             return Some(inward);
         }
-        // The force is still the one of sliding onto the corner; the rates show at once whether the
-        // tip sticks.
+        // The friction force is still at its slip limit, so the rate problem decides immediately
+        // whether the tip sticks or slips back.
         self.move_to(needle, state, slot, next, TipState::Stick { anchor });
         Some(if onward { BACKWARD } else { FORWARD })
     }

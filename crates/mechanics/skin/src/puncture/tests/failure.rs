@@ -40,7 +40,7 @@ fn loads_on_a_scale_balance_its_springs() {
         let rough = hard.with_friction(0.2).unwrap();
         most.push(compare_loads(path(&design, rough, 1.0)));
     }
-    // Contacts on both sides of a scale, at both levels.
+    // The paths must cover a scale with contacts on both sides and at both levels.
     assert!(most.iter().any(|&loads| loads >= 4), "{most:?}");
 }
 

@@ -1,4 +1,4 @@
-//! Model of tangents; the best step solves a linear program, by SLSQP.
+//! Cutting-plane model; its best step solves a linear program, by SLSQP.
 
 use std::convert::Infallible;
 
@@ -28,7 +28,9 @@ pub(super) enum Cut {
     Limit,
 }
 
-/// Tangents around a centre: rows `slope·u ≤ right + s` of the step `u`, in radii.
+/// Cutting-plane model around a centre: constraints `slope·u ≤ right + s` on the step `u`.
+///
+/// `u` is relative to the trust radius.
 pub(super) struct Model<'c> {
     centre: &'c [f64],
     radius: f64,
