@@ -321,7 +321,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       await page.close();
     },
     async "the pages are small enough to be sent"() {
-      assert.ok(statSync(join(place, "explore.html")).size < 830_000, String(statSync(join(place, "explore.html")).size));
+      assert.ok(statSync(join(place, "explore.html")).size < 900_000, String(statSync(join(place, "explore.html")).size));
       assert.ok(statSync(join(results, "report.html")).size < 2_000_000);
     },
   };
