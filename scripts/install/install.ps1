@@ -2,7 +2,8 @@
 #
 #     irm @URL@/install.ps1 | iex
 #
-# SQUAMA_BIN is the folder of the command, by default %LOCALAPPDATA%\squama. SQUAMA_URL is the address of the archives.
+# SQUAMA_BIN is the folder of the command, by default %LOCALAPPDATA%\squama. SQUAMA_URL is the address
+# of the archives.
 $ErrorActionPreference = 'Stop'
 
 $version = '@VERSION@'

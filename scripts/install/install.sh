@@ -3,7 +3,8 @@
 #
 #     curl -fsSL @URL@/install.sh | sh
 #
-# SQUAMA_BIN is the folder of the command, by default ~/.local/bin. SQUAMA_URL is the address of the archives.
+# SQUAMA_BIN is the folder of the command, by default ~/.local/bin. SQUAMA_URL is the address of the
+# archives.
 set -eu
 
 version=@VERSION@

@@ -138,7 +138,8 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.equal(await state(sent), await state(page));
       assert.equal(await sent.locator("#detail-title").textContent(), "Design 0030");
       assert.ok(await sent.locator("#compare").isVisible());
-      // An address from outside takes effect immediately, even before a pending update; leading zeros are ignored.
+      // An address from outside takes effect immediately, even before a pending update; leading zeros are
+      // ignored.
       await sent.evaluate(() => { squama.setWeight(0, 70); location.hash = "design=33"; });
       // Independent of speed: the page rewrites the address with the number of the table.
       await sent.waitForFunction(() => location.hash === "#design=0033");

@@ -31,7 +31,8 @@ export default ({ open, page, place, folders }) => ({
     const rows = await own.locator("#front-table tbody tr").allTextContents();
     assert.equal(rows.length, front.length);
     assert.ok(rows.some((row) => /slant_deg <= 60|upper end/.test(row)), rows.join());
-    // A diamond shows its active constraints and opens in the explorer, like its row; a mark of the grid is selected.
+    // A diamond shows its active constraints and opens in the explorer, like its row; a mark of the grid
+    // is selected.
     const chosen = await own.locator("#detail-title").textContent();
     const diamond = marks.find(({ row }) => row === null);
     await own.mouse.move(diamond.x, diamond.y);

@@ -1,4 +1,5 @@
-// Tables for tests of the page: one with folds and physical units, one of 20,000 designs; both from a run.
+// Tables for tests of the page: one with folds and physical units, one of 20,000 designs; both from a
+// run.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 

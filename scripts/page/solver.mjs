@@ -1,4 +1,5 @@
-// Compares the module that pages carry with the native solver: node solver.mjs ANSWERS, where ANSWERS is the example `answers` of the crate `wasm`.
+// Compares the module that pages carry with the native solver: node solver.mjs ANSWERS, where ANSWERS
+// is the example `answers` of the crate `wasm`.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # One shard of a sweep, an element of a job array of squama; see submit.sh.
 #
-# An element that is requeued goes on where it ended and appends to its log. A minute before its time is up it
-# is told to end: it finishes the designs in hand and writes its tables.
+# An element that is requeued goes on where it ended and appends to its log. A minute before its time
+# is up it is told to end: it finishes the designs in hand and writes its tables.
 #SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --signal=B:TERM@60

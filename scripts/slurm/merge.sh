@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Merges the shards of a sweep of squama; see submit.sh. Fails and names the missing designs until all are solved.
+# Merges the shards of a sweep of squama; see submit.sh. Fails and names the missing designs until all
+# are solved.
 #SBATCH --open-mode=append
 set -euo pipefail
 . "$1/sweep.sh"

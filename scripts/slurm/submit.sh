@@ -4,7 +4,8 @@
 #
 #     submit.sh --partition=long --time=24:00:00 --cpus-per-task=8
 #
-# Run it again when shards have failed: each goes on where it ended, and the merger adds what has come.
+# Run it again when shards have failed: each goes on where it ended, and the merger adds what has
+# come.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/sweep.sh"

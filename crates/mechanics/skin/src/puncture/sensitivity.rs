@@ -217,57 +217,20 @@ impl Problem<'_> {
         path: &mut Continuation<Chain>,
         is_bent: bool,
     ) -> Vec<MeasuredPoint<Chain>> {
-        let PathObservers {
-            record, needle, passage, failure, depth: marked, force: loaded, ..
-        } = watch;
+        let PathObservers { record, passage, failure, depth: marked, .. } = watch;
         let FoldObserver { folds, first, .. } = &watch.folds;
-        let settings = &self.settings;
-        let along_path = !path.system().is_critical_only();
         let bent = if is_bent { path.system().bent_at(path.point()) } else { None };
-        let has_end = along_path && !is_bent;
-        let stiffest = if has_end { record.stiffness_summit(path) } else { None };
-        let stiffest = sensitivity::summit(stiffest, path, Chain::stiffness, settings);
-        let highest = record.highest_point(LOAD);
-        let highest = match (highest, &bent) {
-            // The limit of bending anchors the end of the path.
-            (Some(highest), Some(bent)) if highest.point.state.z == bent.state.z => {
-                Some(bent.clone())
-            }
-            (highest, _) => sensitivity::summit(highest.as_ref(), path, FOLLOWED[LOAD], settings),
-        };
+        let summits = self.summits(watch, path, is_bent, bent.as_ref());
         let passed = passage.passed.as_ref();
         let passed = passed.and_then(|[from, to]| event_before(path, [from, to]));
-        let maxima = failure.as_ref().filter(|_| !is_bent).map(|failure| failure.summits(path));
-        let maxima = maxima.into_iter().flatten().zip(MAXIMA);
-        let maxima: Vec<_> = maxima
-            .map(|(place, f)| sensitivity::summit(place.as_ref(), path, f, settings))
-            .collect();
         let chain = path.system();
-        let [highest, stiffest] =
-            [highest, stiffest].map(|place| place.map(|place| chain.end_of_target(place)));
-        let peak = highest.as_ref().map(|place| chain.extremum(place));
-        // A point that is no event has no guard to hold it when a parameter changes.
-        let load_limit = needle.load_limit.as_ref().filter(|point| point.event.is_some());
-        let load_limit = load_limit.and_then(|point| sensitivity::turn(chain, point, LOAD_RATE));
-        let depth_limit = needle.depth_limit.as_ref();
-        let depth_limit = depth_limit.and_then(|point| sensitivity::turn(chain, point, DEPTH_RATE));
-        let touching = record.touching.as_ref().filter(|_| along_path);
-        let touching = touching.and_then(|point| first_contact(chain, point));
         let folded = first.as_ref().zip(folds.first());
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
-        let deep = marked.points.iter().flatten().next();
-        let deep = deep.map(|p| AnchoredPoint::arriving(p, PathAnchor::Marker(DEPTH_MARK)));
-        let loaded = loaded.points.iter().flatten().next();
-        let loaded = loaded.map(|p| AnchoredPoint::arriving(p, PathAnchor::Marker(FORCE_MARK)));
-        let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some(), is_bent);
-        // A path that ends before this depth reports its final force instead.
-        if !is_bent && !marked.points.is_empty() && deep.is_none() {
-            end_quantities.push(force("force_at_depth"));
-        }
+        let touching = record.touching.as_ref().filter(|_| !chain.is_critical_only());
+        let touching = touching.and_then(|point| first_contact(chain, point));
+        let deep = first_marked(&marked.points, DEPTH_MARK);
+        let loaded = first_marked(&watch.force.points, FORCE_MARK);
         let failed = failure.as_ref().and_then(|failure| failure.first.as_ref());
-        if failure.is_some() && failed.is_none() {
-            end_quantities.push(force(FAILURE_FORCE));
-        }
         let failed = failed.and_then(|(mode, point)| {
             let mark = chain.limit_mark(&point.state, *mode);
             // A fold is anchored to its gap.
@@ -276,45 +239,126 @@ impl Problem<'_> {
                 |mark| Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark))),
             )
         });
+        let (mut at_end, at_fold) = at_end_and_fold(folded.is_some(), is_bent);
+        // A path that ends before this depth reports its final force instead.
+        if !is_bent && !marked.points.is_empty() && deep.is_none() {
+            at_end.push(force("force_at_depth"));
+        }
+        if failure.as_ref().is_some_and(|failure| failure.first.is_none()) {
+            at_end.push(force(FAILURE_FORCE));
+        }
         let mut passing =
             vec![force("passing_force"), depth("passing_displacement"), tilt("passing_tilt_deg")];
         if chain.needle.is_some() {
             // The shift belongs to the first touch beyond the initial face, or else to the end.
-            let left = if passage.passed.is_some() { &mut passing } else { &mut end_quantities };
-            left.push(quantity("needle_shift", |chain, state, _, _| {
+            let at_shift = if passage.passed.is_some() { &mut passing } else { &mut at_end };
+            at_shift.push(quantity("needle_shift", |chain, state, _, _| {
                 chain.shift(state).unwrap_or(f64::NAN)
             }));
         }
-        let mut at_rest = rest(chain);
-        at_rest.state = chain.at_rest();
-        let stresses = maxima.into_iter().zip(largest_stresses());
-        let stresses = stresses.map(|(place, quantity)| MeasuredPoint::new(place, [quantity]));
-        let mut resting = Vec::new();
-        if along_path {
-            resting.push(stiffness("initial_stiffness"));
-        }
-        if failure.is_some() {
-            resting.push(quantity("clearance", |chain, _, _, _| {
-                chain.clearance().unwrap_or(f64::NAN)
-            }));
-        }
         let mut points = vec![
-            MeasuredPoint::new(bent.or_else(|| Some(chain.end_of(end(path)))), end_quantities),
-            MeasuredPoint::new(folded, fold_quantities),
+            MeasuredPoint::new(bent.or_else(|| Some(chain.end_of(end(path)))), at_end),
+            MeasuredPoint::new(folded, at_fold),
             MeasuredPoint::new(passed, passing),
             MeasuredPoint::new(deep, [force("force_at_depth")]),
             MeasuredPoint::new(loaded, [tissue_pressure("tissue_pressure_at_force")]),
-            MeasuredPoint::new(highest, [force("peak_force")]),
-            at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
-            at_turn(load_limit, [force("load_stability_force")]),
-            at_turn(depth_limit, [force("depth_stability_force")]),
-            MeasuredPoint::new(touching, [depth("first_contact_displacement")]),
-            MeasuredPoint::new(Some(at_rest).filter(|_| !resting.is_empty()), resting),
-            MeasuredPoint::new(stiffest, [stiffness("max_stiffness")]),
-            MeasuredPoint::new(failed, [force(FAILURE_FORCE)]),
         ];
-        points.extend(stresses);
+        points.extend(summits.load);
+        points.extend(chain.limits_of_needle(watch));
+        points.push(MeasuredPoint::new(touching, [depth("first_contact_displacement")]));
+        points.extend(chain.point_at_rest(failure.is_some()));
+        points.push(summits.stiffness);
+        points.push(MeasuredPoint::new(failed, [force(FAILURE_FORCE)]));
+        points.extend(summits.stresses);
         points
+    }
+
+    /// Locates the maxima of load, stiffness and stresses along the path.
+    ///
+    /// `bent` is the limit of linear bending at which a path that `is_bent` ends.
+    fn summits(
+        &self,
+        watch: &PathObservers,
+        path: &mut Continuation<Chain>,
+        is_bent: bool,
+        bent: Option<&AnchoredPoint<SkinMode>>,
+    ) -> Summits {
+        let PathObservers { record, failure, .. } = watch;
+        let settings = &self.settings;
+        let has_end = !is_bent && !path.system().is_critical_only();
+        let stiffest = if has_end { record.stiffness_summit(path) } else { None };
+        let stiffest = sensitivity::summit(stiffest, path, Chain::stiffness, settings);
+        let highest = match (record.highest_point(LOAD), bent) {
+            // The limit of bending anchors the end of the path.
+            (Some(highest), Some(bent)) if highest.point.state.z == bent.state.z => {
+                Some(bent.clone())
+            }
+            (highest, _) => sensitivity::summit(highest.as_ref(), path, FOLLOWED[LOAD], settings),
+        };
+        let failure = failure.as_ref().filter(|_| !is_bent);
+        let maxima = failure.map(|failure| failure.summits(path)).into_iter().flatten();
+        let mut stresses = Vec::new();
+        for ((place, f), quantity) in maxima.zip(MAXIMA).zip(largest_stresses()) {
+            let place = sensitivity::summit(place.as_ref(), path, f, settings);
+            stresses.push(MeasuredPoint::new(place, [quantity]));
+        }
+        let chain = path.system();
+        let [highest, stiffest] =
+            [highest, stiffest].map(|place| place.map(|place| chain.end_of_target(place)));
+        let peak = highest.as_ref().map(|place| chain.extremum(place));
+        Summits {
+            load: [
+                MeasuredPoint::new(highest, [force("peak_force")]),
+                at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
+            ],
+            stiffness: MeasuredPoint::new(stiffest, [stiffness("max_stiffness")]),
+            stresses,
+        }
+    }
+}
+
+/// Maxima along a path, with their measures.
+struct Summits {
+    /// The largest load: its value, and its displacement and tilt.
+    load: [MeasuredPoint<Chain>; 2],
+    stiffness: MeasuredPoint<Chain>,
+    stresses: Vec<MeasuredPoint<Chain>>,
+}
+
+/// Returns the first marked point of a path, if the path reaches it.
+fn first_marked(points: &[Option<SkinPoint>], mark: usize) -> Option<AnchoredPoint<SkinMode>> {
+    let point = points.iter().flatten().next()?;
+    Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark)))
+}
+
+impl Chain {
+    /// Lists the turning points of the load and of the depth of a guided needle.
+    fn limits_of_needle(&self, watch: &PathObservers) -> [MeasuredPoint<Self>; 2] {
+        // A point that is no event has no guard to hold it when a parameter changes.
+        let load = watch.needle.load_limit.as_ref().filter(|point| point.event.is_some());
+        let load = load.and_then(|point| sensitivity::turn(self, point, LOAD_RATE));
+        let depth = watch.needle.depth_limit.as_ref();
+        let depth = depth.and_then(|point| sensitivity::turn(self, point, DEPTH_RATE));
+        [
+            at_turn(load, [force("load_stability_force")]),
+            at_turn(depth, [force("depth_stability_force")]),
+        ]
+    }
+
+    /// Returns the state at rest with its measures; with the clearance if failures are judged.
+    fn point_at_rest(&self, has_failures: bool) -> Option<MeasuredPoint<Self>> {
+        let mut quantities = Vec::new();
+        if !self.is_critical_only() {
+            quantities.push(stiffness("initial_stiffness"));
+        }
+        if has_failures {
+            quantities.push(quantity("clearance", |chain, _, _, _| {
+                chain.clearance().unwrap_or(f64::NAN)
+            }));
+        }
+        let mut at_rest = rest(self);
+        at_rest.state = self.at_rest();
+        (!quantities.is_empty()).then(|| MeasuredPoint::new(Some(at_rest), quantities))
     }
 }
 

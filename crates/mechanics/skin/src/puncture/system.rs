@@ -105,6 +105,32 @@ enum Part<'a> {
     Block(&'a [[f64; 3]; 3]),
 }
 
+/// Returns the control parameters of a path: the tilt and the displacements of the punctured scale.
+///
+/// The depth of a guided needle precedes them. `top` is the length of the top of the scale.
+fn controls(
+    parameters: &PunctureParameters,
+    layout: RowLayout,
+    is_guided: bool,
+    top: f64,
+) -> Vec<Control> {
+    let punctured = layout.scale(layout.left);
+    // The tilt is clockwise and so decreases the rotation.
+    let critical_tilt = parameters.critical_tilt_deg.to_radians();
+    let mut controls = [(2, -critical_tilt), (0, 1.0), (1, 1.0)]
+        .map(|(k, scale)| Control { index: punctured + k, scale })
+        .to_vec();
+    if parameters.bending == Bending::Elastic {
+        // The load acts on the bent tip, so its rotation is part of the tilt.
+        controls[0].index = layout.load() + 2;
+    }
+    if is_guided {
+        // Scales under a guided needle may tilt in either direction, or not at all.
+        controls.insert(0, Control { index: layout.load() + 1, scale: DEPTH.min(TOPS * top) });
+    }
+    controls
+}
+
 impl Chain {
     /// Assembles the solved part of a row of this `design`.
     pub(crate) fn new(
@@ -122,12 +148,8 @@ impl Chain {
         let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
         let forces: Vec<usize> =
             (0..layout.contacts * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
-        let punctured = layout.scale(layout.left);
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
-        // The tilt is clockwise and so decreases the rotation.
-        let critical_tilt = parameters.critical_tilt_deg.to_radians();
         let load_arm = left + parameters.load_position * (right - left);
-        let depth = layout.load() + 1;
         let constraints = forces.len();
         let needle = match parameters.needle {
             Needle::Free => None,
@@ -135,19 +157,6 @@ impl Chain {
                 Some(GuidedNeedle::new(friction, parameters, load_arm, layout, constraints))
             }
         };
-        let mut controls = [(2, -critical_tilt), (0, 1.0), (1, 1.0)]
-            .map(|(k, scale)| Control { index: punctured + k, scale })
-            .to_vec();
-        if parameters.bending == Bending::Elastic {
-            // The load acts on the bent tip, so its rotation is part of the tilt.
-            controls[0].index = layout.load() + 2;
-        }
-        if needle.is_some() {
-            // A guided needle is controlled by its depth; scales may tilt in either direction, or
-            // not at all.
-            let scale = DEPTH.min(TOPS * (right - left).norm());
-            controls.insert(0, Control { index: depth, scale });
-        }
         let of_needle = needle.iter().flat_map(GuidedNeedle::constraints);
         let constraints = forces.iter().copied().chain(of_needle).collect();
         let bars = match parameters.substrate_law {
@@ -185,20 +194,23 @@ impl Chain {
             load_arm,
             marked_depth: parameters.depth,
             marked_force: parameters.force,
+            controls: controls(parameters, layout, needle.is_some(), (right - left).norm()),
             needle,
             constraints,
-            controls,
             detail: PathDetail::Whole,
             units: layout.units(direct),
         };
-        // The rest position of a round tip depends on the scales of the row, so it is computed
-        // last.
-        let round = chain.needle.as_ref().filter(|needle| needle.is_round());
-        let centre = round.map(|needle| chain.centre_at_rest(needle, load_arm.x));
-        if let (Some(needle), Some(centre)) = (&mut chain.needle, centre) {
+        chain.set_down_round_tip();
+        chain
+    }
+
+    /// Moves a round tip to its rest position, which depends on the scales of the row.
+    fn set_down_round_tip(&mut self) {
+        let round = self.needle.as_ref().filter(|needle| needle.is_round());
+        let centre = round.map(|needle| self.centre_at_rest(needle, self.load_arm.x));
+        if let (Some(needle), Some(centre)) = (&mut self.needle, centre) {
             needle.tip = centre;
         }
-        chain
     }
 
     /// Returns true if only the measures of [`PathDetail::Critical`] are taken.
