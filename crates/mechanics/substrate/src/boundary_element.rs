@@ -144,7 +144,7 @@ impl Load {
 }
 
 impl Mesh {
-    /// Solves for the reactions, by Poisson's ratio.
+    /// Solves for the reactions at each Poisson's ratio.
     ///
     /// `None` if a matrix is singular.
     fn reactions(

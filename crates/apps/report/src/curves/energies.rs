@@ -111,7 +111,9 @@ fn panels(
     Some(sheet(full, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
 }
 
-/// Returns the curves of each solved design, in physical units if there are factors to them.
+/// Returns the energy curves of each solved design.
+///
+/// `units` holds the factors of each design to physical units, if they are known.
 fn energy_curves(
     designs: &[DesignCurves],
     energies: fn(&DesignCurves) -> Option<Energies>,
