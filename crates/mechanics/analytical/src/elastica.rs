@@ -45,7 +45,7 @@ pub const MATTIASSON: [(f64, Tip); 4] = [
 
 /// Returns the tip displacement of an inextensible cantilever.
 ///
-/// The load is `PL²/EI > 0`.
+/// `load` is `PL²/EI > 0`.
 pub fn tip(load: f64) -> Tip {
     // Just inside the interval: at its ends the load is zero and infinite.
     let ends = [FRAC_1_SQRT_2 * (1.0 + 1e-12), 1.0 - 1e-12];
@@ -91,10 +91,10 @@ fn legendre(sin_phi: f64, k: f64) -> [f64; 2] {
     [f, f - k.powi(2) * sin_phi.powi(3) / 3.0 * carlson_rd(cos2, delta2, 1.0)]
 }
 
-/// Relative deviation of the arguments below which a series is used.
+/// Deviation of the arguments from their mean below which the series is used.
 ///
-/// It is the deviation from their mean. The errors of the series of Carlson's integrals are of
-/// sixth order in this deviation, so they are exact to the last digits.
+/// It is relative to the mean. The series of Carlson's integrals have errors of sixth order in it,
+/// below round-off.
 const NEAR: f64 = 1e-3;
 
 /// Returns Carlson's symmetric integral of the first kind, by duplication.

@@ -40,9 +40,9 @@ fn arm(length_over_pitch: f64, arc: f64) -> f64 {
     length_over_pitch * arc * (0.5 * arc).cos()
 }
 
-/// Returns the zero of an increasing function between 0 and `ψ = 2 cot(ψ/2)`.
+/// Returns the zero of an increasing function of `ψ`, `None` if it has none.
 ///
-/// `ψ cos(ψ/2)` increases up to this bound.
+/// The interval ends at the maximum of `ψ cos(ψ/2)`, where `ψ = 2 cot(ψ/2)`.
 fn root(f: impl Fn(f64) -> f64) -> Option<f64> {
     let last = 1.720_667_178_038_76;
     (f(last) >= 0.0).then(|| bisected([0.0, last], |arc| f(arc) < 0.0))

@@ -22,7 +22,9 @@ impl Body {
         self.curvature == 0.0
     }
 
-    /// Returns the tangent frame at an arc length (over `t`) to the right, seen from the one at 0.
+    /// Returns the tangent frame at the arc length `arc` (over `t`, to the right).
+    ///
+    /// Its position and angle are relative to the frame at `arc = 0`.
     pub fn frame(&self, arc: f64) -> Frame {
         let angle = arc * self.curvature;
         let (sin, cos) = angle.sin_cos();
@@ -53,8 +55,9 @@ impl Body {
         polygon_distance(&left.corners(), &neighbour)
     }
 
-    /// Counts the scales on each side of the punctured one before the body turns away; `None`
-    /// for a flat body.
+    /// Counts the scales on each side of the punctured one that face the load.
+    ///
+    /// Their normals are within 80° of its normal. `None` for a flat body, which sets no limit.
     pub fn scales_beside(&self, pitch: f64) -> Option<usize> {
         let step = pitch * self.curvature.abs();
         // A body of vanishing curvature has more scales than an integer can count; the conversion
@@ -138,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_row_stops_before_the_body_turns_away() {
+    fn scales_that_face_away_from_the_load_are_not_counted() {
         let body = Body { curvature: -0.25 };
         // Five pitches of 1.1 span 78.8°, six 94.5°.
         assert_eq!(body.scales_beside(1.1), Some(5));

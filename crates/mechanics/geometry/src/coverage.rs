@@ -25,7 +25,7 @@ pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
     ((whole * base + partial) / shift).min(1.0)
 }
 
-/// Relative distance for an exact change of the number of crossed scales.
+/// Distance over the pitch at which a scale counts as just reaching the line.
 const NEAR: f64 = 1e-9;
 
 /// Returns the one-sided rate of [`coverage`].
@@ -33,7 +33,7 @@ const NEAR: f64 = 1e-9;
 /// `rates` are the rates of shift, base and pitch.
 pub(crate) fn coverage_rate([shift, base, pitch]: [f64; 3], rates: [f64; 3]) -> f64 {
     if shift < TOUCH {
-        // Nothing is covered while the shift is smaller than the gap.
+        // The line ends above the substrate between two bases.
         return 0.0;
     }
     let [shifts, bases, pitches] = rates;

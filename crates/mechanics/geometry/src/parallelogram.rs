@@ -89,9 +89,9 @@ impl Parallelogram {
         }
     }
 
-    /// Returns the undeformed corners, counter-clockwise from bottom left.
+    /// Returns the undeformed corners relative to the node.
     ///
-    /// They are relative to the node.
+    /// They are ordered counter-clockwise from the bottom left.
     pub fn corners(&self) -> [Vec2; 4] {
         Corner::ALL.map(|corner| self.corner(corner))
     }

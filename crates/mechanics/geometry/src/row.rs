@@ -77,8 +77,8 @@ impl Row {
 
     /// Returns the one-sided rate of the coverage under changes of the row's lengths.
     ///
-    /// The coverage has a kink where the number of crossed scales changes; the rate is the one on
-    /// the side to which the change leads.
+    /// The coverage has a kink where the number of crossed scales changes. There the rate is the
+    /// directional derivative along the change.
     pub fn coverage_rate(&self, change: &RowChange) -> f64 {
         let lengths = [self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch()];
         let RowChange { shift, half_base, gap } = *change;
@@ -97,9 +97,9 @@ pub struct RowChange {
     pub gap: f64,
 }
 
-/// Returns the length of a vertical line inside a convex polygon; both run in the order given.
+/// Returns the length of a vertical line inside a convex polygon.
 ///
-/// The line runs down, the corners counter-clockwise.
+/// The line is given from top to bottom, the corners counter-clockwise.
 fn length_inside([top, bottom]: [Vec2; 2], corners: &[Vec2; 4]) -> f64 {
     let (mut high, mut low) = (top.y, bottom.y);
     for (k, start) in corners.iter().enumerate() {

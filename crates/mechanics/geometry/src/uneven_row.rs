@@ -15,13 +15,13 @@ pub struct UnevenRow {
     scales: Vec<Parallelogram>,
     gaps: Vec<f64>,
     /// Distances of the nodes from the first node.
-    places: Vec<f64>,
+    positions: Vec<f64>,
 }
 
 impl UnevenRow {
     /// Creates a row of `scales` with `gaps` (over `t`) between neighbouring bases.
     ///
-    /// There is one gap fewer than scales.
+    /// There is one gap less than there are scales.
     ///
     /// # Errors
     /// If a gap is not positive and finite, two neighbours overlap above their bases, or the
@@ -30,15 +30,15 @@ impl UnevenRow {
         let one_fewer = gaps.len() + 1 == scales.len();
         let expected = "one fewer than there are scales";
         OutOfRange::unless(one_fewer, "number of gaps", gaps.len() as f64, expected)?;
-        let mut places = vec![0.0];
+        let mut positions = vec![0.0];
         for (pair, &gap) in scales.windows(2).zip(&gaps) {
             let narrowest = clearance(&pair[0], &pair[1], gap);
             let clear = narrowest > 0.0 && gap.is_finite();
-            OutOfRange::unless(clear, "gap", narrowest, "scales that stand clear of each other")?;
+            OutOfRange::unless(clear, "gap", narrowest, "neighbours that do not overlap")?;
             let pitch = pair[0].half_base() + gap + pair[1].half_base();
-            places.push(places[places.len() - 1] + pitch);
+            positions.push(positions[positions.len() - 1] + pitch);
         }
-        Ok(Self { scales, gaps, places })
+        Ok(Self { scales, gaps, positions })
     }
 
     /// Returns the scales, from the left.
@@ -57,13 +57,13 @@ impl UnevenRow {
     }
 
     /// Returns the distance of node `i` from the first node, over `t`.
-    pub fn place(&self, i: usize) -> f64 {
-        self.places[i]
+    pub fn position(&self, i: usize) -> f64 {
+        self.positions[i]
     }
 
     /// Returns the distance of the last node from the first node, over `t`.
     pub fn length(&self) -> f64 {
-        self.places[self.places.len() - 1]
+        self.positions[self.positions.len() - 1]
     }
 }
 
@@ -108,7 +108,7 @@ mod tests {
         let row =
             UnevenRow::new(vec![scale(0.0), scale(5.0), scale(-2.0)], vec![0.1, 0.3]).unwrap();
         close(row.pitch(0), 1.1);
-        close(row.place(2), 2.4);
+        close(row.position(2), 2.4);
         close(row.length(), 2.4);
     }
 

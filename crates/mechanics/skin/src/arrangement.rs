@@ -44,10 +44,10 @@ impl Arrangement {
     }
 
     /// Returns the distance from the node of the first scale to the node of scale `i`.
-    pub(crate) fn place(&self, i: usize) -> f64 {
+    pub(crate) fn position(&self, i: usize) -> f64 {
         match self {
             Self::Even(row) => i as f64 * row.pitch(),
-            Self::Uneven(row) => row.place(i),
+            Self::Uneven(row) => row.position(i),
         }
     }
 

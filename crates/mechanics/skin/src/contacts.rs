@@ -185,7 +185,7 @@ impl Contacts {
 
     /// Returns the tangent frame of a scale in the frame of the first scale.
     pub(crate) fn frame_at(&self, scale: usize) -> Frame {
-        self.body.frame(self.arrangement.place(scale))
+        self.body.frame(self.arrangement.position(scale))
     }
 
     /// Transforms a pose to the frame in which `frame` is given; no change on a flat body.

@@ -128,7 +128,7 @@ pub(crate) fn derivatives<S: Skin>(
         // Compute the motion of the point once per parameter for all quantities.
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
-            let (value, contenders) = quantity.value_at(system, linearised.here.place());
+            let (value, contenders) = quantity.value_at(system, linearised.here.point());
             derivatives.extend(sides.iter().zip(variations).enumerate().map(
                 |(parameter, (sides, variation))| {
                     let rates = quantity.rates(variation, sides, &contenders);
@@ -221,9 +221,9 @@ impl<S: Skin> Linearised<'_, S> {
                 return SideMotion { moved: Some(moved), change: name };
             };
             let next = here.beyond(self.system, change, self.settings);
-            let after = next.as_ref().map_or(&here.place().state, |next| &next.place().state);
+            let after = next.as_ref().map_or(&here.point().state, |next| &next.point().state);
             // The first change names the kink; later ones follow from it.
-            name.get_or_insert_with(|| self.name(&here.place().state, after, change));
+            name.get_or_insert_with(|| self.name(&here.point().state, after, change));
             let Some(next) = next else { break };
             here = next;
             moved = here.moved(self.system, neighbours, self.turns);

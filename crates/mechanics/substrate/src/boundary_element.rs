@@ -28,7 +28,8 @@ use crate::mesh::{GradedAxis, Mesh};
 /// Row of rectangles that double precision cannot resolve.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "no tractions found under rectangles of gap/a = {:e} and width/a = {:e} with {cells} cells a side",
+    "cannot solve for the tractions under rectangles of gap/a = {:e} and width/a = {:e} with \
+       {cells} cells a side: use a wider gap",
     .footprint.gap_over_a(), .footprint.width_over_a()
 )]
 pub struct Unresolved {
@@ -85,8 +86,8 @@ pub fn row_reactions(
 
 /// Computes [`row_reactions`] for several Poisson's ratios.
 ///
-/// They take the place of the footprint's own. Normal tractions do not depend on the ratio, so each
-/// ratio takes one more matrix, whereas each footprint takes three.
+/// `poisson_ratios` replace the ratio of the footprint. A footprint needs a matrix each for shear,
+/// normal displacement and rotation; every further ratio needs only another one for shear.
 ///
 /// # Errors
 /// As [`row_reactions`].
@@ -201,7 +202,7 @@ impl Mesh {
         RowReactions { direct, neighbours, cross }
     }
 
-    /// Returns axes along `x` in the order of unknowns, by column, `z` fastest.
+    /// Returns the axes along `x` in the order of the unknowns (`z` fastest).
     pub(crate) fn across(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
         std::iter::once(&self.middle).chain(&self.neighbours)
     }
@@ -246,7 +247,7 @@ impl Mesh {
 
     /// Returns `∬ p arm(x)` over the meshed part of a rectangle.
     ///
-    /// The rectangle has the first unknown `first`.
+    /// `first` is the index of its first unknown.
     fn sum(
         &self,
         axis: &GradedAxis,
@@ -290,7 +291,7 @@ impl Equations {
         equations
     }
 
-    /// Fills a row: right sources with left mirror images, even or odd in `x`.
+    /// Fills a matrix row with the influences of the cells and their mirror images in `x`.
     fn fill_row(
         &mut self,
         row: usize,
@@ -326,10 +327,10 @@ impl CellColumns {
         Self { line, last: blank.clone(), next: blank }
     }
 
-    /// Computes the influence at `x` of the cells on one `side`, by column.
+    /// Computes the influence at `x` of the cells on one side of the symmetry plane.
     ///
-    /// The sides are sides of the symmetry plane. The side is 1 (right) or −1 (left). On the left
-    /// the edges descend and the influence is negative.
+    /// The cells are ordered by column. `side` is 1 on the right and −1 on the left. On the left
+    /// the edges descend, so the influence is negative.
     pub(crate) fn on_side(&mut self, mesh: &Mesh, x: f64, side: f64) -> Vec<Influence> {
         let mut influence = Vec::with_capacity(mesh.unknowns());
         for axis in mesh.across() {

@@ -84,7 +84,7 @@ impl Footprint {
     /// If the layer is thinner than a quarter of the half-width `a`.
     pub fn on_layer(self, thickness_over_a: f64) -> Result<Self, OutOfRange> {
         let possible = thickness_over_a >= THINNEST;
-        let expected = "a quarter of the half-width a of a base at least";
+        let expected = "at least a quarter of the half-width a of a base";
         OutOfRange::unless(possible, "thickness of the layer over a", thickness_over_a, expected)?;
         Ok(Self { thickness_over_a, ..self })
     }
@@ -127,8 +127,8 @@ impl Footprint {
 
     /// Returns the footprint with one number increased by a small step.
     ///
-    /// The numbers are gap, width, Poisson's ratio and thickness. The shear compliance has a
-    /// continuation beyond the valid range of the ratio.
+    /// The numbers are gap, width, Poisson's ratio and thickness. The ratio may leave its valid
+    /// range, because the shear compliance has a continuation there.
     pub(crate) fn moved(&self, number: usize, step: f64) -> Self {
         let mut numbers = self.numbers();
         numbers[number] += step;
@@ -136,7 +136,9 @@ impl Footprint {
         Self { gap_over_a, width_over_a, poisson_ratio, thickness_over_a }
     }
 
-    /// Returns the step of a difference by a parameter: a fraction of a length, or of 1 for a ratio.
+    /// Returns the step of a finite difference with respect to a parameter.
+    ///
+    /// It is `fraction` of a length, or `fraction` itself for Poisson's ratio.
     pub(crate) fn step(&self, parameter: FootprintParameter, fraction: f64) -> f64 {
         match parameter {
             FootprintParameter::PoissonRatio => fraction,

@@ -25,7 +25,7 @@ use std::ops::{Add, Sub};
 
 /// Integrals of (S3): the effect of a unit traction on a cell.
 ///
-/// They contain no elastic constants. At a corner, the corner functions themselves.
+/// They contain no elastic constants. The corner functions of a single corner have the same type.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Influence {
     /// `A`, `∬ z²/r³`.

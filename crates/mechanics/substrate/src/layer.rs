@@ -35,8 +35,8 @@ const PER_UNIT: usize = 48;
 
 /// Largest tabulated `ρ`.
 ///
-/// Beyond it the surface of a layer moves by less than 1e-6, so the remainder cancels the
-/// half-space.
+/// Beyond it the surface of a layer moves by less than 1e-6, so the integrals are the negative
+/// values of the half-space.
 const FARTHEST: usize = 16;
 
 /// Number of quadrature intervals, up to where integrands decay to 1e-12.
@@ -124,7 +124,7 @@ static RECENT: Mutex<Vec<Arc<Layer>>> = Mutex::new(Vec::new());
 
 /// Number of cached layers.
 ///
-/// It is enough for the differences by Poisson's ratio of several threads.
+/// Each thread that differentiates by Poisson's ratio needs several.
 const KEPT: usize = 16;
 
 impl Layer {

@@ -87,9 +87,9 @@ pub(crate) fn slope(
 
 /// Reactions on one mesh, minus the half-space reactions.
 struct Added {
-    /// `K_x`, `K_y`, `K_φ`, `r_0` of the middle.
+    /// Values of the middle rectangle, then of each neighbour.
     ///
-    /// Per neighbour `K_x`, `K_y`, `K_φ`, `c`, `l`, `r`.
+    /// `K_x`, `K_y`, `K_φ`, `r_0`, then `K_x`, `K_y`, `K_φ`, `c`, `l`, `r`.
     numbers: Vec<f64>,
     /// `K_x`, `K_y`, `K_φ` of the middle rectangle on the layer.
     sizes: [f64; 3],
@@ -156,23 +156,24 @@ impl Mesh {
 struct Tractions<'a> {
     mesh: &'a Mesh,
     pitch: f64,
-    /// Tractions of a displacement along the row, and of a rotation.
+    /// Tractions due to a displacement along the row, and due to a rotation.
     along: DMatrix<f64>,
-    /// Tractions of a displacement across the row.
+    /// Tractions due to a displacement across the row.
     across: DMatrix<f64>,
 }
 
 impl Tractions<'_> {
-    /// Returns the tractions of a displacement along the row, of a rotation, and of a displacement
-    /// across the row.
-    fn loads(&self) -> [&[f64]; 3] {
+    /// Returns the tractions by load.
+    ///
+    /// The loads are a displacement along the row, a rotation, and a displacement across the row.
+    fn by_load(&self) -> [&[f64]; 3] {
         let (push, turn) = self.along.as_slice().split_at(self.along.nrows());
         [push, turn, self.across.as_slice()]
     }
 
     fn middle(&self) -> [f64; OWN] {
         let n = self.mesh.unknowns();
-        let [push, turn, lift] = self.loads();
+        let [push, turn, lift] = self.by_load();
         let x = self.mesh.middle_sum(&push[..n], ONE);
         let y = self.mesh.middle_sum(&lift[n..], ONE);
         let moment = self.mesh.middle_sum(&turn[n..], ARM);
@@ -185,7 +186,7 @@ impl Tractions<'_> {
     }
 
     fn neighbour(&self, k: usize) -> [f64; PER_NEIGHBOUR] {
-        let [push, turn, lifted] = self.loads().map(|load| self.forces_on_neighbour(k, load));
+        let [push, turn, lifted] = self.by_load().map(|load| self.forces_on_neighbour(k, load));
         // The middle rectangle has two neighbours, its neighbours have one, so collocation gives
         // two values. An energy requires one value: take the mean.
         let lift = 0.5 * (push[1] - lifted[0]);
@@ -193,7 +194,7 @@ impl Tractions<'_> {
         [push[0], lifted[1], turn[2], turn[1], lift, roll]
     }
 
-    /// Sums the tractions on neighbour `k` to forces along and across, and moment.
+    /// Sums the tractions on neighbour `k`: forces along and across the row, moment.
     fn forces_on_neighbour(&self, k: usize, tractions: &[f64]) -> [f64; 3] {
         let n = self.mesh.unknowns();
         let centre = (k + 1) as f64 * self.pitch;
@@ -255,7 +256,9 @@ impl Quadrature {
         systems
     }
 
-    /// Computes the smooth influence of each cell with `z` image and `x` images.
+    /// Computes the smooth influence of each cell at a point.
+    ///
+    /// The two values are the cell and its mirror image in `x`, each with its mirror image in `z`.
     fn at(&self, layer: &Layer, thickness: f64, [x, z]: [f64; 2]) -> Vec<[Displacements; 2]> {
         let mut influences = Vec::with_capacity(self.columns.len() * self.depth.len());
         for column in &self.columns {
@@ -305,7 +308,7 @@ fn on_half_space(cell: Influence, poisson_ratio: f64) -> Displacements {
 
 /// Fills the four entries of a cell.
 ///
-/// `signs` are the signs of `q` and `p` in the image.
+/// `signs` are the signs of `q` and `p` in the mirror image.
 fn fill(
     matrix: &mut DMatrix<f64>,
     n: usize,

@@ -26,14 +26,12 @@ pub struct GradedAxis {
 impl GradedAxis {
     /// Creates `cells` cells over the interval `ends`.
     ///
-    /// They are graded to the `layers` `ε` (S4) at its ends.
+    /// `layers` holds the lengths `ε` of (S4) to which the cells are graded at the two ends.
     pub fn graded(ends: [f64; 2], layers: [f64; 2], cells: usize) -> Self {
         Self::between(&Grading::new(ends, layers), 0.0, cells)
     }
 
-    /// Creates the upper half of a graded axis over `0 … half_length`.
-    ///
-    /// It has `cells` cells.
+    /// Creates `cells` cells on `0 … half_length`, the upper half of a graded axis.
     pub fn upper_half(half_length: f64, layer: f64, cells: usize) -> Self {
         let grading = Grading::new([-half_length, half_length], [layer; 2]);
         let mut axis = Self::between(&grading, 0.5, cells);

@@ -126,7 +126,7 @@ impl RowStiffness {
         Ok(row)
     }
 
-    /// Solves for the stiffness of a row with a coupling on the half-space.
+    /// Solves for the stiffness of a row on the half-space with the given coupling.
     pub(crate) fn solved(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         match coupling {
             Coupling::Nearest => Ok((&Springs::from(&Self::solve(footprint, 1)?)).into()),

@@ -99,7 +99,7 @@ impl StiffnessSlopes {
         use FootprintParameter::{Gap, PoissonRatio, Size, Thickness, Width};
         let a = from.half_width;
         // Uses lengths instead of ratios: differences of ratios would lose digits for a small step.
-        let ways = [
+        let changes = [
             (Gap, (to.gap - from.gap) / a),
             (Width, (to.width - from.width) / a),
             (Size, 1.0 - to.half_width / a),
@@ -107,7 +107,7 @@ impl StiffnessSlopes {
             (Thickness, (to.thickness.unwrap_or(0.0) - from.thickness.unwrap_or(0.0)) / a),
         ];
         let mut sum = self.stiffness.clone();
-        for (parameter, by) in ways {
+        for (parameter, by) in changes {
             if by != 0.0 {
                 sum = sum + self.by(parameter)?.clone() * by;
             }

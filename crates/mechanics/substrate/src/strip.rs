@@ -64,7 +64,8 @@ impl SurfaceStrip {
 /// w = (g² + 2/g − 3)/6,   w' = (g − g⁻²)/3,   w" = (1 + 2 g⁻³)/3,   w"(1) = 1                    (V3)
 /// ```
 ///
-/// Incompressible, uniaxial. Infinite unless the stretch is positive; a bar never reaches zero.
+/// Incompressible, uniaxial. Infinite unless the stretch is positive, so a bar never reaches zero
+/// length.
 pub fn neo_hookean(stretch: f64) -> [f64; 3] {
     if stretch <= 0.0 {
         return [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY];
@@ -102,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn no_strip_can_be_pressed_to_nothing() {
+    fn no_strip_can_be_compressed_to_zero_width() {
         assert!(neo_hookean(1e-6)[1] < -1e11);
         for stretch in [0.0, -0.5] {
             assert!(neo_hookean(stretch).iter().all(|number| number.is_infinite()));
@@ -110,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn a_strip_is_measured_between_the_corners_of_the_turned_bases() {
+    fn a_strip_is_measured_between_the_corners_of_rotated_bases() {
         let (left, right): ([f64; 3], [f64; 3]) = ([0.3, 0.1, -0.4], [0.1, -0.2, 0.7]);
         // BL of the right base minus BR of the left one, along the row.
         let corner = 0.5 + 0.2 + 0.5 + right[0] - 0.5 * right[2].cos();

@@ -150,8 +150,8 @@ impl Reader {
             let slope = 2.0 / (high / low).ln();
             // Rounding may put an end of the range slightly beyond ±1, where polynomials are still
             // accurate.
-            let place = (value / low).ln() * slope - 1.0;
-            (low..=high).contains(&value).then(|| chebyshev(place, slope / value, NEAREST))
+            let position = (value / low).ln() * slope - 1.0;
+            (low..=high).contains(&value).then(|| chebyshev(position, slope / value, NEAREST))
         });
         // The ratio always lies in its range, 0 to ½; only the lengths may leave theirs.
         let left = 1.0 - footprint.poisson_ratio();

@@ -107,6 +107,6 @@ impl Contacts {
             let frame = self.frame_at(ends[0]);
             return frame.origin + frame.outward(corner);
         }
-        Vec2::new(self.arrangement.place(ends[of_right]), 0.0) + moved
+        Vec2::new(self.arrangement.position(ends[of_right]), 0.0) + moved
     }
 }

@@ -30,7 +30,7 @@ pub(crate) fn displacements(frames: &[Pose], row: &Arrangement) -> Vec<Step> {
         .enumerate()
         .map(|(i, frame)| {
             let node = frame.displacement;
-            [node.x - row.place(i), node.y, frame.rotation]
+            [node.x - row.position(i), node.y, frame.rotation]
         })
         .collect()
 }

@@ -313,7 +313,7 @@ impl Chain {
     /// Returns the tangent frame of a scale in the frame of the punctured one.
     pub(super) fn frame_from_punctured(&self, scale: usize) -> Frame {
         let Contacts { arrangement, body, .. } = &self.contacts;
-        body.frame(arrangement.place(scale) - arrangement.place(self.layout.left))
+        body.frame(arrangement.position(scale) - arrangement.position(self.layout.left))
     }
 
     /// Computes the contact of the tip with a part of a scale.

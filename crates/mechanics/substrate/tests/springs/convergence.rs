@@ -66,11 +66,11 @@ fn springs_are_converged() {
             assert!(error < REQUIRED / 10.0, "{i} is off by {error:.1e} for {:?}", row.footprint);
             // A coupling is also compared relative to itself, unless it is below a thousandth of
             // the direct one.
-            let share = row.coefficients[i].abs() / row.coefficients[i % 3];
+            let ratio = row.coefficients[i].abs() / row.coefficients[i % 3];
             assert!(
-                share < 1e-3 || error < REQUIRED * share,
+                ratio < 1e-3 || error < REQUIRED * ratio,
                 "{i} is off by {:.1e} of itself for {:?}",
-                error / share,
+                error / ratio,
                 row.footprint
             );
         }
@@ -128,7 +128,7 @@ fn reciprocity_defect(found: &RowReactions) -> f64 {
 ///
 /// It decreases at least with the second power of the number of cells, mostly with the third.
 #[test]
-fn reciprocity() {
+fn cross_terms_converge_to_bettis_theorem() {
     for (gap, width) in [(0.05, 0.25), (0.2, 2.0), (2.0, 2.0), (0.05, 80.0), (4.0, 80.0)] {
         let footprint = Footprint::new(gap, width, 0.5).unwrap();
         let [coarse, used, fine] =

@@ -34,7 +34,7 @@ fn assert_close(found: Influence, across: f64, along: f64) {
 }
 
 #[test]
-fn cells_away_from_the_field_point() {
+fn cells_away_from_the_field_point_agree_with_quadrature() {
     for (x, z) in [([0.3, 0.8], [-0.4, 0.5]), ([-2.0, -1.5], [1.0, 1.5]), ([-0.2, 0.3], [0.5, 0.9])]
     {
         let integrands: [fn(f64, f64) -> f64; 2] = [|_, z| z * z, |x, _| x * x];
@@ -48,7 +48,7 @@ fn cells_away_from_the_field_point() {
 ///
 /// `∬ x²/r³ = ∫ R(θ) cos²θ dθ` with the distance `R` to the boundary.
 #[test]
-fn cells_around_the_field_point() {
+fn cells_around_the_field_point_agree_with_quadrature() {
     for (x, z) in [([-0.5_f64, 0.5_f64], [-0.5_f64, 0.5_f64]), ([-0.1, 0.7], [-0.02, 0.05])] {
         let mut corners: Vec<f64> = [(0, 0), (1, 0), (1, 1), (0, 1)]
             .map(|(i, j)| z[j].atan2(x[i]).rem_euclid(TAU))
@@ -78,7 +78,7 @@ fn corner_functions_vanish_with_their_factor() {
 
 /// The centre of a uniformly loaded square of side 2 settles by `8 asinh(1)/π`.
 #[test]
-fn centre_of_a_uniformly_loaded_square() {
+fn a_uniformly_loaded_square_settles_as_in_closed_form() {
     let square = cell([-1.0, 1.0], [-1.0, 1.0]);
     let exact = analytical::half_space::loaded_square_centre();
     assert!((square.normal() - exact).abs() < 1e-15);

@@ -58,7 +58,7 @@ fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
     })
 }
 
-/// The compliances, with the sign of the coupling, against a solved layer.
+/// Checks also the sign of the coupling between normal and shear tractions.
 #[test]
 fn compliances_agree_with_a_directly_solved_layer() {
     for ratio in [0.5, 0.3, 0.0] {
@@ -94,7 +94,7 @@ fn hankel_transform(ratio: f64, part: usize, order: f64, rho: f64) -> f64 {
     (first + second + values.sum::<f64>()) * step + step * step / 12.0 * slope
 }
 
-/// In real space against the trapezoidal rule.
+/// Compares the tabulated point loads of (S20) with the trapezoidal rule.
 #[test]
 fn point_loads_are_hankel_transforms() {
     for ratio in [0.5, 0.2] {
@@ -113,7 +113,9 @@ fn point_loads_are_hankel_transforms() {
     }
 }
 
-/// The contribution of a layer decreases with thickness, normal as `1/h`.
+/// The contribution of a layer decreases with its thickness `h`.
+///
+/// In the normal direction it decreases as `1/h`.
 #[test]
 fn thick_layers_approach_the_half_space() {
     for coupling in [Coupling::Nearest, Coupling::Full] {
@@ -156,7 +158,7 @@ fn layers_agree_with_an_independent_program() {
     }
 }
 
-/// The estimated error bounds the deviation of other quadratures and footprints.
+/// The estimated error bounds the changes due to other quadratures and footprints.
 ///
 /// Excessively thin layers are rejected.
 #[test]
@@ -203,7 +205,7 @@ fn the_stiffness_is_positive_definite() {
 
 /// Derivatives agree with differences of whole stiffnesses.
 ///
-/// By all four parameters, and by all lengths together.
+/// With respect to all four parameters, and to all lengths together.
 #[test]
 fn derivatives_agree_with_differences() {
     for (coupling, [gap, width, ratio, thickness]) in [
@@ -223,7 +225,7 @@ fn derivatives_agree_with_differences() {
             if parameter == PoissonRatio && ratio == 0.5 {
                 continue;
             }
-            // By two step lengths.
+            // With two step lengths.
             let step = 1e-3;
             let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(|steps| {
                 let moved = layer(std::array::from_fn(|i| center[i] + steps * step * along[i]));

@@ -17,13 +17,13 @@ fn slope(gap: f64) -> [f64; 2] {
 
 /// An isolated rigid strip resists a rotation with `M = (π/4) E* a² φ` per length.
 #[test]
-fn a_long_rectangle_alone() {
+fn a_long_rectangle_alone_agrees_with_a_strip() {
     let found = slope(1e4)[0];
     assert!((found - strips::ALONE).abs() < 2e-4 * found, "{found}");
 }
 
 #[test]
-fn long_rectangles_in_a_row() {
+fn long_rectangles_in_a_row_agree_with_strips() {
     for gap in [0.05, 0.2, 1.0] {
         let ([direct, coupling], exact) = (slope(gap), strips::three_strips(gap, 30).unwrap());
         let alpha = exact.direct;

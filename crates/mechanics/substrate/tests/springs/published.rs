@@ -24,7 +24,7 @@ fn assert_printed(found: f64, printed: f64, digits: i32, estimate: f64) {
 ///
 /// Its side is `s`; here `s = 2a`.
 #[test]
-fn borodachev_square_punch() {
+fn a_rigid_square_punch_agrees_with_borodachev() {
     for poisson_ratio in [0.0, 0.3, 0.5] {
         let square = springs(ALONE, 2.0, poisson_ratio);
         let printed = half_space::SQUARE.normal / 2.0;
@@ -35,7 +35,7 @@ fn borodachev_square_punch() {
 
 /// Isolated square under shear and rotation at `ν = 0.5`.
 #[test]
-fn isolated_square() {
+fn an_isolated_square_agrees_with_converged_values() {
     let square = springs(ALONE, 2.0, 0.5);
     let known = half_space::SQUARE;
     assert_printed(square.direct[0], known.shear, 4, square.error * square.direct[0]);
@@ -47,7 +47,7 @@ fn isolated_square() {
 /// The values are known to three decimals. They are compared as truncated after the third:
 /// `β_x = 0.9936`, known as 0.993, would round to 0.994; the other five agree either way.
 #[test]
-fn three_squares() {
+fn three_squares_agree_with_converged_values() {
     let row = springs(0.2, 2.0, 0.5);
     let direct = half_space::THREE_SQUARES_DIRECT.values();
     let coupling = half_space::THREE_SQUARES_COUPLING.values().map(f64::abs);
@@ -92,11 +92,9 @@ fn coupling_vanishes_with_distance() {
     assert!(last[0] < 4e-3 && last[1] < 4e-3 && last[2] < 1e-6, "{last:?}");
 }
 
-/// The limit of an isolated rectangle is smooth.
-///
 /// The effect of the gap `d` decreases as `(a/p)²`.
 #[test]
-fn isolated_limit() {
+fn springs_tend_to_the_values_of_an_isolated_rectangle() {
     let alone = extrapolated(&Footprint::new(ALONE, 2.0, 0.5).unwrap(), [16, 24]).unwrap();
     let [near, far] = [40.0, 82.0].map(|gap| springs(gap, 2.0, 0.5).direct);
     for i in [0, 1] {
@@ -110,7 +108,7 @@ fn isolated_limit() {
 ///
 /// Shear does, and at `ν = 0` it equals the normal problem.
 #[test]
-fn poisson_ratio_scaling() {
+fn only_shear_depends_on_poissons_ratio() {
     let [zero, some, half] = [0.0, 0.25, 0.5].map(|ratio| springs(0.3, 1.5, ratio));
     for i in [1, 2] {
         assert_eq!((zero.direct[i], zero.coupling[i]), (half.direct[i], half.coupling[i]));
@@ -124,7 +122,7 @@ fn poisson_ratio_scaling() {
 }
 
 #[test]
-fn signs() {
+fn displacements_couple_positively_and_rotations_negatively() {
     for (gap, width) in [(0.017, 0.25), (0.05, 80.0), (1.0, 2.0), (80.0, 80.0)] {
         let row = springs(gap, width, 0.5);
         let [x, y, phi] = row.coupling;

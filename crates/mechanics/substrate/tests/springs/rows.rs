@@ -60,7 +60,7 @@ fn the_stiffness_is_positive_definite() {
 
 /// A distant scale responds as to a point load and a couple.
 ///
-/// It is held against `u = α_y/(π r)` and against `u = α_φ/(π r²)`.
+/// It is compared with `u = α_y/(π r)` and with `u = α_φ/(π r²)`.
 #[test]
 fn distant_scales_respond_as_to_point_loads_and_couples() {
     let row = row([200.0, 2.0], 3);
@@ -75,7 +75,7 @@ fn distant_scales_respond_as_to_point_loads_and_couples() {
     }
 }
 
-/// Betti's theorem is part of the error.
+/// The error includes the difference of the cross terms, equal by Betti's theorem.
 #[test]
 fn rows_are_as_accurate_as_equation_1() {
     for numbers in FOOTPRINTS {
@@ -125,7 +125,7 @@ fn couplings_of_rotations_decay_faster_than_couplings_of_displacements() {
 }
 
 #[test]
-fn both_couplings_are_shared() {
+fn rows_with_either_coupling_are_shared() {
     let shared = Calibrations::default();
     let print = footprint([0.2, 2.0]);
     let full = shared.row(&print, Coupling::Full).unwrap();

@@ -31,7 +31,8 @@ fn a_gap_lost_in_rounding_is_an_error_each_time() {
     let error = shared.get(&lost).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "no tractions found under rectangles of gap/a = 1e-17 and width/a = 2e0 with 4 cells a side"
+        "cannot solve for the tractions under rectangles of gap/a = 1e-17 and width/a = 2e0 with \
+         4 cells a side: use a wider gap"
     );
     assert_eq!(shared.get(&lost), Err(error));
 }

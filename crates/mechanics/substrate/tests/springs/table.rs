@@ -10,7 +10,7 @@ fn footprints(count: usize) -> impl Iterator<Item = Footprint> {
         let [gap, width, ratio] = [5.0, 2.0, 3.0].map(|step| (k as f64 * f64::sqrt(step)).fract());
         let [gap, width] =
             [(GAPS, gap), (WIDTHS, width)].map(|([low, high], part)| low * (high / low).powf(part));
-        // Most rows are incompressible.
+        // Every other row is incompressible.
         let ratio = if k % 2 == 0 { 0.5 } else { 0.5 * ratio };
         Footprint::new(gap, width, ratio).unwrap()
     })
@@ -45,9 +45,7 @@ fn springs_agree_with_fine_meshes() {
     }
 }
 
-/// Long rows are less accurate than Eq. (1).
-///
-/// The neglected coupling, the truncation, is sixty times as large.
+/// The coupling that long rows neglect is sixty times as large as their error.
 #[test]
 fn long_rows_agree_with_boundary_elements() {
     for footprint in footprints(3) {
@@ -65,9 +63,7 @@ fn long_rows_agree_with_boundary_elements() {
     }
 }
 
-/// The range ends with the table.
-///
-/// Outside, boundary elements are solved and report a larger error.
+/// Outside the table, boundary elements are solved and report a larger error.
 #[test]
 fn table_and_boundary_elements_agree_at_the_range_limits() {
     for [gap, width] in [[0.0125, 0.25], [0.0125, 80.0], [100.0, 0.25], [100.0, 80.0]] {
