@@ -73,7 +73,7 @@ impl Force {
 /// | `Edge(e)`, sides parallel | `λ'` + | `Edge(e')` | | `λ'` |
 /// | `Edge(e)` | `λ''` + | `Flush(e)` | | `λ''` |
 /// | `Corner(e)` | `λ` − | `Edge(e')` | `λ ← λ'` | `λ'` |
-/// | `Corner(e)` | `λ'` − | `Edge(e)`, as the side leans by now | | `λ'` |
+/// | `Corner(e)` | `λ'` − | `Edge(e)`, by the current inclination of the side | | `λ'` |
 /// | `Flush(e)` | `λ` − | `Edge(e'')` | `λ ← λ''` | `λ''` |
 /// | `Flush(e)` | `λ'` + | `Corner(e)`, or `Edge(e')` where sides are parallel | `λ ← λ + λ''` | `λ'` |
 /// | `Flush(e)` | `λ''` − | `Edge(e)` | | `λ''` |

@@ -128,10 +128,10 @@ impl<'a> Corners<'a> {
         self.pair.slide(edge, left, right)
     }
 
-    /// Returns the contacts on both sides of the state corner on corner.
+    /// Returns the two contacts that meet in the state corner on corner.
     ///
-    /// The first is the contact that arrived as `edge`, in the form in which it would leave again;
-    /// the second is its partner.
+    /// The first is the contact `edge` that reached the corner, in the form that it would have on
+    /// leaving it; the second is its partner.
     pub fn together(&self, edge: CornerEdge) -> [CornerEdge; 2] {
         let (leaning, on_side) = (self.leaning(), self.level.tip_on_side());
         if edge == on_side { [on_side, leaning] } else { [leaning, on_side] }
@@ -153,7 +153,7 @@ impl<'a> Corners<'a> {
         self.poses[0].rotation - self.poses[1].rotation
     }
 
-    /// Returns the possible one of corner on side and tip on end.
+    /// Returns corner on side or tip on end, by the inclination of the side.
     fn leaning(&self) -> CornerEdge {
         if self.beyond_level() > 0.0 {
             self.level.tip_on_end()

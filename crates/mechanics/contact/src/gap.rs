@@ -188,8 +188,9 @@ impl Pair {
         Self::between([scale; 2], Vec2::new(pitch, 0.0))
     }
 
-    /// Creates a pair of a left and a right scale; `offset` leads from the left to the right node
-    /// (over `t`).
+    /// Creates a pair of a left and a right scale.
+    ///
+    /// `offset` leads from the node of the left scale to the node of the right one (over `t`).
     pub fn between(scales: [Parallelogram; 2], offset: Vec2) -> Self {
         let meetings = CornerEdge::ALL.map(|corner_edge| {
             let [left, right] = &scales;

@@ -82,7 +82,12 @@ impl ContactLaw {
     /// If the coefficient is negative or not finite.
     pub fn with_friction(self, friction: f64) -> Result<Self, OutOfRange> {
         let is_legal = friction >= 0.0 && friction.is_finite();
-        OutOfRange::unless(is_legal, "friction between scales", friction, "a number from 0 on")?;
+        OutOfRange::unless(
+            is_legal,
+            "friction between scales",
+            friction,
+            "a number of at least 0",
+        )?;
         Ok(Self { friction, ..self })
     }
 

@@ -66,9 +66,9 @@ struct Extents {
 }
 
 impl Extents {
-    fn new(scale: &Parallelogram, pose: &Pose, place: Vec2) -> Self {
+    fn new(scale: &Parallelogram, pose: &Pose, node: Vec2) -> Self {
         let slant = scale.slant();
-        let corners = corners(scale, pose, place);
+        let corners = corners(scale, pose, node);
         let across = extent(&corners, Vec2::new(slant.cos(), -slant.sin()));
         Self { horizontal: extent(&corners, Vec2::x()), across, slant }
     }

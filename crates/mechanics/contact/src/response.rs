@@ -232,7 +232,7 @@ impl Together {
         v.dot(&self.beyond)
     }
 
-    /// Returns the components of a vector along the edge's normal, and short of the edge's end.
+    /// Returns the distances of a vector along the edge's normal and short of its end.
     fn distances(&self, v: Vec2) -> [f64; 2] {
         [v.dot(&self.normals[0]), -self.overrun(v)]
     }

@@ -86,7 +86,7 @@ pub struct Derivatives {
 
 /// Valid orders for [`Elastica::new`].
 ///
-/// A polynomial bends from order 2 on, and more than 128 points are a mistake.
+/// A polynomial of order 1 cannot bend. An order above 128 is taken for a mistake.
 const ORDERS: std::ops::RangeInclusive<usize> = 2..=128;
 
 impl Elastica {

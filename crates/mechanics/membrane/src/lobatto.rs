@@ -119,9 +119,8 @@ const NEWTON: usize = 6;
 mod tests {
     use super::Lobatto;
 
-    /// Closed form of the rule of order 4.
     #[test]
-    fn five_points() {
+    fn the_rule_of_order_4_agrees_with_its_closed_form() {
         let rule = Lobatto::new(4);
         let inner = 0.5 * (1.0 - (3.0_f64 / 7.0).sqrt());
         let points = [0.0, inner, 0.5, 1.0 - inner, 1.0];
@@ -133,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_for_polynomials() {
+    fn the_rule_integrates_and_differentiates_polynomials_exactly() {
         for n in 1..=64 {
             let rule = Lobatto::new(n);
             assert_eq!(rule.order(), n);

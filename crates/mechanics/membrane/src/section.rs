@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stiffnesses_of_a_rectangle() -> Result<(), OutOfRange> {
+    fn a_rectangle_has_its_closed_form_stiffnesses() -> Result<(), OutOfRange> {
         let section = Section::new(2.0, 0.5)?;
         assert!((section.axial_stiffness() - 1.0).abs() < 1e-15);
         assert!((section.bending_stiffness() - 2.0 * 0.125 / 12.0).abs() < 1e-15);
@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn the_message_names_what_was_given() {
+    fn the_message_names_the_quantity_and_the_given_value() {
         let message = Section::new(1.0, -0.5).map_err(|error| error.to_string());
         let expected = "thickness of the membrane is -0.5, expected a positive finite number";
         assert_eq!(message, Err(expected.into()));

@@ -17,8 +17,7 @@ const BLOCK: usize = 7;
 /// Half-bandwidth: from the first unknown of a scale to the last displacement of the next.
 const HALF: usize = BLOCK + 3;
 
-/// Returns tangent entries in the pattern of a row with all corners closed.
-///
+/// Returns tangent entries of a row of `scales` scales with all corners closed.
 /// The row has `scales` scales.
 fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
     let size = BLOCK * scales;

@@ -1,27 +1,28 @@
 //! Block elimination, with pivots within the blocks.
 #![expect(
     clippy::inline_always,
-    reason = "only what is compiled into its caller may use wide registers"
+    reason = "only code that is inlined into its caller can use wide registers"
 )]
 
 use pulp::{Arch, NullaryFnOnce};
 
 use crate::block_matrix::{BlockMatrix, FARTHEST_LINK, LINK};
 
-/// Number of columns that link a block to its inner neighbours: with reach 1 (`NARROW`), and with
-/// the largest reach (`WIDE`).
+/// Number of columns that link a block to its inner neighbours.
+///
+/// `NARROW` applies to reach 1, `WIDE` to the largest reach.
 const NARROW: usize = LINK;
 const WIDE: usize = LINK * FARTHEST_LINK;
 
 /// True if matrices of larger reach are left to the band LU of the caller.
 ///
-/// Their elimination would take a twelfth of the WebAssembly module, and a page solves one design
-/// at a time.
+/// Their elimination would take up a twelfth of the WebAssembly module, and a page solves one
+/// design at a time.
 const IS_SMALL: bool = cfg!(target_arch = "wasm32");
 
 /// Smallest pivot relative to the largest entry of its column.
 ///
-/// Below it digits are lost that row exchanges with other blocks might save.
+/// A smaller pivot loses digits that row exchanges with other blocks might keep.
 const SMALL: f64 = 1e-9;
 
 /// Largest number of unknowns of a block.
@@ -53,16 +54,16 @@ pub struct BlockElimination {
     ///
     /// After factorisation, `D` holds its factors and `C` the rows of `D⁻¹ C`.
     pub matrix: BlockMatrix,
-    /// By place: row exchanged for this one, within its block.
+    /// Row exchanged for each row, within its block; by position.
     exchanges: Vec<usize>,
     /// True for each `D` with a negative determinant.
     negative: Vec<bool>,
-    /// Right-hand side, by place.
+    /// Right-hand side, by position.
     work: Vec<f64>,
 }
 
 /// Update that elimination subtracts from the links of the inner neighbours.
-type Taken<const W: usize> = [[f64; W]; W];
+type Update<const W: usize> = [[f64; W]; W];
 
 /// Calls a method with block size and column count `W` as constants.
 ///
@@ -113,9 +114,9 @@ impl BlockElimination {
     /// # Errors
     /// If a block has no sufficiently large pivot, or is too large.
     pub fn factorise(&mut self) -> Result<(), UnsafeBlock> {
-        let (blocks, places) = (self.matrix.blocks(), self.matrix.kept.len());
-        self.exchanges.resize(places, 0);
-        self.work.resize(places, 0.0);
+        let (blocks, positions) = (self.matrix.blocks(), self.matrix.kept.len());
+        self.exchanges.resize(positions, 0);
+        self.work.resize(positions, 0.0);
         self.negative.clear();
         self.negative.resize(blocks, false);
         if self.matrix.reach == 1 {
@@ -132,41 +133,41 @@ impl BlockElimination {
         let (root, blocks) = (self.matrix.root, self.matrix.blocks());
         // Eliminate from both ends inwards: the load acts in the root, so a right-hand side that is
         // zero elsewhere need not be propagated there.
-        let mut taken = [[0.0; W]; W];
+        let mut update = [[0.0; W]; W];
         for block in 0..root {
-            self.eliminate(block, &mut taken)?;
+            self.eliminate(block, &mut update)?;
         }
         if root + 1 < blocks {
             let mut from_right = [[0.0; W]; W];
             for block in (root + 1..blocks).rev() {
                 self.eliminate(block, &mut from_right)?;
             }
-            for (sum, right) in taken.iter_mut().flatten().zip(from_right.iter().flatten()) {
+            for (sum, right) in update.iter_mut().flatten().zip(from_right.iter().flatten()) {
                 *sum += right;
             }
         }
-        self.eliminate(root, &mut taken)
+        self.eliminate(root, &mut update)
     }
 
     #[inline(always)]
     fn eliminate<const W: usize>(
         &mut self,
         block: usize,
-        taken: &mut Taken<W>,
+        update: &mut Update<W>,
     ) -> Result<(), UnsafeBlock> {
         let size = self.matrix.size_of(block);
         let refused = UnsafeBlock { block, size };
-        with_size!(size, self.eliminate_block(block, taken), None).ok_or(refused)
+        with_size!(size, self.eliminate_block(block, update), None).ok_or(refused)
     }
 
-    /// Factorises a block after subtracting the update `taken` from outer blocks.
+    /// Factorises a block after subtracting the `update` from the outer blocks.
     ///
-    /// Replaces `taken` by the update for the inner neighbours.
+    /// Replaces `update` by the update for the inner neighbours.
     #[inline(always)]
     fn eliminate_block<const N: usize, const W: usize>(
         &mut self,
         block: usize,
-        taken: &mut Taken<W>,
+        update: &mut Update<W>,
     ) -> Option<()> {
         let (start, is_root) = (self.matrix.starts[block], block == self.matrix.root);
         let link = self.matrix.links[block] - start;
@@ -175,18 +176,18 @@ impl BlockElimination {
         let least = least_pivots(d);
         for i in 0..LINK {
             for j in 0..LINK {
-                d[link + i][link + j] -= taken[i][j];
+                d[link + i][link + j] -= update[i][j];
             }
             for j in LINK..W {
-                c[link + i][j - LINK] -= taken[i][j];
-                b[link + i][j - LINK] -= taken[j][i];
+                c[link + i][j - LINK] -= update[i][j];
+                b[link + i][j - LINK] -= update[j][i];
             }
         }
         self.negative[block] = factorise(d, c, &mut self.exchanges[start..start + N], &least)?;
         // The root has no inner neighbour.
         if !is_root {
             substitute_back(d, c);
-            take(taken, b, c);
+            propagate(update, b, c);
         }
         Some(())
     }
@@ -209,9 +210,9 @@ impl BlockElimination {
     /// The unknown must be kept and lie in the root block or before it.
     pub fn solve_unit(&mut self, unknown: usize) -> Vec<f64> {
         self.work.fill(0.0);
-        let place = self.matrix.places[unknown];
-        self.work[place] = 1.0;
-        let block = self.matrix.starts.partition_point(|&start| start <= place) - 1;
+        let position = self.matrix.positions[unknown];
+        self.work[position] = 1.0;
+        let block = self.matrix.starts.partition_point(|&start| start <= position) - 1;
         self.inwards([block, self.matrix.root]);
         self.solution().collect()
     }
@@ -244,7 +245,7 @@ impl BlockElimination {
         self.matrix.reach.min(block.abs_diff(self.matrix.root))
     }
 
-    /// Returns the first place of the link of the inner neighbour `away` blocks in.
+    /// Returns the first position of the link of the block `away` blocks further in.
     fn inner_link(&self, block: usize, away: usize) -> usize {
         let inner = if block < self.matrix.root { block + away } else { block - away };
         self.matrix.links[inner]
@@ -272,24 +273,27 @@ impl BlockElimination {
         if block == self.matrix.root {
             return;
         }
-        let mut taken = [0.0; W];
+        let mut update = [0.0; W];
         for (y, b) in y.iter().zip(b) {
-            for (taken, b) in taken.iter_mut().zip(b) {
-                *taken += b * y[0];
+            for (update, b) in update.iter_mut().zip(b) {
+                *update += b * y[0];
             }
         }
         for away in 1..=self.inner_blocks(block) {
             let inner = self.inner_link(block, away);
-            let taken = &taken[LINK * (away - 1)..][..LINK];
-            for (work, taken) in self.work[inner..inner + LINK].iter_mut().zip(taken) {
-                *work -= taken;
+            let update = &update[LINK * (away - 1)..][..LINK];
+            for (work, update) in self.work[inner..inner + LINK].iter_mut().zip(update) {
+                *work -= update;
             }
         }
     }
 
     /// Returns the solution at each unknown: zero if it is left out.
     fn solution(&self) -> impl Iterator<Item = f64> {
-        self.matrix.places.iter().map(|&place| self.work.get(place).copied().unwrap_or(0.0))
+        self.matrix
+            .positions
+            .iter()
+            .map(|&position| self.work.get(position).copied().unwrap_or(0.0))
     }
 
     /// Computes `x = y − (D⁻¹ C) x_inner`.
@@ -329,26 +333,27 @@ impl BlockElimination {
     }
 }
 
-/// Replaces a block's update by the update of its inner neighbours, with `B C`.
+/// Replaces the update of a block by the update of its inner neighbours.
 ///
-/// Entries for links beyond the block are carried over. `c` holds the columns `D⁻¹ C`.
+/// Adds `B c`, where `c` holds the columns `D⁻¹ C`. Entries for links beyond the block are carried
+/// over.
 #[inline(always)]
-fn take<const N: usize, const W: usize>(
-    taken: &mut Taken<W>,
+fn propagate<const N: usize, const W: usize>(
+    update: &mut Update<W>,
     b: &[[f64; W]; N],
     c: &[[f64; W]; N],
 ) {
     for i in 0..W {
         let mut row = [0.0; W];
         if i + LINK < W {
-            row[..W - LINK].copy_from_slice(&taken[i + LINK][LINK..]);
+            row[..W - LINK].copy_from_slice(&update[i + LINK][LINK..]);
         }
         for (b, c) in b.iter().zip(c) {
             for (sum, c) in row.iter_mut().zip(c) {
                 *sum += b[i] * c;
             }
         }
-        taken[i] = row;
+        update[i] = row;
     }
 }
 

@@ -1,7 +1,7 @@
 //! Block-tridiagonal matrices with small blocks, optionally of larger reach.
 #![expect(
     clippy::inline_always,
-    reason = "places within a block are known where it is added, and a twentieth of a sweep is spent there"
+    reason = "callers know the indices within a block, and adding takes a twentieth of a sweep"
 )]
 
 use crate::tangent::Tangent;
@@ -12,7 +12,7 @@ pub const LINK: usize = 3;
 /// Largest number of inner neighbours with which a block may be coupled.
 pub const FARTHEST_LINK: usize = 8;
 
-/// Marks the place of an unknown that is left out.
+/// Marks the position of an unknown that is left out.
 const LEFT_OUT: usize = usize::MAX;
 
 /// Partition of the unknowns of a system into a chain of blocks.
@@ -40,35 +40,35 @@ pub struct Blocks {
 
 /// Block matrix without the rows and columns of some unknowns.
 ///
-/// Methods take unknowns as indices of rows and columns. The kept unknowns are numbered in order;
-/// these numbers are called *places*. A block of `n` kept unknowns stores its `n × n` entries `D`,
-/// then the entries `C` of its rows in the columns of the inner links (three for each link), then
-/// the entries `Bᵀ` of its columns in the rows of these links. They are contiguous and in the order
-/// of elimination.
+/// Methods take unknowns as indices of rows and columns. The *position* of an unknown is its index
+/// among the kept ones. A block of `n` kept unknowns stores its `n × n` entries `D`, then the
+/// entries `C` of its rows in the columns of the inner links (three for each link), then the
+/// entries `Bᵀ` of its columns in the rows of these links. They are contiguous and in the order of
+/// elimination.
 #[derive(Clone, Debug, Default)]
 pub struct BlockMatrix {
     /// Number of the root block.
     pub(crate) root: usize,
     /// Number of inner neighbours for which storage exists.
     pub(crate) reach: usize,
-    /// Place of the first kept unknown of each block, followed by the number of places.
+    /// Position of the first kept unknown of each block, then the number of positions.
     pub(crate) starts: Vec<usize>,
-    /// Place of the first unknown of each link.
+    /// Position of the first unknown of each link.
     pub(crate) links: Vec<usize>,
-    /// Unknown at each place; `blocks` holds its block.
+    /// Unknown at each position; `blocks` holds its block.
     pub(crate) kept: Vec<usize>,
     blocks: Vec<usize>,
-    /// Place of each unknown.
-    pub(crate) places: Vec<usize>,
+    /// Position of each unknown.
+    pub(crate) positions: Vec<usize>,
     /// Index of the first value of each block.
     pub(crate) at: Vec<usize>,
-    /// By place: offset of a row within its block.
+    /// Offset of each row within its block, by position of the row.
     ///
-    /// Add the place of the column for the index. `coupling` holds the offset of a row in the inner
-    /// links; add the link number of the column.
+    /// Offset plus position of the column is the index of a value. `coupling` is the same for the
+    /// inner links, with the number of the column among all link unknowns instead of its position.
     within: Vec<usize>,
     coupling: Vec<usize>,
-    /// By place: number of an unknown among all link unknowns, or [`LEFT_OUT`].
+    /// Number of each unknown among all link unknowns, or [`LEFT_OUT`]; by position.
     in_links: Vec<usize>,
     pub(crate) values: Vec<f64>,
 }
@@ -94,22 +94,22 @@ impl BlockMatrix {
         self.reach = if blocks.reach > 1 { FARTHEST_LINK } else { 1 };
         debug_assert!(blocks.reach <= FARTHEST_LINK);
         debug_assert!(blocks.reach <= 1 || blocks.root + 1 == blocks.starts.len());
-        let lists = [&mut self.kept, &mut self.blocks, &mut self.starts, &mut self.places];
+        let lists = [&mut self.kept, &mut self.blocks, &mut self.starts, &mut self.positions];
         lists.into_iter().for_each(Vec::clear);
         let size = left_out.len();
-        self.places.resize(size, LEFT_OUT);
+        self.positions.resize(size, LEFT_OUT);
         let ends = blocks.starts.iter().skip(1).chain([&size]);
         for (block, (&start, &end)) in blocks.starts.iter().zip(ends).enumerate() {
             self.starts.push(self.kept.len());
             for unknown in (start..end).filter(|&unknown| !left_out[unknown]) {
-                self.places[unknown] = self.kept.len();
+                self.positions[unknown] = self.kept.len();
                 self.kept.push(unknown);
                 self.blocks.push(block);
             }
         }
         self.starts.push(self.kept.len());
         self.links.clear();
-        self.links.extend(blocks.links.iter().map(|&link| self.places[link]));
+        self.links.extend(blocks.links.iter().map(|&link| self.positions[link]));
         self.lay_out();
     }
 
@@ -147,9 +147,9 @@ impl BlockMatrix {
         self.starts[block + 1] - self.starts[block]
     }
 
-    /// Returns the distance of `Bᵀ` from `C` in the storage of a block.
-    fn behind(&self, place: usize) -> usize {
-        self.width() * self.size_of(self.blocks[place])
+    /// Returns the distance of `Bᵀ` from `C` in the storage of the block at a position.
+    fn behind(&self, position: usize) -> usize {
+        self.width() * self.size_of(self.blocks[position])
     }
 
     /// Returns `D`, row by row, and the rows of `C` and `Bᵀ` of a block.
@@ -180,14 +180,14 @@ impl BlockMatrix {
 
     /// Returns an entry, or zero if it lies outside the blocks or is left out.
     pub fn get(&self, row: usize, column: usize) -> f64 {
-        let (row, column) = (self.places[row], self.places[column]);
+        let (row, column) = (self.positions[row], self.positions[column]);
         if row == LEFT_OUT || column == LEFT_OUT || !self.is_coupled(row, column) {
             return 0.0;
         }
         self.values[self.index(row, column)]
     }
 
-    /// Returns true if the unknowns at two places may be coupled.
+    /// Returns true if the unknowns at two positions may be coupled.
     fn is_coupled(&self, row: usize, column: usize) -> bool {
         self.blocks[row] == self.blocks[column]
             || self.is_linked(row, column)
@@ -201,7 +201,7 @@ impl BlockMatrix {
         is_inward && from.abs_diff(to) <= self.reach && self.in_links[inner] != LEFT_OUT
     }
 
-    /// Returns the part that holds an entry, given by places.
+    /// Returns the part that holds an entry, given by positions.
     #[inline(always)]
     fn part(&self, row: usize, column: usize) -> Part {
         debug_assert!(
@@ -218,7 +218,7 @@ impl BlockMatrix {
         }
     }
 
-    /// Returns the index of an entry among the values, given by places.
+    /// Returns the index of an entry among the values, given by positions.
     #[inline(always)]
     fn index(&self, row: usize, column: usize) -> usize {
         match self.part(row, column) {
@@ -234,7 +234,7 @@ impl BlockMatrix {
 impl Tangent for BlockMatrix {
     /// Adds `value` to an entry, unless its row or column is left out.
     fn add(&mut self, row: usize, column: usize, value: f64) {
-        let (row, column) = (self.places[row], self.places[column]);
+        let (row, column) = (self.positions[row], self.positions[column]);
         if row != LEFT_OUT && column != LEFT_OUT {
             let index = self.index(row, column);
             self.values[index] += value;
@@ -246,7 +246,7 @@ impl Tangent for BlockMatrix {
     /// The unknowns must be kept and follow each other within their blocks.
     #[inline(always)]
     fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
-        let (row, column) = (self.places[row], self.places[column]);
+        let (row, column) = (self.positions[row], self.positions[column]);
         let first = self.index(row, column);
         let width = match values.len() {
             0 | 1 => 0,
@@ -268,7 +268,7 @@ impl Tangent for BlockMatrix {
         column: usize,
         values: &[[f64; C]; R],
     ) {
-        let (row, column) = (self.places[row], self.places[column]);
+        let (row, column) = (self.positions[row], self.positions[column]);
         let (starts, first) = match self.part(row, column) {
             Part::Within => (&self.within[row..row + R], column),
             Part::Columns => (&self.coupling[row..row + R], self.in_links[column]),

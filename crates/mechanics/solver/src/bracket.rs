@@ -2,10 +2,9 @@
 
 /// Two arguments at which a function has opposite signs, with its values.
 ///
-/// The next estimate is the zero of the secant.
-///
-/// The value at the end that stays is halved, so that this end moves too: the Illinois rule (Dowell
-/// & Jarratt 1971, doi 10.1007/BF01934364).
+/// The next estimate is the zero of the secant. It replaces one end. The value at the other end is
+/// halved, so that the next estimate moves towards that end: the Illinois rule (Dowell & Jarratt
+/// 1971, doi 10.1007/BF01934364).
 #[derive(Clone, Copy, Debug)]
 pub struct Bracket {
     ends: [(f64, f64); 2],
@@ -14,17 +13,16 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// Creates a bracket with values of opposite signs.
+    /// Creates a bracket that halves the value at the other end in every replacement.
     ///
-    /// It halves the other value every time.
+    /// The values have opposite signs.
     pub fn new(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { ends: [low, high], last: None }
     }
 
-    /// Creates a bracket that halves the other value with delay.
+    /// Creates a bracket that halves the value at the other end with delay.
     ///
-    /// It does so only after two replacements of the same end. This is the rule of Dowell and
-    /// Jarratt.
+    /// It does so only after two successive replacements of the same end, as Dowell and Jarratt do.
     pub fn patient(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { last: Some(1), ..Self::new(low, high) }
     }
@@ -40,10 +38,10 @@ impl Bracket {
         (self.ends[1].0 - self.ends[0].0).abs()
     }
 
-    /// Replaces the end at which the sign equals the sign of `value`.
-    pub fn narrow(&mut self, place: f64, value: f64) {
+    /// Replaces the end with the same sign as `value`.
+    pub fn narrow(&mut self, argument: f64, value: f64) {
         let end = usize::from(value * self.ends[1].1 >= 0.0);
-        self.ends[end] = (place, value);
+        self.ends[end] = (argument, value);
         // Without halving, the secant would approach the root from one side only.
         if self.last.is_none_or(|last| last == end) {
             self.ends[1 - end].1 *= 0.5;

@@ -218,7 +218,7 @@ impl<S: System> Continuation<S> {
         std::mem::take(&mut self.newton.history)
     }
 
-    /// Solves for the equilibrium at a fraction of the way between two points.
+    /// Solves for the equilibrium at a fraction of the segment between two points.
     ///
     /// The points are neighbours. Uses the active set and mode of the segment. `None` if Newton's
     /// method fails.

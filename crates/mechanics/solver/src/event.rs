@@ -92,8 +92,8 @@ impl<S: System> Continuation<S> {
     fn first_predicted(&self) -> Option<(usize, f64)> {
         let guards = self.guards.iter().zip(&self.slopes).enumerate();
         let falling = guards.filter(|(_, (guard, slope))| **guard > FLOOR && **slope < 0.0);
-        let places = falling.map(|(constraint, (guard, slope))| (constraint, guard / -slope));
-        places.min_by(|a, b| a.1.total_cmp(&b.1))
+        let zeros = falling.map(|(constraint, (guard, slope))| (constraint, guard / -slope));
+        zeros.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Returns the first event up to `candidate`, or `candidate` itself.
@@ -141,7 +141,7 @@ impl<S: System> Continuation<S> {
 
     /// Estimates where a guard falls below zero and rises again before `candidate`.
     ///
-    /// These are two events within one step that leave no trace at its ends. Returns fractions of
+    /// The two events leave no trace in the guards at the ends of the step. Returns fractions of
     /// the step.
     fn dips(
         &mut self,
@@ -390,10 +390,10 @@ mod tests {
         fn a_dip_lies_at_the_minimum_of_the_cubic(
             start in 0.0_f64..1.0, end in 0.0_f64..1.0, falling in -5.0_f64..-0.1, rising in 0.1_f64..5.0,
         ) {
-            let (place, value) = lowest([start, end], [falling, rising]);
+            let (fraction, value) = lowest([start, end], [falling, rising]);
             match dip([start, end], [falling, rising]) {
-                Some(x) => prop_assert!((x - place).abs() < 2e-3 && value < 1e-5, "{x} {place} {value}"),
-                None => prop_assert!(value > -1e-5, "{place} {value}"),
+                Some(x) => prop_assert!((x - fraction).abs() < 2e-3 && value < 1e-5, "{x} {fraction} {value}"),
+                None => prop_assert!(value > -1e-5, "{fraction} {value}"),
             }
         }
 

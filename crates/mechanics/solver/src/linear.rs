@@ -5,7 +5,7 @@
 //! twice the time on such matrices (`benches/linear.rs` compares them).
 #![expect(
     clippy::inline_always,
-    reason = "only what is compiled into its caller may use wide registers"
+    reason = "only code that is inlined into its caller can use wide registers"
 )]
 
 use std::ops::Range;
@@ -95,7 +95,7 @@ impl BandMatrix {
     /// # Panics
     /// If the entry lies outside the band.
     pub fn get(&self, row: usize, column: usize) -> f64 {
-        self.rows[row * self.width() + self.place(row, column)]
+        self.rows[row * self.width() + self.offset(row, column)]
     }
 
     /// Returns the columns of a row within the band.
@@ -112,8 +112,8 @@ impl BandMatrix {
         2 * self.half + 1
     }
 
-    /// Returns the position of a column in the stored part of a row.
-    fn place(&self, row: usize, column: usize) -> usize {
+    /// Returns the offset of a column in the stored part of a row.
+    fn offset(&self, row: usize, column: usize) -> usize {
         assert!(
             row.abs_diff(column) <= self.half && column < self.size,
             "entry ({row}, {column}) lies outside the band of half-width {}",
@@ -129,22 +129,22 @@ impl Tangent for BandMatrix {
     /// # Panics
     /// If the entry lies outside the band.
     fn add(&mut self, row: usize, column: usize, value: f64) {
-        let place = self.place(row, column);
+        let offset = self.offset(row, column);
         let start = row * self.width();
-        self.rows[start + place] += value;
+        self.rows[start + offset] += value;
         let [first, end] = self.used[row];
-        self.used[row] = [first.min(place), end.max(place + 1)];
+        self.used[row] = [first.min(offset), end.max(offset + 1)];
     }
 
     fn add_row(&mut self, row: usize, column: usize, values: impl ExactSizeIterator<Item = f64>) {
         let Some(others) = values.len().checked_sub(1) else { return };
-        let (place, last) = (self.place(row, column), self.place(row, column + others));
+        let (offset, last) = (self.offset(row, column), self.offset(row, column + others));
         let start = row * self.width();
-        for (entry, value) in self.rows[start + place..=start + last].iter_mut().zip(values) {
+        for (entry, value) in self.rows[start + offset..=start + last].iter_mut().zip(values) {
             *entry += value;
         }
         let [first, end] = self.used[row];
-        self.used[row] = [first.min(place), end.max(last + 1)];
+        self.used[row] = [first.min(offset), end.max(last + 1)];
     }
 }
 
@@ -310,8 +310,8 @@ impl BandLu {
         let Range { start: first, end } = self.columns(i, matrix);
         let row = self.kept[i];
         let start = i * (3 * self.half + 1);
-        let places = &mut self.upper[start..][..end + self.half - i];
-        let (before, entries) = places.split_at_mut(first + self.half - i);
+        let row_values = &mut self.upper[start..][..end + self.half - i];
+        let (before, entries) = row_values.split_at_mut(first + self.half - i);
         before.fill(0.0);
         let written = matrix.row(row);
         let columns = &self.kept[first..end];
@@ -342,7 +342,7 @@ impl BandLu {
     /// Returns the used columns of row `i` among the kept ones, including the diagonal.
     fn columns(&self, i: usize, matrix: &BandMatrix) -> Range<usize> {
         let row = self.kept[i];
-        let [leftmost, rightmost] = matrix.used[row].map(|place| row + place);
+        let [leftmost, rightmost] = matrix.used[row].map(|offset| row + offset);
         let first = self.kept[..i].partition_point(|&j| j + self.half < leftmost);
         let after = self.kept[i + 1..].partition_point(|&j| j + self.half < rightmost);
         first..i + 1 + after

@@ -198,7 +198,7 @@ pub struct Summit<M = ()> {
 /// Value and slope at a fraction of a segment.
 #[derive(Clone, Copy, Debug)]
 struct SegmentSample {
-    place: f64,
+    fraction: f64,
     value: f64,
     slope: f64,
 }
@@ -267,7 +267,7 @@ where
             if top.value < PROMISING * least || top.value - reached <= FLAT * top.value.abs() {
                 break;
             }
-            let inside = self.inside(top.place)?;
+            let inside = self.inside(top.fraction)?;
             // Keep the larger end of the bracket until an inner sample exceeds it.
             let is_lower = inside.value < low.value.max(high.value);
             let rises = if is_lower { low.value < high.value } else { inside.slope > 0.0 };
@@ -277,14 +277,14 @@ where
     }
 
     /// Evaluates the lower or upper end of the bracket.
-    fn end(&mut self, place: f64, least: f64) -> Option<SegmentSample> {
-        let is_lower = place == 0.0;
+    fn end(&mut self, fraction: f64, least: f64) -> Option<SegmentSample> {
+        let is_lower = fraction == 0.0;
         let Equilibrium { state, arriving, leaving, event } =
             if is_lower { self.from } else { self.to };
         let direction = if is_lower { leaving } else { arriving };
         match event {
-            Some(_) => self.beside(place, state, direction, least),
-            None => self.at_end(place, state, direction),
+            Some(_) => self.beside(fraction, state, direction, least),
+            None => self.at_end(fraction, state, direction),
         }
     }
 
@@ -301,15 +301,15 @@ where
         let value = (self.f)(&self.path.system, state, direction);
         let inwards = 1.0 - 2.0 * kink;
         let beside = self.inside(kink + inwards * NEAR)?;
-        let (mut outer, mut way) = (beside, NEAR);
+        let (mut outer, mut distance) = (beside, NEAR);
         for _ in 0..CLOSER {
             // True if the parabola through both decreases away from the kink.
-            let falls = 2.0 * (outer.value - value) <= inwards * outer.slope * way;
+            let falls = 2.0 * (outer.value - value) <= inwards * outer.slope * distance;
             if falls || inwards * outer.slope >= 0.0 {
                 break;
             }
-            way *= 0.1;
-            let inner = self.inside(kink + inwards * way)?;
+            distance *= 0.1;
+            let inner = self.inside(kink + inwards * distance)?;
             if inwards * inner.slope > 0.0 {
                 self.search(if kink == 0.0 { [inner, outer] } else { [outer, inner] }, least)?;
             }
@@ -321,7 +321,7 @@ where
     /// Evaluates the sample at an end without a kink.
     fn at_end(
         &mut self,
-        place: f64,
+        fraction: f64,
         state: &State<S::Mode>,
         direction: &[f64],
     ) -> Option<SegmentSample> {
@@ -329,41 +329,44 @@ where
         let Continuation { newton, system, .. } = &mut *self.path;
         // The slope needs the factors of the tangent at this very point.
         newton.tangent(system, state, &condition).ok()?;
-        Some(self.sample(place, state, direction))
+        Some(self.sample(fraction, state, direction))
     }
 
-    /// Solves for the sample at an inner fraction.
-    ///
-    /// It starts from the nearest solved point.
-    fn inside(&mut self, place: f64) -> Option<SegmentSample> {
-        let distances = self.known.iter().map(|(other, point)| ((other - place).abs(), point));
+    /// Solves for the sample at an inner fraction, from the nearest solved point.
+    fn inside(&mut self, fraction: f64) -> Option<SegmentSample> {
+        let distances = self.known.iter().map(|(other, point)| ((other - fraction).abs(), point));
         let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
         let near = nearest.map_or(self.from, |(_, point)| point);
-        let point = self.path.between_from(self.from, self.to, place, near);
+        let point = self.path.between_from(self.from, self.to, fraction, near);
         // A near point makes Newton's method quick, but a point next to a kink may lead it to the
         // other side. The start of the segment does not.
-        let point = point.or_else(|| self.path.between(self.from, self.to, place))?;
-        let sample = self.sample(place, &point.state, &point.arriving);
+        let point = point.or_else(|| self.path.between(self.from, self.to, fraction))?;
+        let sample = self.sample(fraction, &point.state, &point.arriving);
         if self.highest.is_none_or(|(value, _)| sample.value > value) {
             self.highest = Some((sample.value, self.known.len()));
         }
-        self.known.push((place, point));
+        self.known.push((fraction, point));
         Some(sample)
     }
 
     /// Evaluates the sample at the point with the last factorised tangent.
-    fn sample(&mut self, place: f64, state: &State<S::Mode>, direction: &[f64]) -> SegmentSample {
+    fn sample(
+        &mut self,
+        fraction: f64,
+        state: &State<S::Mode>,
+        direction: &[f64],
+    ) -> SegmentSample {
         let Self { path, from, to, f, .. } = self;
         let value = f(&path.system, state, direction);
         let slope = slope_along(&path.system, &mut path.newton, state, direction, f);
-        SegmentSample { place, value, slope: path.rate_in(from, to, direction) * slope }
+        SegmentSample { fraction, value, slope: path.rate_in(from, to, direction) * slope }
     }
 }
 
 impl SegmentSample {
     /// Returns the maximum of the cubic between two samples, if any.
     fn top(&self, high: &Self) -> Option<Self> {
-        let width = high.place - self.place;
+        let width = high.fraction - self.fraction;
         let (rise, start, end) = (high.value - self.value, width * self.slope, width * high.slope);
         // value + start x + square x² + cube x³
         let (square, cube) = (3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise);
@@ -372,7 +375,7 @@ impl SegmentSample {
             // Choose the form of the root that does not subtract nearly equal numbers.
             if square > 0.0 { -(square + root) / (3.0 * cube) } else { start / (root - square) };
         let value = self.value + x * (start + x * (square + x * cube));
-        let place = self.place + x * width;
-        (0.0 < x && x < 1.0).then_some(Self { place, value, slope: 0.0 })
+        let fraction = self.fraction + x * width;
+        (0.0 < x && x < 1.0).then_some(Self { fraction, value, slope: 0.0 })
     }
 }

@@ -11,13 +11,13 @@ pub struct PathProgress {
     /// Number of points of the current path.
     pub points: usize,
     /// Control parameter over its target.
-    pub share: f64,
+    pub fraction: f64,
 }
 
 struct Watch {
     begun: Instant,
     due: Duration,
-    tell: Box<dyn Fn(PathProgress)>,
+    report: Box<dyn Fn(PathProgress)>,
 }
 
 thread_local! {
@@ -31,10 +31,10 @@ thread_local! {
 /// The first report comes after `patience`, each further one after twice the elapsed time.
 pub fn report_progress<T>(
     patience: Duration,
-    tell: impl Fn(PathProgress) + 'static,
+    report: impl Fn(PathProgress) + 'static,
     work: impl FnOnce() -> T,
 ) -> T {
-    let watch = Watch { begun: Instant::now(), due: patience, tell: Box::new(tell) };
+    let watch = Watch { begun: Instant::now(), due: patience, report: Box::new(report) };
     WATCH.with_borrow_mut(|slot| *slot = Some(watch));
     let done = work();
     WATCH.take();
@@ -42,13 +42,13 @@ pub fn report_progress<T>(
 }
 
 /// Reports the progress of a path if a report is due.
-pub(crate) fn report_if_due(points: usize, share: f64) {
+pub(crate) fn report_if_due(points: usize, fraction: f64) {
     WATCH.with_borrow_mut(|slot| {
         let Some(watch) = slot else { return };
         let elapsed = watch.begun.elapsed();
         if elapsed >= watch.due {
             watch.due = elapsed * 2;
-            (watch.tell)(PathProgress { elapsed, points, share });
+            (watch.report)(PathProgress { elapsed, points, fraction });
         }
     });
 }

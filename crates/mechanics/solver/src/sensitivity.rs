@@ -75,7 +75,7 @@ pub struct MovedPoint<M> {
 /// central differences of explicit functions. Solutions are never differenced.
 #[derive(Clone, Debug)]
 pub struct Linearisation<M> {
-    place: AnchoredPoint<M>,
+    point: AnchoredPoint<M>,
     newton: Newton,
     /// Section of the path in which the point stays.
     section: Vec<(usize, f64)>,
@@ -90,19 +90,19 @@ impl<M: Clone> Linearisation<M> {
     /// If the tangent is singular.
     pub fn new<S: System<Mode = M>>(
         system: &S,
-        place: AnchoredPoint<M>,
+        point: AnchoredPoint<M>,
     ) -> Result<Self, NewtonFailure> {
-        let section = section(system, &place.direction);
+        let section = section(system, &point.direction);
         let condition = Condition::new(section.clone(), 0.0);
         let mut newton = Newton::new(system);
-        let direction = newton.tangent(system, &place.state, &condition)?;
-        let near = near(system, &place);
-        Ok(Self { place: AnchoredPoint { direction, ..place }, newton, section, near })
+        let direction = newton.tangent(system, &point.state, &condition)?;
+        let near = near(system, &point);
+        Ok(Self { point: AnchoredPoint { direction, ..point }, newton, section, near })
     }
 
     /// Returns the point.
-    pub fn place(&self) -> &AnchoredPoint<M> {
-        &self.place
+    pub fn point(&self) -> &AnchoredPoint<M> {
+        &self.point
     }
 
     /// Predicts the points for a smaller and a larger parameter, to first order.
@@ -118,7 +118,7 @@ impl<M: Clone> Linearisation<M> {
         // First move in the section, then along the path to where the anchor holds again.
         let mut unknowns = self.unknowns_in_section(system, neighbours);
         let along = self.distance(system, neighbours, &unknowns);
-        for (unknown, direction) in unknowns.iter_mut().zip(&self.place.direction) {
+        for (unknown, direction) in unknowns.iter_mut().zip(&self.point.direction) {
             *unknown += along * direction;
         }
         let Neighbours { below, above, step } = neighbours;
@@ -134,8 +134,8 @@ impl<M: Clone> Linearisation<M> {
         turns: bool,
     ) -> [MovedPoint<M>; 2] {
         // Both predictions share one factorisation and need no further solve.
-        let states = [-step, step].map(|step| self.place.state.moved(step, unknowns));
-        let direction = &self.place.direction;
+        let states = [-step, step].map(|step| self.point.state.moved(step, unknowns));
+        let direction = &self.point.direction;
         let turning = turns.then(|| turning(&mut self.newton, sides, &states, direction, step));
         let [below, above] = [-step, step].map(|step| match &turning {
             Some(turning) => moved(direction, step, turning),
@@ -154,7 +154,7 @@ impl<M: Clone> Linearisation<M> {
         system: &S,
         neighbours: &Neighbours<S>,
     ) -> Vec<f64> {
-        let state = &self.place.state;
+        let state = &self.point.state;
         let [below, above] = [&neighbours.below, &neighbours.above].map(|system| {
             let mut residual = Residual::new(system.size());
             system.residual(state, &mut residual);
@@ -171,10 +171,10 @@ impl<M: Clone> Linearisation<M> {
         neighbours: &Neighbours<S>,
         unknowns: &[f64],
     ) -> f64 {
-        if let PathAnchor::Stationary(number) = self.place.anchor {
+        if let PathAnchor::Stationary(number) = self.point.anchor {
             return self.distance_to_extremum(system, neighbours, unknowns, number);
         }
-        let AnchoredPoint { state, direction, anchor } = &self.place;
+        let AnchoredPoint { state, direction, anchor } = &self.point;
         let step = neighbours.step;
         match *anchor {
             PathAnchor::Still => 0.0,
@@ -206,7 +206,7 @@ impl<M: Clone> Linearisation<M> {
             above.rate(&upper.state, &upper.direction, number),
         ];
         let change = (rates[1] - rates[0]) / (2.0 * step);
-        let AnchoredPoint { state, direction, .. } = &self.place;
+        let AnchoredPoint { state, direction, .. } = &self.point;
         let slope = slope_along(system, &mut self.newton, state, direction, &|system, state, v| {
             system.rate(state, v, number)
         });
@@ -221,18 +221,18 @@ impl<M: Clone> Linearisation<M> {
         system: &S,
         moved: &MovedPoint<M>,
     ) -> Option<Change> {
-        let active = &self.place.state.active;
+        let active = &self.point.state.active;
         // A slip distance is counted from a point of the path and does not respond to the
         // parameter.
         let loaded = (0..active.len()).filter(|c| active[*c] && !system.monotone().contains(c));
         // The anchor's own guard is zero by definition, and round-off would violate it.
         let candidates = loaded
             .chain(self.near.iter().copied())
-            .filter(|&c| self.place.anchor != PathAnchor::Guard(c));
+            .filter(|&c| self.point.anchor != PathAnchor::Guard(c));
         let guards = candidates.map(|c| (c, guard(system, &moved.state, c)));
         let violated = guards.filter(|(_, guard)| *guard < -FLOOR);
         let (constraint, _) = violated.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        Some(Change { constraint, activated: !self.place.state.active[constraint] })
+        Some(Change { constraint, activated: !self.point.state.active[constraint] })
     }
 
     /// Solves again with a constraint on its other side.
@@ -246,11 +246,11 @@ impl<M: Clone> Linearisation<M> {
     ) -> Option<Self> {
         // A contact about to open or close does so on one side of the parameter only, where the
         // measure has another derivative.
-        let mut state = self.place.state.clone();
+        let mut state = self.point.state.clone();
         state.active[change.constraint] = change.activated;
         state.z[system.constraints()[change.constraint]] = 0.0;
         system.transition(&mut state, change)?;
-        let condition = Condition::through(self.section.clone(), &self.place.state.z);
+        let condition = Condition::through(self.section.clone(), &self.point.state.z);
         let mut newton = Newton::new(system);
         let mut direction = newton.solve(system, &mut state, &condition, settings).ok()?;
         let closes = change.activated && !system.monotone().contains(&change.constraint);
@@ -258,7 +258,7 @@ impl<M: Clone> Linearisation<M> {
         if !closes || coupled.len() == 1 {
             return Self::new(
                 system,
-                AnchoredPoint { state, direction, anchor: self.place.anchor },
+                AnchoredPoint { state, direction, anchor: self.point.anchor },
             )
             .ok();
         }
@@ -284,14 +284,14 @@ impl<M: Clone> Linearisation<M> {
         // which stores it, is held fixed here.
         let sticks = (0..state.active.len()).any(|c| {
             state.active[c]
-                && !self.place.state.active[c]
+                && !self.point.state.active[c]
                 && c != change.constraint
                 && !system.monotone().contains(&c)
         });
         if sticks {
             return None;
         }
-        Self::new(system, AnchoredPoint { state, direction, anchor: self.place.anchor }).ok()
+        Self::new(system, AnchoredPoint { state, direction, anchor: self.point.anchor }).ok()
     }
 }
 
@@ -300,13 +300,13 @@ const MOST_CHANGES: usize = 8;
 
 /// Largest guard of an inactive constraint that a difference may violate.
 ///
-/// These steps are some millionths of a parameter.
+/// The steps of a difference are some millionths of a parameter.
 const NEAR: f64 = 1e-3;
 
 /// Returns the inactive constraints that a small motion from a point may violate.
-fn near<S: System>(system: &S, place: &AnchoredPoint<S::Mode>) -> Vec<usize> {
-    let guards = Newton::guards(system, &place.state).into_iter().enumerate();
-    let inactive = guards.filter(|&(c, guard)| !place.state.active[c] && guard <= NEAR);
+fn near<S: System>(system: &S, point: &AnchoredPoint<S::Mode>) -> Vec<usize> {
+    let guards = Newton::guards(system, &point.state).into_iter().enumerate();
+    let inactive = guards.filter(|&(c, guard)| !point.state.active[c] && guard <= NEAR);
     inactive.map(|(constraint, _)| constraint).collect()
 }
 

@@ -19,8 +19,9 @@ pub struct Settings {
     pub max_points: usize,
     /// Work after which the path stops: the unknowns of all its tangents, weighted by bandwidth.
     ///
-    /// Half of it without progress also stops the path. Few tangents of a long row do not count. A
-    /// path with a `max_step` below the default may take more, in proportion to the number of steps.
+    /// Half of it without progress also stops the path. A path with few tangents may exceed it, for
+    /// a row of any length. A path with a `max_step` below the default may take more, in proportion
+    /// to the number of steps.
     pub max_work: u64,
 }
 

@@ -222,7 +222,7 @@ pub trait System {
 
     /// Evaluates a marker, a function that vanishes at a special point.
     ///
-    /// The point is no event.
+    /// A marker that vanishes is not an event.
     fn marker(&self, _state: &State<Self::Mode>, _number: usize) -> f64 {
         f64::NAN
     }
@@ -290,7 +290,7 @@ impl Residual {
         self.size[row] += term.abs();
     }
 
-    /// Adds the products of `factors` and the first of `others`, from `row` on.
+    /// Adds the term `factors[k] · others[k]` to each equation `row + k`.
     #[inline]
     pub fn add_products(&mut self, row: usize, factors: &[f64], others: &[f64]) {
         let rows = row..row + factors.len();
@@ -303,7 +303,7 @@ impl Residual {
         }
     }
 
-    /// Adds the product of a block and the first of `others`, from equation `row` on.
+    /// Adds the terms `block[i][j] · others[j]` to each equation `row + i`.
     #[inline]
     pub fn add_block_products<const R: usize, const C: usize>(
         &mut self,

@@ -18,7 +18,8 @@ const MOST_CHANGES: usize = 6;
 /// Equilibrium at the target of a path.
 ///
 /// The end of one design is a good start for Newton's method at the end of a similar one. The path
-/// between rest and the end is not followed, so only its owner knows whether events along it matter.
+/// between rest and the end is not followed, so the caller must decide whether events along it
+/// matter.
 #[derive(Clone, Debug)]
 pub struct TargetPoint<M> {
     state: State<M>,

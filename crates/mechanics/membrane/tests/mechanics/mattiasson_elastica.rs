@@ -21,7 +21,7 @@ fn computed(load: f64, elements: usize, thickness: f64) -> Result<Vector3<f64>, 
 ///
 /// The remainder after extrapolation is far smaller.
 #[test]
-fn mattiasson_elastica() -> Result<(), OutOfRange> {
+fn tip_displacements_converge_to_mattiasson_quadratically() -> Result<(), OutOfRange> {
     for load in (1..=10).map(f64::from) {
         let exact = Vector3::from(elastica::tip(load).values());
         let coarse = computed(load, 32, INEXTENSIBLE)? - exact;
@@ -35,9 +35,8 @@ fn mattiasson_elastica() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// The error from stretch decreases as `1/EA`, with the square of the thickness.
 #[test]
-fn inextensible_limit() -> Result<(), OutOfRange> {
+fn the_error_from_stretch_falls_with_the_square_of_the_thickness() -> Result<(), OutOfRange> {
     let limit = computed(5.0, 8, INEXTENSIBLE)?;
     let [thick, thin] = [computed(5.0, 8, 0.02)?, computed(5.0, 8, 0.01)?];
     for i in 0..3 {

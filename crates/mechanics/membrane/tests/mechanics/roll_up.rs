@@ -10,7 +10,7 @@ use crate::cantilever::{cantilever, equilibrium};
 
 /// Checks rotation, energy and shape under an end moment.
 ///
-/// It rotates the tip by `half_turns`.
+/// The moment rotates the tip by `half_turns`.
 fn check(elements: usize, half_turns: u32) -> Result<(), OutOfRange> {
     let angle = PI * f64::from(half_turns);
     let gap = cantilever(elements, 0.1)?;
@@ -33,7 +33,7 @@ fn check(elements: usize, half_turns: u32) -> Result<(), OutOfRange> {
 }
 
 #[test]
-fn half_a_circle() -> Result<(), OutOfRange> {
+fn a_strip_rolls_up_to_half_a_circle() -> Result<(), OutOfRange> {
     (1..=9).try_for_each(|elements| check(elements, 1))
 }
 
@@ -48,6 +48,6 @@ fn a_full_circle_closes() -> Result<(), OutOfRange> {
 }
 
 #[test]
-fn three_circles() -> Result<(), OutOfRange> {
+fn a_strip_rolls_up_to_three_circles() -> Result<(), OutOfRange> {
     [5, 12, 31].into_iter().try_for_each(|elements| check(elements, 6))
 }

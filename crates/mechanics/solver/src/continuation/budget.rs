@@ -2,7 +2,7 @@
 
 use crate::newton::Work;
 
-/// Numbers of tangents up to which a path goes on, however long the row.
+/// Numbers of tangents that a path may always take, however long the row.
 ///
 /// The first one counts from the start of the path, the second one from its last progress.
 const FREE_TANGENTS: [u64; 2] = [2_000, 1_000];
@@ -25,12 +25,12 @@ impl Budget {
         }
     }
 
-    /// Restarts at a point of a path that is turned back.
+    /// Restarts the count where a path is turned back.
     pub(super) fn restart(&mut self, work: Work) {
         *self = Self { farthest: f64::NEG_INFINITY, at_farthest: work };
     }
 
-    /// Returns true if a path has exceeded `most` unknowns, or half of them without progress.
+    /// Returns true if the work exceeds `most` unknowns, or half without progress.
     ///
     /// Unknowns are counted instead of time, so that results do not depend on the machine.
     pub(super) fn is_exceeded(&self, work: Work, most: u64) -> bool {

@@ -22,10 +22,10 @@ const STRAIGHT_IN_ALL: f64 = 0.8;
 /// neighbouring path makes angles of the same sign with both directions.
 const SYMMETRIC: f64 = 0.9986;
 
-/// Rate of all coordinates above which the path is hidden.
+/// Rate of all coordinates over the rate of the controls that makes a path hidden.
 ///
-/// The rate is per rate of the controls. A hidden path has motion far from the load, such as a
-/// local instability. The arc length in all coordinates measures it.
+/// A hidden path moves far from the load, as in a local instability, and hardly moves the controls.
+/// Its steps are measured by the arc length in all coordinates.
 pub(super) const HIDDEN: f64 = 100.0;
 
 /// Step length below which the angle of a step is round-off.

@@ -24,7 +24,7 @@ pub(super) struct Returns {
     last: usize,
     /// Number of events that equal an earlier one with another one in between.
     repeated: usize,
-    /// Number of successive events at the last one.
+    /// Number of successive events that equal the last one.
     stays: usize,
 }
 

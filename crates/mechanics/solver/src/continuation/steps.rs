@@ -10,11 +10,10 @@ use crate::progress;
 use crate::system::{State, System};
 use crate::termination::Termination;
 
-/// Number of undone steps after which the path jumps.
+/// Number of steps that undo a change at one point after which the path jumps.
 ///
-/// Each is a third as long as the last. If the change at the current point is undone at every
-/// length, shortening the step does not help. If the step was merely too long, fewer reductions
-/// suffice.
+/// Each step is a third of the last. If a change is undone at every length, shorter steps do not
+/// help. If the step was merely too long, fewer reductions suffice.
 const UNDONE: usize = 5;
 
 /// Distances at which the path is resumed beyond a bifurcation point, the preferred one first.

@@ -10,9 +10,9 @@ use solver::{BandLu, BandMatrix, Tangent};
 /// Numbers above 2 stand for zeros.
 fn matrix(size: usize, half: usize, entries: &[f64]) -> BandMatrix {
     let mut matrix = BandMatrix::new(size, half);
-    let places = (0..size).flat_map(|i| matrix.columns(i).map(move |j| (i, j)));
-    let places: Vec<_> = places.collect();
-    for ((i, j), &entry) in places.into_iter().zip(entries) {
+    let positions = (0..size).flat_map(|i| matrix.columns(i).map(move |j| (i, j)));
+    let positions: Vec<_> = positions.collect();
+    for ((i, j), &entry) in positions.into_iter().zip(entries) {
         if entry <= 2.0 {
             matrix.add(i, j, entry);
         }

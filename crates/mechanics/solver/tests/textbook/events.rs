@@ -43,10 +43,10 @@ fn the_path_has_a_kink_where_a_bump_begins_and_ends() {
 fn a_bump_within_one_step_is_not_missed() {
     let (points, stop) = follow(bump(), steps(1.0));
     assert_eq!(stop, Termination::Reached);
-    let places: Vec<f64> = changes(&points).iter().map(|(point, _)| point.state.z[0]).collect();
-    assert_eq!(places.len(), 2);
-    assert_relative_eq!(places[0], 1.0, max_relative = 1e-10);
-    assert_relative_eq!(places[1], 3.0, max_relative = 1e-10);
+    let positions: Vec<f64> = changes(&points).iter().map(|(point, _)| point.state.z[0]).collect();
+    assert_eq!(positions.len(), 2);
+    assert_relative_eq!(positions[0], 1.0, max_relative = 1e-10);
+    assert_relative_eq!(positions[1], 3.0, max_relative = 1e-10);
 }
 
 /// The bump is found from any point and with steps of any length.
@@ -58,10 +58,10 @@ fn a_bump_within_a_later_step_is_not_missed() {
         let points: Vec<_> = path.by_ref().collect();
         assert_eq!(path.termination(), Some(Termination::Reached));
         let changes = changes(&points);
-        let places: Vec<f64> = changes.iter().map(|(point, _)| point.state.z[0]).collect();
-        assert_eq!(places.len(), 2);
-        assert_relative_eq!(places[0], 1.0, max_relative = 1e-10);
-        assert_relative_eq!(places[1], 3.0, max_relative = 1e-10);
+        let positions: Vec<f64> = changes.iter().map(|(point, _)| point.state.z[0]).collect();
+        assert_eq!(positions.len(), 2);
+        assert_relative_eq!(positions[0], 1.0, max_relative = 1e-10);
+        assert_relative_eq!(positions[1], 3.0, max_relative = 1e-10);
         assert!(points.len() <= 6, "{}", points.len());
     }
 }
@@ -77,16 +77,16 @@ fn a_thin_wall_within_one_step_is_not_missed() {
             let rest = State { z: vec![start, 0.0, start], active: vec![false], mode: () };
             let points: Vec<_> =
                 Continuation::new(Scaled::by_one(system.clone()), rest, steps(2.0)).collect();
-            let places =
+            let positions =
                 changes(&points).iter().map(|(point, _)| point.state.z[0]).collect::<Vec<_>>();
-            assert_eq!(places.len(), 2, "from {start}: {places:?}");
-            assert_relative_eq!(places[0], 0.69, max_relative = 1e-9);
-            assert_relative_eq!(places[1], 0.71, max_relative = 1e-9);
+            assert_eq!(positions.len(), 2, "from {start}: {positions:?}");
+            assert_relative_eq!(positions[0], 0.69, max_relative = 1e-9);
+            assert_relative_eq!(positions[1], 0.71, max_relative = 1e-9);
         }
     }
 }
 
-/// The chord of the nearer wall's guard points behind the farther wall.
+/// By the secant of its guard, the nearer wall would lie behind the farther one.
 #[test]
 fn the_nearer_of_two_walls_is_met_first() {
     let near: fn(f64) -> [f64; 2] =

@@ -37,8 +37,8 @@ fn a_turning_control_parameter_is_followed() {
         assert!(before < w && w < before + 0.2, "from w = {before} to {w}");
         before = w;
     }
-    let places: Vec<f64> = points.iter().map(|point| point.state.z[1]).collect();
-    let turns = places.windows(3).filter(|d| (d[1] - d[0]) * (d[2] - d[1]) < 0.0).count();
+    let positions: Vec<f64> = points.iter().map(|point| point.state.z[1]).collect();
+    let turns = positions.windows(3).filter(|d| (d[1] - d[0]) * (d[2] - d[1]) < 0.0).count();
     assert_eq!(turns, 2);
     assert_eq!(extrema(&points).len(), 2);
 }

@@ -36,7 +36,7 @@ fn follow_modes<S: System>(
     let rest = State::at_rest(&system);
     let mut path = Continuation::new(system, rest, settings);
     let points = path.by_ref().collect();
-    (points, path.termination().expect("an iterator that has ended tells why"))
+    (points, path.termination().expect("an ended path has a termination"))
 }
 
 /// Returns the states at the load extrema of a path.

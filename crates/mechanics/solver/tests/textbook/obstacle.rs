@@ -6,7 +6,6 @@ use solver::{Condition, Newton, Settings, State, System, Termination};
 use crate::problems::{DEPTH, StringOverFloor};
 use crate::{changes, follow, steps};
 
-/// Returns the end of a path from rest to a load.
 #[test]
 fn a_loaded_string_settles_on_the_floor() {
     for load in [0.5, 0.9, 3.0, 40.0] {

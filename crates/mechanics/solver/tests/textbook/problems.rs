@@ -305,7 +305,7 @@ impl StringOverFloor {
     }
 
     /// Returns the fraction of an element's load and stiffness assigned to a node.
-    fn share(&self, i: usize) -> f64 {
+    fn fraction(&self, i: usize) -> f64 {
         if self.halved && i + 1 == self.nodes() { 0.5 } else { 1.0 }
     }
 }
@@ -338,10 +338,10 @@ impl System for StringOverFloor {
     fn residual(&self, State { z, .. }: &State, residual: &mut Residual) {
         residual.clear(&vec![1.0; self.size()]);
         for i in 0..self.nodes() {
-            let share = self.share(i);
-            residual.add(2 * i, 2.0 * share * z[2 * i] / self.h());
+            let fraction = self.fraction(i);
+            residual.add(2 * i, 2.0 * fraction * z[2 * i] / self.h());
             residual.add(2 * i, z[2 * i + 1]);
-            residual.add(2 * i, -share * self.h() * z[self.load()]);
+            residual.add(2 * i, -fraction * self.h() * z[self.load()]);
             if i > 0 {
                 residual.add(2 * i, -z[2 * i - 2] / self.h());
             }
@@ -354,10 +354,10 @@ impl System for StringOverFloor {
 
     fn tangent(&self, _state: &State, matrix: &mut impl Tangent) {
         for i in 0..self.nodes() {
-            let share = self.share(i);
-            matrix.add(2 * i, 2 * i, 2.0 * share / self.h());
+            let fraction = self.fraction(i);
+            matrix.add(2 * i, 2 * i, 2.0 * fraction / self.h());
             matrix.add(2 * i, 2 * i + 1, 1.0);
-            matrix.add(2 * i, self.load(), -share * self.h());
+            matrix.add(2 * i, self.load(), -fraction * self.h());
             if i > 0 {
                 matrix.add(2 * i, 2 * i - 2, -1.0 / self.h());
             }

@@ -41,7 +41,7 @@ fn a_stationary_control_parameter_is_singular() {
     assert_eq!((points.len(), stop), (0, Termination::Singular));
 }
 
-/// A column under compression buckles at the load 1.
+/// The column buckles at the load 1.
 #[test]
 fn a_path_keeps_its_branch_at_a_bifurcation() {
     let mut path =

@@ -85,7 +85,7 @@ fn paths_with_constraints_take_few_iterations() {
 /// Returns the number of samples of a search for a maximum.
 ///
 /// Each sample evaluates the quantity three times, for its value and its slope.
-fn places<S: System>(system: S, largest_step: f64) -> usize {
+fn samples<S: System>(system: S, largest_step: f64) -> usize {
     let load = system.load();
     let count = std::cell::Cell::new(0);
     let slope = |_: &S, _: &State<S::Mode>, direction: &[f64]| {
@@ -109,13 +109,13 @@ fn places<S: System>(system: S, largest_step: f64) -> usize {
 fn a_maximum_between_points_takes_few_evaluations() {
     let mut tanh = step();
     tanh.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
-    let counts = [0.13, 0.047, 0.017].map(|step| places(Scaled::by_one(tanh.clone()), step));
+    let counts = [0.13, 0.047, 0.017].map(|step| samples(Scaled::by_one(tanh.clone()), step));
     assert_at_most(&counts, &[8, 7, 6]);
     assert_at_most(
-        &[0.1, 0.05, 0.011].map(|step| places(Scaled::by_one(kink::<5>()), step)),
+        &[0.1, 0.05, 0.011].map(|step| samples(Scaled::by_one(kink::<5>()), step)),
         &[10, 9, 7],
     );
-    assert_at_most(&[0.047, 0.031].map(|step| places(two_laws(), step)), &[8, 7]);
+    assert_at_most(&[0.047, 0.031].map(|step| samples(two_laws(), step)), &[8, 7]);
 }
 
 /// Walls at one position close together, without a separate solve for each.

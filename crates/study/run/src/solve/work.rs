@@ -42,7 +42,7 @@ fn report_after<T>(
     let design = design.to_owned();
     let words = move |far: PathProgress| {
         // The fraction at rest may be negative zero.
-        let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.share + 0.0);
+        let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.fraction + 0.0);
         let PathProgress { points, .. } = far;
         tell(format!(
             "{design}: {seconds:.0} s so far, {points} points, at {share:.1} % of the final angle"
