@@ -74,7 +74,7 @@ impl Arrangement {
     /// Returns the fraction of the length in gaps, `Σd/Σp`.
     ///
     /// This is the compliance of a strip without contact.
-    pub(crate) fn share_of_gaps(&self) -> f64 {
+    pub(crate) fn gap_fraction(&self) -> f64 {
         match self {
             Self::Even(row) => row.gap() / row.pitch(),
             Self::Uneven(row) => row.gaps().iter().sum::<f64>() / row.length(),

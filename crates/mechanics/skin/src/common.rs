@@ -28,7 +28,7 @@ pub enum PathDetail {
     Measures,
     /// Everything that path tables and drawings show.
     ///
-    /// In addition, these are the gap stretches and energies at every point, and all folds.
+    /// In addition to all measures: gap stretches and energies at every point, and all folds.
     #[default]
     Whole,
 }

@@ -36,7 +36,7 @@ impl Design {
         }
     }
 
-    /// Returns the design at a fraction of the way to another one with the same meaning of `L`.
+    /// Interpolates linearly to another design with the same meaning of `L`.
     pub(crate) fn towards(&self, to: &Self, fraction: f64) -> Self {
         Self {
             gap: self.gap + fraction * (to.gap - self.gap),

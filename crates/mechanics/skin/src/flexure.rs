@@ -33,7 +33,7 @@ pub use point::FlexurePoint;
 pub use sensitivity::{FlexureInput, differentiate, moment_curve, unloading_curve};
 pub use snapshot::{StripSnapshot, snapshots};
 
-/// How many gaps of a strip are solved for.
+/// Gaps of a strip that are solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// One gap: in pure bending equal gaps deform alike.

@@ -51,8 +51,8 @@ impl Imperfection {
     /// Returns sample `number` of the rows of `design`.
     ///
     /// A sample depends only on the seed, the number and the geometry of the design, not on the
-    /// place or order of drawing. The normal deviates do not depend on the amount of scatter:
-    /// another `cv` or `sd` scales the same deviates, except where (I3) rejects them.
+    /// machine, the thread or the order of drawing. The normal deviates do not depend on the amount
+    /// of scatter: another `cv` or `sd` scales the same deviates, except where (I3) rejects them.
     ///
     /// # Errors
     /// If a number is negative or not finite, or the design has no geometrical meaning.

@@ -19,7 +19,7 @@ pub struct ContactEvent<P> {
     pub left_scale: Option<i64>,
     /// Right scale of the pair: nearly always the neighbour.
     pub right_scale: Option<i64>,
-    /// Which corner meets which edge.
+    /// Corner and edge that touch.
     pub corner_edge: CornerEdge,
     /// Change of the contact.
     pub change: ContactChange,
@@ -67,7 +67,7 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     /// Computes the elastic energy of the whole system.
     fn stored(&self, state: &SkinState) -> f64;
 
-    /// Returns how many copies of the solved part make up the system.
+    /// Returns the number of copies of the solved part in the whole system.
     fn repeats(&self) -> f64 {
         1.0
     }
@@ -109,7 +109,7 @@ pub(crate) struct Work {
 /// then below 0.2 %.
 const BEND: f64 = 0.005;
 
-/// How often a segment is bisected at most.
+/// Maximum number of bisections of a segment.
 const BISECTIONS: usize = 8;
 
 impl Work {
@@ -137,7 +137,7 @@ impl Work {
         let spans = path.spans(from, to);
         let between_scales = skin.contacts().friction_work(from, to, spans);
         let at_tip = skin.tip_work(from, to, spans);
-        let allowed = BEND * (self.taken() + between_scales.value + at_tip.value).abs();
+        let allowed = BEND * (self.total() + between_scales.value + at_tip.value).abs();
         let is_smooth = [between_scales, at_tip]
             .iter()
             .all(|part| (part.value - part.trapezoid).abs() <= allowed);
@@ -160,7 +160,8 @@ impl Work {
         }
     }
 
-    pub(crate) fn taken(&self) -> f64 {
+    /// Returns the dissipation between scales and at the needle tip.
+    pub(crate) fn total(&self) -> f64 {
         self.between_scales + self.at_tip
     }
 }

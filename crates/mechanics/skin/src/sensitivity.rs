@@ -134,7 +134,7 @@ pub(crate) fn derivatives<S: Skin>(
                     let rates = quantity.rates(variation, sides, &contenders);
                     let of = (quantity.measure, parameter);
                     Derivative::sided(of, rates, value, variation.step, || {
-                        sides.change().unwrap_or("another scale takes over").to_owned()
+                        sides.change().unwrap_or("another scale has the extreme value").to_owned()
                     })
                 },
             ));
@@ -236,7 +236,7 @@ impl<S: Skin> Linearised<'_, S> {
     /// Describes the change of a contact.
     fn name(&self, before: &SkinState, after: &SkinState, change: Change) -> String {
         if change.constraint >= self.system.contacts().forces.len() {
-            return "the needle moves otherwise".to_owned();
+            return "the contact of the needle changes".to_owned();
         }
         let contacts = self.system.contacts();
         let edge = [after, before]
@@ -266,7 +266,7 @@ pub(crate) fn missing<S: Skin>(
     for MeasuredPoint { place, quantities } in spots {
         for (quantity, place) in quantities.iter().zip(std::iter::repeat(place)) {
             let value = place.as_ref().map_or(0.0, |place| quantity.at(skin, place));
-            let kink = "something sticks where something else changes, too";
+            let kink = "no derivative: a stick position depends on another event";
             derivatives.extend((0..parameters).map(|parameter| Derivative {
                 measure: quantity.measure,
                 parameter,
@@ -286,9 +286,7 @@ impl<S: Skin> MeasuredQuantity<S> {
         self.value_at(system, place).0
     }
 
-    /// Evaluates the quantity, and lists the indices that may become extreme.
-    ///
-    /// They become extreme next to the point.
+    /// Evaluates the quantity, and lists the indices that may become extreme nearby.
     fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> (f64, Vec<usize>) {
         let count = self.extreme.map_or(1, |_| system.contacts().scales.len());
         let values: Vec<f64> = (0..count)

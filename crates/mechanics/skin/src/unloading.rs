@@ -15,7 +15,7 @@ use crate::sensitivity::{Curve, CurvePoint, curve_point};
 pub struct Unloading<P> {
     /// Equilibria of the path, starting with the end of the loading path.
     pub path: Vec<P>,
-    /// Why it stopped: [`Termination::Unloaded`] at zero load.
+    /// Reason why the path stopped: [`Termination::Unloaded`] at zero load.
     pub stop: Termination,
     /// Work of the load that is not recovered, i.e. the area of the load loop.
     ///
@@ -42,7 +42,7 @@ impl<P> Unloading<P> {
         if path.point().state.z[path.system().load()] == 0.0 {
             // A needle that is through at rest carries no load.
             let point = Self::noted(path.system(), path.point(), &work);
-            let loop_work = path.system().repeats() * work.taken();
+            let loop_work = path.system().repeats() * work.total();
             return Self {
                 path: vec![point],
                 stop: Termination::Unloaded,
@@ -63,7 +63,7 @@ impl<P> Unloading<P> {
         // At a nonzero load the loop is not closed, and its area is meaningless.
         let loop_work = (stop == Termination::Unloaded).then(|| {
             // The stored energy covers the whole strip, the dissipation only the solved gaps.
-            skin.stored(&end.state) + skin.repeats() * work.taken()
+            skin.stored(&end.state) + skin.repeats() * work.total()
         });
         Self { path: points, stop, loop_work }
     }

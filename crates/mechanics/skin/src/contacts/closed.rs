@@ -12,12 +12,12 @@ pub struct Contact {
     pub left: usize,
     /// Right scale of the pair: nearly always the neighbour.
     pub right: usize,
-    /// Which corner meets which edge.
+    /// Corner and edge that touch.
     pub corner_edge: CornerEdge,
     /// Position of the touching corner in the deformed state, over `t`.
     ///
-    /// It is relative to the node of the first scale at rest, on a curved body in its tangent
-    /// frame.
+    /// It is relative to the node of the first scale at rest. On a curved body its components are
+    /// in the tangent frame of that scale.
     pub point: [f64; 2],
     /// Force on the left scale; the right scale carries the opposite force.
     pub force: [f64; 2],

@@ -59,7 +59,7 @@ impl Contacts {
         work.sum()
     }
 
-    /// Computes the dissipation of a contact that slips with a sign from a start on.
+    /// Computes the dissipation of a contact that slips since `s` was `start`.
     fn work_of_slip(
         &self,
         contact: usize,

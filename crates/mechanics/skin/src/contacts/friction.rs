@@ -287,9 +287,10 @@ impl Contacts {
         })
     }
 
-    /// Releases a contact that was locked or stuck at a needle tip, on its edge.
+    /// Releases a contact that a needle tip had locked or made stick.
     ///
-    /// `slides` tells whether the needle tip slides; then the corner keeps sliding, too.
+    /// It then sticks or slips on its edge. If the needle tip `slides`, a corner at its friction
+    /// limit keeps sliding, too.
     pub(crate) fn release(&self, state: &mut SkinState, contact: usize, slides: bool) {
         if !self.has_friction() {
             return;

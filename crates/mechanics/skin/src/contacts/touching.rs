@@ -1,4 +1,4 @@
-//! Corners on edges, with the coordinates that place their forces on both scales.
+//! Corners on edges, with the geometry of their contact forces.
 
 use contact::{COORDINATES, CornerContact, CornerEdge};
 use geometry::Vec2;
@@ -96,8 +96,9 @@ impl Contacts {
         self.slots * contact
     }
 
-    /// Returns the overlap that a pair may have beyond its contact law, given the opening of each
-    /// contact by bending.
+    /// Returns the overlap that bending permits a pair in addition to its contact law.
+    ///
+    /// `openings` holds the opening of each contact by bending.
     pub(crate) fn pair_slack(openings: &[f64], pair: usize) -> f64 {
         openings[LEVELS.len() * pair..][..LEVELS.len()].iter().copied().fold(0.0, f64::max)
     }

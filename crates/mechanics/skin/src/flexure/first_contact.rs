@@ -184,10 +184,10 @@ impl BareGap {
             return (upright <= farthest).then_some(upright);
         }
         // Start above zero, because the radius of the arc is infinite at zero.
-        let looks =
-            (1..=SAMPLES).map(|look| LARGEST_ROTATION * f64::from(look) / f64::from(SAMPLES));
+        let samples =
+            (1..=SAMPLES).map(|sample| LARGEST_ROTATION * f64::from(sample) / f64::from(SAMPLES));
         let mut open = 0.0;
-        for rotation in looks.take_while(|look| *look < farthest).chain([farthest]) {
+        for rotation in samples.take_while(|sample| *sample < farthest).chain([farthest]) {
             if self.touches(rotation) {
                 return Some(self.narrowed(open, rotation));
             }

@@ -35,7 +35,7 @@ const ROUNDS: usize = 50;
 const FARTHER: f64 = 2.0;
 
 /// Divisor of the step size of gaps with friction.
-const RUBBING: f64 = 4.0;
+const FRICTION_REFINEMENT: f64 = 4.0;
 
 /// Golden-section steps within a segment before the stiffest point is solved for.
 const SECTIONS: usize = 30;
@@ -101,7 +101,7 @@ impl<'a> UnevenStrip<'a> {
         if problem.common.friction > 0.0 {
             // The accuracy of the dissipation depends on the step size. The assembled chain has
             // more points, one for every event of any gap.
-            settings.max_step /= RUBBING;
+            settings.max_step /= FRICTION_REFINEMENT;
         }
         let gaps = (0..problem.solved)
             .map(|gap| Ok(GapCurve::new(problem.gap(gap, resolution)?, settings)))
@@ -182,7 +182,7 @@ impl<'a> UnevenStrip<'a> {
             ..FlexureMeasures::default()
         };
         let closing_range = last_contact.zip(first_contact).map(|(last, first)| last - first);
-        Some((measures.in_closed_form(problem.row.share_of_gaps()), closing_range))
+        Some((measures.in_closed_form(problem.row.gap_fraction()), closing_range))
     }
 
     /// Finds the moment at which the strip reaches its final rotation.
@@ -253,14 +253,14 @@ impl<'a> UnevenStrip<'a> {
                 best = (moment, found);
             }
         }
-        let places = self.places(end);
-        let before = places.iter().rfind(|place| **place < best.0);
-        let behind = places.iter().find(|place| **place > best.0);
-        for (side, place) in [(KinkSide::Before, before), (KinkSide::Behind, behind)] {
+        let breakpoints = self.breakpoints(end);
+        let before = breakpoints.iter().rfind(|breakpoint| **breakpoint < best.0);
+        let behind = breakpoints.iter().find(|breakpoint| **breakpoint > best.0);
+        for (side, breakpoint) in [(KinkSide::Before, before), (KinkSide::Behind, behind)] {
             // At an event the strip may be softer on one side.
             let is_stiff = self.compliance(best.0, side) <= best.1 * (1.0 + FLAT);
-            if let Some(place) = place.filter(|_| is_stiff) {
-                let beside = best.0 + BESIDE * (place - best.0);
+            if let Some(breakpoint) = breakpoint.filter(|_| is_stiff) {
+                let beside = best.0 + BESIDE * (breakpoint - best.0);
                 self.solve_at(beside)?;
                 if self.least_compliance(beside) < best.1 * (1.0 - STIFFER) {
                     return None;
@@ -274,23 +274,23 @@ impl<'a> UnevenStrip<'a> {
     ///
     /// Between events the sum is as smooth as each of its terms, so the equilibria of one gap and
     /// the events of all gaps suffice.
-    fn places(&self, end: f64) -> Vec<f64> {
+    fn breakpoints(&self, end: f64) -> Vec<f64> {
         let one = self.gaps.first().into_iter().flat_map(|gap| gap.knots_to(end));
         let all = self.gaps.iter().flat_map(|gap| gap.knots_to(end));
-        let places = one.chain(all.filter(|knot| knot.is_event())).map(|knot| knot.moment);
-        let mut places: Vec<_> = places.collect();
-        places.sort_unstable_by(f64::total_cmp);
-        places.dedup();
-        places
+        let breakpoints = one.chain(all.filter(|knot| knot.is_event())).map(|knot| knot.moment);
+        let mut breakpoints: Vec<_> = breakpoints.collect();
+        breakpoints.sort_unstable_by(f64::total_cmp);
+        breakpoints.dedup();
+        breakpoints
     }
 
     /// Predicts by (F8) the moment of least compliance and the compliance there.
     fn promising(&self, end: f64) -> (f64, f64) {
-        let places = self.places(end);
-        let found = places.iter().map(|&moment| (moment, self.least_compliance(moment)));
+        let breakpoints = self.breakpoints(end);
+        let found = breakpoints.iter().map(|&moment| (moment, self.least_compliance(moment)));
         let best = found.reduce(lesser).unwrap_or((0.0, f64::INFINITY));
-        let number = places.partition_point(|moment| *moment < best.0);
-        let beside = places[number.saturating_sub(1)..].windows(2).take(2);
+        let number = breakpoints.partition_point(|moment| *moment < best.0);
+        let beside = breakpoints[number.saturating_sub(1)..].windows(2).take(2);
         let inside = beside.map(|segment| self.least_within([segment[0], segment[1]]));
         // Prefer a solved point if the predictions agree up to round-off.
         inside.filter(|(_, value)| *value < best.1 * (1.0 - FLAT)).fold(best, lesser)

@@ -152,7 +152,7 @@ impl GapCurve {
 
     /// Returns the rotation under a moment, as solved or interpolated by (F8).
     pub(super) fn rotation(&self, moment: f64) -> f64 {
-        match self.place(moment) {
+        match self.find(moment) {
             Ok([knot, _]) => knot.rotation,
             Err(segment) => segment.rotation(moment),
         }
@@ -160,7 +160,7 @@ impl GapCurve {
 
     /// Returns `dθ/dM` at a moment, as solved or interpolated by (F8).
     pub(super) fn compliance(&self, moment: f64, side: KinkSide) -> f64 {
-        match (self.place(moment), side) {
+        match (self.find(moment), side) {
             (Ok([knot, _]), KinkSide::Before) => knot.compliances[0],
             (Ok([_, knot]), KinkSide::Behind) => knot.compliances[1],
             (Err(segment), _) => segment.compliance(moment),
@@ -168,7 +168,7 @@ impl GapCurve {
     }
 
     /// Finds the first and the last equilibrium at a moment, or the segment around it.
-    fn place(&self, moment: f64) -> Result<[&Knot; 2], Segment<'_>> {
+    fn find(&self, moment: f64) -> Result<[&Knot; 2], Segment<'_>> {
         let next = self.knots.partition_point(|knot| knot.moment < moment);
         let here = self.knots[next..].partition_point(|knot| knot.moment <= moment);
         match here {
@@ -184,7 +184,7 @@ impl GapCurve {
         for pair in self.knots[..end].windows(2) {
             work.add(&mut self.path, &pair[0].point, &pair[1].point);
         }
-        work.taken()
+        work.total()
     }
 
     /// Returns the largest membrane strain up to a moment.
@@ -212,7 +212,7 @@ struct Segment<'a> {
 
 impl Segment<'_> {
     /// Returns `ΔM`, `Δθ`, and the coordinate `x` of a moment.
-    fn place(&self, moment: f64) -> [f64; 3] {
+    fn coordinates(&self, moment: f64) -> [f64; 3] {
         let width = self.to.moment - self.from.moment;
         [width, self.to.rotation - self.from.rotation, (moment - self.from.moment) / width]
     }
@@ -224,14 +224,14 @@ impl Segment<'_> {
     }
 
     fn rotation(&self, moment: f64) -> f64 {
-        let place @ [_, turn, x] = self.place(moment);
-        let [secant, start, _, below] = self.terms(place);
+        let coordinates @ [_, turn, x] = self.coordinates(moment);
+        let [secant, start, _, below] = self.terms(coordinates);
         self.from.rotation + turn * (secant * x * x + start * x * (1.0 - x)) / below
     }
 
     fn compliance(&self, moment: f64) -> f64 {
-        let place @ [_, _, x] = self.place(moment);
-        let [secant, start, end, below] = self.terms(place);
+        let coordinates @ [_, _, x] = self.coordinates(moment);
+        let [secant, start, end, below] = self.terms(coordinates);
         let y = 1.0 - x;
         (secant / below).powi(2) * (end * x * x + 2.0 * secant * x * y + start * y * y)
     }

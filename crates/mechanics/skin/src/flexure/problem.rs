@@ -151,7 +151,7 @@ impl<'a> FlexureProblem<'a> {
     pub(super) fn gap(&self, gap: usize, resolution: Resolution) -> Result<Strip, OutOfRange> {
         let membranes = vec![self.membrane(gap, resolution)?];
         // Without contact every gap turns in proportion to its length.
-        let free_length = self.row.share_of_gaps() * self.length();
+        let free_length = self.row.gap_fraction() * self.length();
         let share = self.row.gap(gap) / free_length;
         let rotation = share * self.end_rotation();
         let extent = StripExtent { gaps: 1, repeats: 1.0, rotation, farthest: share.recip() };
@@ -255,7 +255,7 @@ impl<'a> FlexureProblem<'a> {
         // Computed values agree with the closed forms up to round-off, but designs without contact
         // should have exactly `d/p`.
         let measures =
-            FlexureMeasures::new(&record, &mut path).in_closed_form(self.row.share_of_gaps());
+            FlexureMeasures::new(&record, &mut path).in_closed_form(self.row.gap_fraction());
         let measures =
             FlexureMeasures { error, contact_curvature: self.contact_curvature, ..measures };
         let measures = match status {
@@ -302,7 +302,7 @@ impl<'a> FlexureProblem<'a> {
     }
 }
 
-/// Stiffness relative to rest beyond which scales alone hold a strip.
+/// Stiffness relative to rest beyond which the scales lock a strip.
 pub(super) const LOCKED: f64 = 100.0;
 
 /// Membrane strain beyond the validity of the small-strain law.

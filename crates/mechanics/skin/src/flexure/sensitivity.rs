@@ -199,8 +199,8 @@ impl FlexureProblem<'_> {
     ) -> Result<(), OutOfRange> {
         // Far from the end no step of a difference causes contact; checking would cost as much as
         // bending.
-        let share = self.contact_curvature.map(|curvature| curvature / self.end_curvature());
-        if !share.is_some_and(|share| (share - 1.0).abs() < NEARLY) {
+        let ratio = self.contact_curvature.map(|curvature| curvature / self.end_curvature());
+        if !ratio.is_some_and(|ratio| (ratio - 1.0).abs() < NEARLY) {
             return Ok(());
         }
         for derivative in derivatives.iter_mut().filter(|of| of.measure == "compliance") {
@@ -272,7 +272,7 @@ fn differences(
             });
             [derivative.left, derivative.right] = slopes;
             derivative.kink =
-                Some("something sticks: from whole solutions on either side".to_owned());
+                Some("a contact sticks: difference of whole solutions on each side".to_owned());
         }
     }
     Ok(unknown)

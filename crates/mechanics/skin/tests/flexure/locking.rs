@@ -13,7 +13,7 @@ const FRICTIONS: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.5];
 
 /// Checks the trend shared by both models: more friction locks earlier.
 ///
-/// Beyond some friction scales lock at first contact.
+/// Above some coefficient of friction, scales lock at first contact.
 #[track_caller]
 fn locks_earlier(locks: &[Option<f64>], touch: f64) {
     let found: Vec<f64> = locks.iter().copied().skip_while(Option::is_none).flatten().collect();

@@ -338,8 +338,10 @@ fn draw_either(random: &mut ChaCha8Rng) -> bool {
     draw(random, 0.0, 1.0) < 0.5
 }
 
-/// Draws skins on bodies with radii from 4 t to 64 t, convex and concave, under free, guided and
-/// round needles. Every second skin has friction between scales, and one of `layers` a layer.
+/// Draws skins on convex and concave bodies with radii from 4 t to 64 t.
+///
+/// Needles are free, guided and round. Every second skin has friction between scales, and one of
+/// `layers` a layer.
 fn random_worn_skins(count: usize, layers: usize) -> Vec<WornSkin> {
     let mut random = ChaCha8Rng::seed_from_u64(52);
     let mut all = Vec::new();
@@ -414,8 +416,10 @@ fn derivatives_by_curvature_of_random_designs_agree_with_differences() {
     assert!(large.is_empty(), "{large:?}");
 }
 
-/// Compares the derivative of the critical force by the curvature with a difference of fourth
-/// order; `None` at kinks, and where the path does not reach the critical tilt.
+/// Compares the derivative of the critical force with a fourth-order difference.
+///
+/// It is the derivative by the curvature. `None` at kinks, and where the path does not reach the
+/// critical tilt.
 fn deviation((design, parameters): &(Design, PunctureParameters)) -> Option<(Design, f64)> {
     let footprint = design.footprint(parameters.poisson_ratio).unwrap();
     let stiffness: substrate::RowStiffness = (&substrate::calibrate(&footprint).unwrap()).into();

@@ -1,8 +1,8 @@
 //! Pairs of scales with friction, against enumeration of contact patterns.
 //!
-//! In small steps of the tilt, every contact is tried open, sticking, and slipping in either
-//! direction, until one pattern satisfies all its conditions. Where slip starts or stops within a
-//! step, anchors are off by a fraction of the step, so forces converge with the step size.
+//! In small steps of the tilt, every combination of open, sticking and slipping contacts is tried
+//! until one pattern satisfies all its conditions. Where slip starts or stops within a step,
+//! anchors are off by a fraction of the step, so forces converge with the step size.
 
 use nalgebra::{DMatrix, DVector, Vector2};
 use skin::puncture::{At, PunctureParameters, snapshots};
@@ -15,7 +15,7 @@ type V = Vector2<f64>;
 
 /// State of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Stand {
+enum ContactState {
     Open,
     Stick,
     Slip(f64),
@@ -23,11 +23,16 @@ enum Stand {
     ///
     /// Two contacts on parallel edges slide together or not at all. While they stick, only the sum
     /// of their friction is determined.
-    Borne,
+    CarriedByOther,
 }
 
-const STANDS: [Stand; 5] =
-    [Stand::Open, Stand::Stick, Stand::Slip(1.0), Stand::Slip(-1.0), Stand::Borne];
+const STATES: [ContactState; 5] = [
+    ContactState::Open,
+    ContactState::Stick,
+    ContactState::Slip(1.0),
+    ContactState::Slip(-1.0),
+    ContactState::CarriedByOther,
+];
 
 /// A corner of one scale against an edge of the other.
 struct Touch {
@@ -102,7 +107,7 @@ impl Pair {
         Self { stiffness, arm: top[1], pitch, touches, law, friction: common.friction }
     }
 
-    fn place(&self, z: &Unknowns, (scale, arm): (usize, V)) -> V {
+    fn position(&self, z: &Unknowns, (scale, arm): (usize, V)) -> V {
         V::new(scale as f64 * self.pitch + z[3 * scale], z[3 * scale + 1])
             + turned(z[3 * scale + 2], arm)
     }
@@ -113,7 +118,7 @@ impl Pair {
     fn along(&self, z: &Unknowns, touch: &Touch, direction: V) -> (f64, DVector<f64>) {
         let (corner, edge) = (touch.corner, touch.edge);
         let v = turned(z[3 * edge.0 + 2], direction);
-        let between = self.place(z, corner) - self.place(z, edge);
+        let between = self.position(z, corner) - self.position(z, edge);
         let mut slopes = DVector::zeros(6);
         for ((scale, arm), sign) in [(corner, 1.0), (edge, -1.0)] {
             let turning = quarter(turned(z[3 * scale + 2], arm));
@@ -125,7 +130,7 @@ impl Pair {
         (between.dot(&v), slopes)
     }
 
-    fn way(&self, z: &Unknowns, touch: usize) -> f64 {
+    fn slip(&self, z: &Unknowns, touch: usize) -> f64 {
         let touch = &self.touches[touch];
         self.along(z, touch, touch.tangent).0
     }
@@ -135,26 +140,32 @@ impl Pair {
         length * (force / unit).abs().powf(1.0 / exponent).copysign(force)
     }
 
-    fn residual(&self, z: &Unknowns, tilt: f64, stands: &[Stand], anchors: &[f64]) -> DVector<f64> {
+    fn residual(
+        &self,
+        z: &Unknowns,
+        tilt: f64,
+        states: &[ContactState],
+        anchors: &[f64],
+    ) -> DVector<f64> {
         let mut r = DVector::zeros(z.len());
         let mut balance = &self.stiffness * z.rows(0, 6);
         let arm = turned(z[2], self.arm);
         balance[1] += z[LOAD];
         balance[2] += arm.x * z[LOAD];
-        for (k, (touch, stand)) in self.touches.iter().zip(stands).enumerate() {
+        for (k, (touch, state)) in self.touches.iter().zip(states).enumerate() {
             let (at, traction) = (LOAD + 1 + 2 * k, LOAD + 2 + 2 * k);
             let (gap, by_gap) = self.along(z, touch, touch.normal);
-            let (way, by_way) = self.along(z, touch, touch.tangent);
-            if *stand == Stand::Open {
+            let (slip, by_slip) = self.along(z, touch, touch.tangent);
+            if *state == ContactState::Open {
                 (r[at], r[traction]) = (z[at], z[traction]);
                 continue;
             }
-            balance -= by_gap * z[at] + by_way * z[traction];
+            balance -= by_gap * z[at] + by_slip * z[traction];
             r[at] = gap + self.approach(z[at]);
-            r[traction] = match stand {
-                Stand::Slip(sign) => z[traction] + sign * self.friction * z[at],
-                Stand::Borne => z[traction],
-                _ => way - anchors[k],
+            r[traction] = match state {
+                ContactState::Slip(sign) => z[traction] + sign * self.friction * z[at],
+                ContactState::CarriedByOther => z[traction],
+                _ => slip - anchors[k],
             };
         }
         r.rows_mut(0, 6).copy_from(&balance);
@@ -166,12 +177,12 @@ impl Pair {
         &self,
         from: &Unknowns,
         tilt: f64,
-        stands: &[Stand],
+        states: &[ContactState],
         anchors: &[f64],
     ) -> Option<Unknowns> {
         let mut z = from.clone();
         for _ in 0..30 {
-            let r = self.residual(&z, tilt, stands, anchors);
+            let r = self.residual(&z, tilt, states, anchors);
             if r.amax() < 1e-12 {
                 return Some(z);
             }
@@ -180,7 +191,7 @@ impl Pair {
                     let [low, high] = [-1e-6, 1e-6].map(|by| {
                         let mut moved = z.clone();
                         moved[k] += by;
-                        self.residual(&moved, tilt, stands, anchors)
+                        self.residual(&moved, tilt, states, anchors)
                     });
                     (high - low) / 2e-6
                 })
@@ -191,49 +202,54 @@ impl Pair {
     }
 
     /// Returns true if a state satisfies the conditions of its pattern.
-    fn holds(&self, from: &Unknowns, to: &Unknowns, stands: &[Stand]) -> bool {
-        let borne = stands.iter().enumerate().filter(|(_, stand)| **stand == Stand::Borne);
-        let borne: f64 = borne.map(|(k, _)| to[LOAD + 1 + 2 * k]).sum();
-        stands.iter().enumerate().all(|(k, stand)| {
+    fn holds(&self, from: &Unknowns, to: &Unknowns, states: &[ContactState]) -> bool {
+        let shared_force =
+            states.iter().enumerate().filter(|(_, state)| **state == ContactState::CarriedByOther);
+        let shared_force: f64 = shared_force.map(|(k, _)| to[LOAD + 1 + 2 * k]).sum();
+        states.iter().enumerate().all(|(k, state)| {
             let touch = &self.touches[k];
             let (push, traction) = (to[LOAD + 1 + 2 * k], to[LOAD + 2 + 2 * k]);
-            let (way, before) = (self.way(to, k), self.way(from, k));
-            let is_on_edge = way > 0.0 && way < touch.tangent.y.recip();
-            match stand {
-                Stand::Open => !is_on_edge || self.along(to, touch, touch.normal).0 >= 0.0,
-                Stand::Stick => {
-                    let bears = push + borne;
-                    push >= 0.0 && is_on_edge && traction.abs() <= self.friction * bears
+            let (slip, before) = (self.slip(to, k), self.slip(from, k));
+            let is_on_edge = slip > 0.0 && slip < touch.tangent.y.recip();
+            match state {
+                ContactState::Open => !is_on_edge || self.along(to, touch, touch.normal).0 >= 0.0,
+                ContactState::Stick => {
+                    let normal_force = push + shared_force;
+                    push >= 0.0 && is_on_edge && traction.abs() <= self.friction * normal_force
                 }
-                Stand::Borne => push >= 0.0 && is_on_edge && stands.contains(&Stand::Stick),
-                Stand::Slip(sign) => push >= 0.0 && is_on_edge && sign * (way - before) >= 0.0,
+                ContactState::CarriedByOther => {
+                    push >= 0.0 && is_on_edge && states.contains(&ContactState::Stick)
+                }
+                ContactState::Slip(sign) => {
+                    push >= 0.0 && is_on_edge && sign * (slip - before) >= 0.0
+                }
             }
         })
     }
 
     /// Computes the load at the tilts, and the sequence of patterns.
-    fn loads(&self, tilts: &[f64], steps: usize) -> (Vec<f64>, Vec<Vec<Stand>>) {
+    fn loads(&self, tilts: &[f64], steps: usize) -> (Vec<f64>, Vec<Vec<ContactState>>) {
         let count = self.touches.len();
         let mut z = Unknowns::zeros(LOAD + 1 + 2 * count);
-        let mut stands = vec![Stand::Open; count];
-        let (mut loads, mut seen) = (Vec::new(), vec![stands.clone()]);
+        let mut states = vec![ContactState::Open; count];
+        let (mut loads, mut seen) = (Vec::new(), vec![states.clone()]);
         let end = *tilts.last().unwrap();
         for step in 1..=steps {
             let tilt = end * step as f64 / steps as f64;
-            let anchors: Vec<_> = (0..count).map(|k| self.way(&z, k)).collect();
-            let patterns = (0..STANDS.len().pow(count as u32)).map(|number| {
-                let digits = (0..count).map(|k| number / STANDS.len().pow(k as u32) % STANDS.len());
-                digits.map(|digit| STANDS[digit]).collect()
+            let anchors: Vec<_> = (0..count).map(|k| self.slip(&z, k)).collect();
+            let patterns = (0..STATES.len().pow(count as u32)).map(|number| {
+                let digits = (0..count).map(|k| number / STATES.len().pow(k as u32) % STATES.len());
+                digits.map(|digit| STATES[digit]).collect()
             });
-            let found = std::iter::once(stands.clone()).chain(patterns).find_map(|pattern| {
+            let found = std::iter::once(states.clone()).chain(patterns).find_map(|pattern| {
                 let to = self.solve(&z, tilt, &pattern, &anchors)?;
                 self.holds(&z, &to, &pattern).then_some((to, pattern))
             });
-            let (to, pattern) = found.unwrap_or_else(|| panic!("no pattern at {tilt}: {stands:?}"));
-            if pattern != stands {
+            let (to, pattern) = found.unwrap_or_else(|| panic!("no pattern at {tilt}: {states:?}"));
+            if pattern != states {
                 seen.push(pattern.clone());
             }
-            (z, stands) = (to, pattern);
+            (z, states) = (to, pattern);
             if tilts.iter().any(|at| (at - tilt).abs() < 1e-9) {
                 loads.push(z[LOAD]);
             }
@@ -243,7 +259,7 @@ impl Pair {
 }
 
 /// Compares the loads with the solver: largest relative difference, patterns.
-fn difference(design: &Design, friction: f64, steps: usize) -> (f64, Vec<Vec<Stand>>) {
+fn difference(design: &Design, friction: f64, steps: usize) -> (f64, Vec<Vec<ContactState>>) {
     let parameters = on_row(2);
     let common = Common { friction, ..Common::default() };
     let springs = springs(design, &parameters, &Calibrations::default());
@@ -261,12 +277,15 @@ fn difference(design: &Design, friction: f64, steps: usize) -> (f64, Vec<Vec<Sta
     (off, seen)
 }
 
-fn closed(seen: &[Vec<Stand>]) -> usize {
-    seen.iter().map(|pattern| pattern.iter().filter(|s| **s != Stand::Open).count()).max().unwrap()
+fn closed(seen: &[Vec<ContactState>]) -> usize {
+    seen.iter()
+        .map(|pattern| pattern.iter().filter(|s| **s != ContactState::Open).count())
+        .max()
+        .unwrap()
 }
 
-fn sticks(seen: &[Vec<Stand>]) -> bool {
-    seen.iter().flatten().any(|stand| *stand == Stand::Stick)
+fn sticks(seen: &[Vec<ContactState>]) -> bool {
+    seen.iter().flatten().any(|state| *state == ContactState::Stick)
 }
 
 #[test]

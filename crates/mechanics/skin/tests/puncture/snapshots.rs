@@ -16,7 +16,7 @@ fn shots(design: &Design, parameters: &PunctureParameters, at: &[At]) -> Snapsho
 }
 
 fn shot(design: &Design, at: At) -> RowSnapshot {
-    shots(design, &on_row(41), &[at]).at.remove(0).expect("a place of the path")
+    shots(design, &on_row(41), &[at]).at.remove(0).expect("a point of the path")
 }
 
 #[test]

@@ -241,7 +241,7 @@ fn derivatives_of_sticking_strips_match_differences() {
     };
     let mut compared = 0;
     for derivative in derivatives(&case).iter().filter(|of| of.measure == "max_moment") {
-        assert!(derivative.kink.as_ref().is_some_and(|kink| kink.starts_with("something sticks")));
+        assert!(derivative.kink.as_ref().is_some_and(|kink| kink.starts_with("a contact sticks")));
         let parameter = Parameter::named(derivative.parameter).unwrap();
         let step = 1e-4 * parameter.size(&case).unwrap();
         let at = |by: f64| moment(&parameter.moved(&case, by).unwrap());
