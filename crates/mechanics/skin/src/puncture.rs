@@ -152,8 +152,9 @@ pub fn overlaps_at_rest(design: &Design, body: Body) -> Result<bool, OutOfRange>
     Ok(!overlaps(|i| (*row.scale(), frames[i].origin), &poses).is_empty())
 }
 
-/// Computes the curvature of a concave body on which neighbouring scales touch at rest, by
-/// bisection to `1e-9`; `None` if they do not touch down to a radius of `t`.
+/// Computes the curvature of a concave body on which neighbours touch at rest.
+///
+/// By bisection to `1e-9`; `None` if they do not touch down to a radius of `t`.
 ///
 /// # Errors
 /// If a length of the design is not positive, or its slant is out of range.

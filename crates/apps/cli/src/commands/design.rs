@@ -195,7 +195,9 @@ impl SolvedChoice {
         };
         let open = puncture.places.iter();
         // A position that carried more before its path ended is not the weakest.
-        let open = open.filter(|p| p.force.is_none() && p.borne.is_some_and(|borne| borne < force));
+        let open = open.filter(|p| {
+            p.force.is_none() && p.largest_force.is_some_and(|largest_force| largest_force < force)
+        });
         let open: Vec<_> = open.map(|place| rounded(place.position)).collect();
         format!(
             "\nThe weakest load position is unknown: the path ends early ({}) at {}. The weakest of the other positions is {}, with a critical force of {}\n",

@@ -27,7 +27,7 @@ pub(super) struct AdaptiveRowPath<'a> {
     pub(super) path: Continuation<Chain>,
     longest: usize,
     /// False if the row had to grow beyond its limit.
-    pub(super) has_room: bool,
+    pub(super) is_long_enough: bool,
     /// Proximity of the last yielded point to the ends.
     reach: [Reach; 2],
     /// Shorter rows that the path has left, in order.
@@ -50,8 +50,8 @@ impl<'a> AdaptiveRowPath<'a> {
     pub(super) fn new(problem: &'a Problem<'a>, chain: Chain, longest: usize) -> Self {
         let rest = chain.at_rest();
         let path = Continuation::new(chain, rest, problem.settings);
-        let (has_room, reach, shorter) = (true, [Reach::Short; 2], Vec::new());
-        Self { problem, path, longest, has_room, reach, shorter, arrived: None }
+        let (is_long_enough, reach, shorter) = (true, [Reach::Short; 2], Vec::new());
+        Self { problem, path, longest, is_long_enough, reach, shorter, arrived: None }
     }
 
     /// Advances the path and returns its next segment.
@@ -64,7 +64,7 @@ impl<'a> AdaptiveRowPath<'a> {
         // Extend before the step if the last one came near an end; few steps are then repeated.
         let reach = std::mem::replace(&mut self.reach, [Reach::Short; 2]);
         self.lengthen(&self.path.point_shared(), reach)?;
-        while self.has_room {
+        while self.is_long_enough {
             let from = self.path.point_shared();
             let Some(to) = self.path.next() else { break };
             let reach = self.path.system().reach(&to.state);
@@ -79,7 +79,7 @@ impl<'a> AdaptiveRowPath<'a> {
         Ok(None)
     }
 
-    /// Continues the path on a longer row, if an end is reached and there is room.
+    /// Continues the path on a longer row, if an end is reached and the row may grow.
     fn lengthen(&mut self, from: &SkinPoint, reach: [Reach; 2]) -> Result<(), OutOfRange> {
         if reach == [Reach::Short; 2] {
             return Ok(());
@@ -88,8 +88,8 @@ impl<'a> AdaptiveRowPath<'a> {
         let longer = layout.grown(reach, self.longest);
         let longer = self.problem.whole().map_or(longer, |whole| longer.within(whole));
         // A row that must grow but cannot is too short to continue.
-        self.has_room = longer != layout;
-        if self.has_room {
+        self.is_long_enough = longer != layout;
+        if self.is_long_enough {
             let chain = self.problem.part(longer)?;
             let from = chain.extended(self.path.system(), from);
             // A row may grow twice at one point: keep the first form of the point.

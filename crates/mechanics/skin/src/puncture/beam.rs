@@ -6,8 +6,10 @@
 
 use geometry::{Parallelogram, Vec2};
 
-/// Poisson's ratio of a scale, for its shear modulus `G = E_c/(2 (1 + ν_c))`: glassy polymers have
-/// 0.35 to 0.4, ceramics 0.2 to 0.25. It only enters the small part of a deflection due to shear.
+/// Poisson's ratio of a scale, for its shear modulus `G = E_c/(2 (1 + ν_c))`.
+///
+/// Glassy polymers have 0.35 to 0.4, ceramics 0.2 to 0.25. It only enters the small part of a
+/// deflection due to shear.
 const POISSON_RATIO: f64 = 0.35;
 
 /// Shear coefficient of a rectangular section.
@@ -29,8 +31,9 @@ pub(super) struct Load {
 /// Resultant of the tractions of a bond or of its substrate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct BaseTractions {
-    /// Largest normal traction that pulls at the bond: its mean plus the part due to bending; 0 if
-    /// the whole base is pressed.
+    /// Largest normal traction that pulls at the bond: its mean plus the bending part.
+    ///
+    /// It is 0 if the whole base is pressed.
     pub(super) tension: f64,
     /// Mean shear traction.
     pub(super) shear: f64,

@@ -27,8 +27,7 @@ use crate::contacts::SkinState;
 /// Unknowns of a free needle on an elastic scale, behind the load: depth and total tilt.
 pub(super) const BENDING_UNKNOWNS: usize = 2;
 
-/// Half of the length over which the shear force of a load is distributed, over the depth of the
-/// beam.
+/// Half-length over which a shear force is distributed, over the depth of the beam.
 ///
 /// The shear force of a point load jumps. Where two loads pass each other, the energy would have a
 /// kink and the equilibrium a jump.
@@ -65,8 +64,8 @@ struct Coupling<'a> {
     flexibilities: Vec<Flexibility>,
     /// First of the three unknowns of each scale on which the loads depend.
     nodes: Vec<usize>,
-    /// Places of these unknowns in a row of `3 nodes + loads` entries, for each load.
-    places: Vec<[usize; COORDINATES]>,
+    /// Positions of these unknowns in a row of `3 nodes + loads` entries, for each load.
+    positions: Vec<[usize; COORDINATES]>,
 }
 
 impl BentScale {
@@ -78,15 +77,15 @@ impl BentScale {
                 nodes.push(node);
             }
         }
-        let places = loads.iter().map(|load| {
+        let positions = loads.iter().map(|load| {
             let [left, right] = [load.at[0], load.at[3]]
                 .map(|node| 3 * nodes.iter().position(|other| *other == node).unwrap_or_default());
             [left, left + 1, left + 2, right, right + 1, right + 2]
         });
-        let places = places.collect();
+        let positions = positions.collect();
         let pairs = loads.iter().flat_map(|k| loads.iter().map(move |l| (k, l)));
         let flexibilities = pairs.map(|(k, l)| self.section.flexibility(k, l)).collect();
-        Coupling { loads, flexibilities, nodes, places }
+        Coupling { loads, flexibilities, nodes, positions }
     }
 
     fn sums(&self, k: &BeamLoad) -> Sums {
@@ -136,8 +135,8 @@ impl Coupling<'_> {
 
     /// Adds `value` times the derivative of the coordinate of a load to a row.
     fn add_slopes(&self, load: usize, value: f64, row: &mut [f64]) {
-        for (place, slope) in self.places[load].into_iter().zip(self.loads[load].slopes) {
-            row[place] += value * slope;
+        for (position, slope) in self.positions[load].into_iter().zip(self.loads[load].slopes) {
+            row[position] += value * slope;
         }
     }
 
@@ -194,15 +193,15 @@ impl Coupling<'_> {
                 row[motions + l] -= load.force * flexibility.by_first;
                 self.add_slopes(l, -load.force * other.force * flexibility.by_both, &mut row);
             }
-            let places = &self.places[k];
-            for (i, &place) in places.iter().enumerate() {
-                let entries = &mut square[place * width..][..width];
+            let positions = &self.positions[k];
+            for (i, &position) in positions.iter().enumerate() {
+                let entries = &mut square[position * width..][..width];
                 if load.slopes[i] != 0.0 {
                     for (entry, value) in entries.iter_mut().zip(&row) {
                         *entry += load.slopes[i] * value;
                     }
                 }
-                for (&column, curvature) in places.iter().zip(load.curvature[i]) {
+                for (&column, curvature) in positions.iter().zip(load.curvature[i]) {
                     entries[column] -= load.force * sums.slope * curvature;
                 }
             }
@@ -345,7 +344,7 @@ impl Chain {
 
     /// Calls `show` with each open contact beside a loaded scale.
     ///
-    /// It receives the scale and the load that a force of the contact would be.
+    /// It receives the contact, the scale, and the load that the contact would exert on it.
     fn for_openings(
         &self,
         state: &SkinState,
@@ -390,8 +389,9 @@ impl Chain {
         });
     }
 
-    /// Computes the opening of the contact of a constraint by bending, and its derivative along a
-    /// `direction`.
+    /// Computes the opening of a contact by bending, or its rate along a `direction`.
+    ///
+    /// The contact is given by a constraint.
     ///
     /// 0 for constraints other than normal forces.
     pub(super) fn opening_of(
@@ -427,8 +427,10 @@ impl Chain {
         energies.sum()
     }
 
-    /// Returns derivatives of depth and total tilt by motions and contact forces, and the
-    /// derivatives of both by their own load.
+    /// Returns derivatives of depth and total tilt.
+    ///
+    /// For each, the derivatives by motions and contact forces, then the derivative by its own
+    /// load.
     pub(super) fn bending_loads(&self, state: &SkinState) -> [(Vec<(usize, f64)>, f64); 2] {
         let Some(rows) = self.bending_unknowns() else { return Default::default() };
         let mut entries: [Vec<(usize, f64)>; 2] = Default::default();

@@ -15,8 +15,9 @@ use super::system::{Chain, FIRST_LIMIT_MARK};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::PathFunction;
 
-/// Rotation of the tip of a scale relative to its base, by bending, above which the scale is not
-/// rigid; linear beam theory is accurate up to about this angle.
+/// Rotation of the tip of a scale above which the scale is not rigid.
+///
+/// It is relative to the base, by bending. Linear beam theory is accurate up to about this angle.
 const LARGEST_BEND_DEG: f64 = 5.0;
 
 /// Pressure of a rigid punch at which a ductile plate is perforated, over the strength.
@@ -82,10 +83,10 @@ impl FailureMode {
         }
     }
 
-    /// Returns the reason for which a puncture with these parameters cannot fail in this mode, or
-    /// is not judged by it; `None` if it is judged.
+    /// Returns the reason why this mode is not judged; `None` if it is judged.
     ///
-    /// The row across is another puncture, and `across` tells whether it is solved.
+    /// A puncture with these parameters cannot fail in this mode, or a parameter is missing. The
+    /// row across is another puncture, and `across` is true if it is solved.
     pub fn not_judged(self, parameters: &PunctureParameters, across: bool) -> Option<&'static str> {
         let PunctureParameters { needle, needle_radius, substrate_law, failure, .. } = parameters;
         let Strengths { scale, bond } = failure.unwrap_or_default();
@@ -246,7 +247,9 @@ impl FailureObserver {
         Some(observer)
     }
 
-    /// Searches a segment, in which the surface first folds at `fold` if it does.
+    /// Searches a segment for the first failure.
+    ///
+    /// `fold` is the first fold of the surface in this segment, if any.
     pub(super) fn follow(
         &mut self,
         path: &mut Continuation<Chain>,
@@ -458,9 +461,10 @@ impl Chain {
         largest
     }
 
-    /// Computes the distance between the faces of the punctured scale and its right neighbour at
-    /// rest (B5), over `t`.
+    /// Computes the clearance at rest to the right of the punctured scale (B5).
     ///
+    /// It is the distance between the faces of the two scales, over `t`. `None` for a single scale
+    /// and at the end of a row.
     /// `None` for a single scale and at the end of a row.
     pub(super) fn clearance(&self) -> Option<f64> {
         let (contacts, scale) = (&self.contacts, self.layout.left);

@@ -28,7 +28,7 @@ const SAME: f64 = 1e-6;
 pub struct LoadPosition {
     /// Position on the top: 0 left, 1 right corner; beyond for a round tip.
     pub position: f64,
-    /// How its path ended.
+    /// Outcome of its path.
     pub status: Status,
     /// `F*` at the critical tilt in either direction, or when the needle is through.
     pub force: Option<f64>,
@@ -36,12 +36,12 @@ pub struct LoadPosition {
     pub displacement: Option<f64>,
     /// Tilt of the punctured scale there, clockwise, degrees.
     pub tilt_deg: Option<f64>,
-    /// Which of the two events it was, under a guided needle.
+    /// Critical event of a guided needle; `None` for a free needle.
     pub critical_event: Option<CriticalEvent>,
     /// Largest `F*` of the path.
     ///
     /// `None` if the load does not tilt the scale at all, as in the middle of an upright scale.
-    pub borne: Option<f64>,
+    pub largest_force: Option<f64>,
 }
 
 /// Smallest force over several load positions.
@@ -65,10 +65,10 @@ impl Weakest {
         let Some(force) = places.iter().filter_map(|place| place.force).reduce(f64::min) else {
             return places.first().map_or(Ok(Self::default()), |place| Err(place.status));
         };
-        match places
-            .iter()
-            .find(|place| place.force.is_none() && place.borne.is_some_and(|borne| borne < force))
-        {
+        match places.iter().find(|place| {
+            place.force.is_none()
+                && place.largest_force.is_some_and(|largest_force| largest_force < force)
+        }) {
             Some(open) => Err(open.status),
             None => Ok(Self {
                 force: Some(force),
@@ -98,7 +98,7 @@ impl PunctureParameters {
     }
 
     /// Returns the parameters for another load position.
-    fn at_place(&self, position: f64) -> Self {
+    fn at_position(&self, position: f64) -> Self {
         Self {
             load_position: position,
             // Only the force at the end is compared, so drop all other requests.
@@ -129,7 +129,7 @@ pub fn load_positions(
 
 impl Puncture {
     /// Adds the results at other load positions.
-    pub(super) fn with_places(mut self, places: Vec<LoadPosition>) -> Self {
+    pub(super) fn with_positions(mut self, places: Vec<LoadPosition>) -> Self {
         self.measures.weakest = Weakest::from_positions(&places).unwrap_or_default();
         Self { places, ..self }
     }
@@ -143,7 +143,7 @@ impl Problem<'_> {
         let mut left = self.settings.max_work;
         let mut places = Vec::with_capacity(positions.len());
         for position in positions {
-            let (place, work) = self.at_place(position, left)?;
+            let (place, work) = self.at_position(position, left)?;
             left = left.saturating_sub(work);
             places.push(place);
         }
@@ -151,8 +151,8 @@ impl Problem<'_> {
     }
 
     /// Solves the puncture at a position with at most `max_work`; returns the actual work, too.
-    fn at_place(&self, position: f64, max_work: u64) -> Result<(LoadPosition, u64), OutOfRange> {
-        let parameters = self.parameters.at_place(position);
+    fn at_position(&self, position: f64, max_work: u64) -> Result<(LoadPosition, u64), OutOfRange> {
+        let parameters = self.parameters.at_position(position);
         let mut problem = self.with(&parameters);
         problem.settings = Settings { max_work, ..self.settings };
         let followed = problem.follow(&[], &[])?;
@@ -167,7 +167,7 @@ impl Problem<'_> {
             displacement: end.map(|point| point.displacement),
             tilt_deg: end.map(|point| point.tilt_deg),
             critical_event: followed.passage.critical_event,
-            borne: points
+            largest_force: points
                 .iter()
                 .map(|point| point.force)
                 .reduce(f64::max)
@@ -211,9 +211,9 @@ impl Problem<'_> {
         place: &LoadPosition,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
-        let parameters = self.parameters.at_place(place.position);
+        let parameters = self.parameters.at_position(place.position);
         let moved = |input: &PunctureInput| {
-            let parameters = input.parameters.at_place(place.position);
+            let parameters = input.parameters.at_position(place.position);
             Ok::<_, OutOfRange>(PunctureInput { parameters, ..input.clone() })
         };
         let variations = Neighbours::map_all(variations, moved)?;
@@ -232,6 +232,6 @@ fn least(one: &Derivative, other: &Derivative) -> Derivative {
     let is_smooth = left
         .zip(right)
         .is_some_and(|(left, right)| (left - right).abs() <= SAME * left.abs().max(right.abs()));
-    let kink = (!is_smooth).then(|| "another place is as weak".to_owned());
+    let kink = (!is_smooth).then(|| "another load position is as weak".to_owned());
     Derivative { left, right: if is_smooth { left } else { right }, kink, ..one.clone() }
 }

@@ -124,28 +124,27 @@ pub struct AcrossMeasures {
 impl PunctureMeasures {
     /// Adds the critical force `across` the row.
     ///
-    /// `along` is the one at the weakest position along it. Both are `None` if a path did not reach
-    /// its end. `borne` is the largest force on the path across. If the row across bore more than
-    /// the row along before its path ended, the row along fails first, and the force across is not
-    /// needed.
+    /// `along` is the critical force at the weakest position along the row. Both are `None` if a
+    /// path did not reach its end. `largest` is the largest force on the path across. If it exceeds
+    /// `along`, the row fails along first, even if the path across ended early.
     #[must_use]
     pub fn with_across(
         mut self,
         across: Option<f64>,
-        borne: Option<f64>,
+        largest: Option<f64>,
         along: Option<f64>,
     ) -> Self {
-        let borne = borne.unwrap_or(f64::NEG_INFINITY);
+        let largest = largest.unwrap_or(f64::NEG_INFINITY);
         let any_direction = match across {
             Some(across) => along.map(|along| across.min(along)),
-            None => along.filter(|along| borne >= *along),
+            None => along.filter(|along| largest >= *along),
         };
         self.across = AcrossMeasures { force: across, any_direction };
         match (across, self.failure.force) {
             (Some(across), Some(along)) if across < along => {
                 (self.failure.mode, self.failure.force) = (Some(FailureMode::Across), Some(across));
             }
-            (None, Some(along)) if borne >= along => {}
+            (None, Some(along)) if largest >= along => {}
             // An unknown force across may be the smaller one.
             (None, _) => (self.failure.mode, self.failure.force) = (None, None),
             _ => {}

@@ -39,7 +39,7 @@ use mode::{SHARP_SLOTS, Touch};
 use outline::{Face, Meeting, Tip};
 pub(super) use passage::PassageObserver;
 pub use passage::{CriticalEvent, Passage, TipForces};
-use round::of_scale;
+use round::unknowns_per_scale;
 pub(super) use round::{reach, unknowns};
 
 /// Constraint on the needle.
@@ -136,17 +136,17 @@ impl GuidedNeedle {
     ) -> Self {
         let radius = parameters.needle_radius.unwrap_or(0.0);
         let (slots, unknowns_per_touch, constraints_per_touch) = if radius > 0.0 {
-            let of_scale = of_scale(friction > 0.0);
+            let per_scale = unknowns_per_scale(friction > 0.0);
             // Every unknown except the tangential force has a constraint.
-            let constraints = if friction > 0.0 { of_scale - 1 } else { of_scale };
+            let constraints = if friction > 0.0 { per_scale - 1 } else { per_scale };
             // Compute the number of touches from the number of unknowns.
-            ((layout.needle - 1 - ENDINGS) / of_scale, of_scale, constraints)
+            ((layout.needle - 1 - ENDINGS) / per_scale, per_scale, constraints)
         } else {
             (SHARP_SLOTS, UNKNOWNS_PER_TOUCH, CONSTRAINTS_PER_TOUCH)
         };
         // A frictionless round tip has no slip distances.
         let slides = radius == 0.0 || friction > 0.0;
-        let ways = (0..slots)
+        let slips = (0..slots)
             .filter(|_| slides)
             .flat_map(|slot| [FORWARD, BACKWARD].map(|xi| constraints_per_touch * slot + xi));
         Self {
@@ -156,7 +156,7 @@ impl GuidedNeedle {
             critical_tilt: parameters.critical_tilt_deg.to_radians(),
             depth: layout.load() + 1,
             contacts,
-            slip_distances: ways.map(|number| contacts + number).collect(),
+            slip_distances: slips.map(|number| contacts + number).collect(),
             slots,
             unknowns_per_touch,
             constraints_per_touch,
@@ -378,10 +378,9 @@ impl Chain {
         })
     }
 
-    /// Returns true if the top right corner of a scale lies on its right neighbour.
+    /// Returns true if the top right corner of a scale lies on the next left face.
     ///
-    /// It lies on the left face of that scale. That face then stops the tip at the corner, so the
-    /// tip does not pass over it.
+    /// That face then stops the tip at the corner, so the tip does not pass over it.
     fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
         let contact =
             self.corner_of_notch(scale).and_then(|contact| state.mode.contacts.get(contact));

@@ -17,7 +17,7 @@ pub(super) struct PathObservers {
     pub(super) record: Record<Chain>,
     pub(super) needle: SnapObserver,
     pub(super) folds: FoldObserver,
-    /// The first failure, if it is sought.
+    /// The first failure, if it is requested.
     pub(super) failure: Option<FailureObserver>,
     pub(super) history: HistoryObserver,
     pub(super) passage: PassageObserver,

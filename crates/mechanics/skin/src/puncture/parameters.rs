@@ -26,7 +26,9 @@ pub enum RowLength {
     /// scales beyond follow in closed form as a linear chain. Without such a closed form the row
     /// grows until its ends move by at most `1e-6`.
     Auto,
-    /// This many, with the middle one (the left of two) punctured.
+    /// This many scales.
+    ///
+    /// The punctured one is the middle one, or the left of the two middle ones.
     Scales(usize),
 }
 
@@ -61,7 +63,7 @@ pub struct PunctureParameters {
     pub force: Option<f64>,
     /// True to remove the load again at the end.
     pub unload: bool,
-    /// Strengths of scales and bonds, if the first failure is sought.
+    /// Strengths of scales and bonds, if the first failure is requested.
     pub failure: Option<Strengths>,
     /// Number of load positions to compare, at least two.
     ///
@@ -127,19 +129,19 @@ impl PunctureParameters {
         let rules = [
             (tilt > 0.0 && tilt < 90.0, "critical tilt", tilt, "an angle between 0° and 90°"),
             ((0.0..=0.5).contains(&ratio), "poisson's ratio", ratio, "a ratio from 0 to 0.5"),
-            (position.is_finite(), "load position", position, "a number"),
-            (depth > 0.0, "depth", depth, "a length above 0"),
-            (force > 0.0, "force", force, "a force above 0"),
-            (radius >= 0.0, "needle radius", radius, "a length"),
+            (position.is_finite(), "load position", position, "a finite number"),
+            (depth > 0.0, "depth", depth, "a positive length"),
+            (force > 0.0, "force", force, "a positive force"),
+            (radius >= 0.0, "needle radius", radius, "a length of at least 0"),
             (
                 radius == 0.0 || self.needle.is_guided(),
                 "needle radius",
                 radius,
                 "0 unless the needle is guided",
             ),
-            (places >= 2.0, "number of places", places, "at least 2"),
+            (places >= 2.0, "number of load positions", places, "at least 2"),
             (scales >= 1.0, "number of scales", scales, "at least 1"),
-            (curvature.is_finite(), "curvature of the body", curvature, "a number"),
+            (curvature.is_finite(), "curvature of the body", curvature, "a finite number"),
         ];
         let mut rules = rules.into_iter();
         rules.try_for_each(|(holds, quantity, value, expected)| {

@@ -24,17 +24,17 @@ const LEAST_STRETCH: f64 = 0.05;
 
 /// Least load position of a puncture with a usable end.
 ///
-/// A scale under a load farther to the left is near its balance at some slant. There it may tilt
-/// either way, and only the path tells which.
+/// A load farther to the left hardly tilts the scale at first, at some slant. The scale may then
+/// tilt either way, which only the path decides.
 const LEAST_POSITION: f64 = 0.6;
 
-/// Numbers of steps from a similar design to the wanted one, tried in turn.
+/// Numbers of steps from a similar design to the requested one, tried in turn.
 const STEPS: [u8; 2] = [1, 8];
 
 /// A fold is located if the stretch of its gap is below this.
 const CLOSE: f64 = 1e-12;
 
-/// Fraction of the critical tilt before which folds are not sought from the end.
+/// Fraction of the critical tilt before which folds are not searched from the end.
 ///
 /// Other gaps may fold and open again between an earlier fold and the end.
 const EARLIEST_FOLD: f64 = 0.8;
@@ -94,8 +94,9 @@ pub fn solve_near(
     Ok(problem.end_near(input, end)?.map(|found| problem.result_near(found, end)))
 }
 
-/// Solves a puncture like [`solve_near`], and differentiates it as
-/// [`differentiate`](super::differentiate).
+/// Solves a puncture like [`solve_near`], and differentiates its measures.
+///
+/// As [`differentiate`](super::differentiate), but from the `end` of a similar design.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -140,10 +141,11 @@ impl PunctureInput {
 }
 
 impl PunctureParameters {
-    /// Returns true if every measure of [`PathDetail::Critical`] belongs to the end of the path or
-    /// to a fold of the surface, and similar designs tilt the same way.
+    /// Returns true if the critical measures depend on the end of the path only.
     ///
-    /// Without friction, only such punctures have a [`PunctureEnd`].
+    /// Every measure of [`PathDetail::Critical`] then belongs to the end or to a fold of the
+    /// surface, and similar designs tilt the same way. Without friction, only such punctures have a
+    /// [`PunctureEnd`].
     pub fn depend_on_end_only(&self) -> bool {
         self.needle == Needle::Free
             && self.bending == Bending::Rigid
@@ -225,9 +227,10 @@ impl Problem<'_> {
         Puncture { end, ..found.puncture(false) }
     }
 
-    /// Finds the first fold of the surface before the end at `point`; `None` if it is far from there.
+    /// Finds the first fold of the surface before the end at `point`.
     ///
-    /// Gaps that fold stay folded, so a surface that is open at the end has never folded.
+    /// `None` if it is far from there. Gaps that fold stay folded, so a surface that is open at the
+    /// end has never folded.
     fn folds_before(
         &self,
         chain: &Chain,
@@ -250,8 +253,9 @@ impl Problem<'_> {
         Some(FoldObserver::after(chain, pair, nearest.1))
     }
 
-    /// Finds the fold of a gap before a point at a fraction of the critical tilt, by Newton's
-    /// method.
+    /// Finds the fold of a gap by Newton's method.
+    ///
+    /// Starts from a later point and its fraction of the critical tilt.
     fn fold_of(
         &self,
         chain: &Chain,

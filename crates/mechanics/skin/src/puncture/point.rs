@@ -78,7 +78,7 @@ impl Skin for Chain {
     }
 
     fn tip_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> Dissipation {
-        self.taken_at_tip(from, to, spans)
+        self.tip_dissipation(from, to, spans)
     }
 
     fn stored(&self, state: &SkinState) -> f64 {

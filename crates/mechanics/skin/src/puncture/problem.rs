@@ -182,7 +182,7 @@ impl<'a> Problem<'a> {
         let expected = "0 for elastic scales";
         OutOfRange::unless(is_rigid || friction == 0.0, "friction of scales", friction, expected)?;
         let is_guided = parameters.needle.is_guided();
-        let (name, expected) = ("guided needle on elastic scales", "0, a free needle");
+        let (name, expected) = ("guided needle", "0 (a free needle) with elastic scales");
         OutOfRange::unless(is_rigid || !is_guided, name, f64::from(is_guided), expected)?;
         Self::unchecked(rows, design, stiffness, common, parameters)
     }
@@ -225,7 +225,7 @@ impl<'a> Problem<'a> {
     pub(super) fn result(&self, followed: Followed) -> Result<Puncture, OutOfRange> {
         let end = PunctureEnd::new(self, &followed);
         let puncture = followed.puncture(self.parameters.unload);
-        Ok(Puncture { end, ..puncture }.with_places(self.load_positions()?))
+        Ok(Puncture { end, ..puncture }.with_positions(self.load_positions()?))
     }
 
     /// Builds the initial system; returns it with the longest row it may grow to.
@@ -395,7 +395,7 @@ impl<'a> Problem<'a> {
             || points.len() > 1 && points.iter().all(|at| at.tilt_deg.abs() < STRAIGHT_DEG);
         let status = match Status::of(&path, path.termination().unwrap_or(Termination::Reached)) {
             // A row that should have grown further has no valid end.
-            _ if !growing.has_room => Status::RowLimit,
+            _ if !growing.is_long_enough => Status::RowLimit,
             _ if is_bent => Status::Bent,
             Status::Complete if path.system().ends_at_a_corner(&path.point().state) => {
                 Status::OffEdge

@@ -10,7 +10,7 @@ use super::system::{Chain, RowLayout};
 use crate::contacts::SkinState;
 
 /// Number of scales beyond an end with gaps to check; farther gaps hardly change.
-const LOOKED_AT: usize = 12;
+const CHECKED_SCALES: usize = 12;
 
 /// Largest excess force at which exterior bars are approximated by springs.
 ///
@@ -18,8 +18,6 @@ const LOOKED_AT: usize = 12;
 const AS_SPRINGS: f64 = 1e-9;
 
 /// Closed fraction of a clearance above which the row is extended early.
-///
-/// It is the clearance to the next scale.
 const EARLY: f64 = 0.5;
 
 /// Proximity of the deformation to an end of the solved part.
@@ -84,7 +82,7 @@ impl RowExterior {
     ) -> Result<Self, OutOfRange> {
         let [left, right] = beyond.each_ref().map(|side| {
             let scales = side.as_ref().map_or(Some(0), |beyond| beyond.scales);
-            scales.map_or(LOOKED_AT, |scales| scales.min(LOOKED_AT))
+            scales.map_or(CHECKED_SCALES, |scales| scales.min(CHECKED_SCALES))
         });
         // A longer row keeps its middle, so its outer scales are the scales beyond the ends.
         let row = rows.row(RowLayout {

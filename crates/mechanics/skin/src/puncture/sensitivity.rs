@@ -408,7 +408,9 @@ impl Chain {
         if place.anchor == PathAnchor::Target { self.end_of(place) } else { place }
     }
 
-    /// Anchors the point of largest load to its zero load rate, unless it is held.
+    /// Anchors the point of largest load to its zero load rate.
+    ///
+    /// If an event or the target fixes the point, it keeps that anchor.
     fn extremum(&self, place: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let held = sensitivity::is_held(self, place);
         let anchor = if held { place.anchor } else { PathAnchor::Stationary(LOAD_RATE) };

@@ -60,7 +60,7 @@ struct FoldCrossing {
 pub(super) struct FoldObserver {
     pub(super) folds: Vec<Fold>,
     pub(super) first: Option<SkinPoint>,
-    /// Least stretch of a gap that closed and then opened again or stayed, with or without folding.
+    /// Smallest stretch at which a gap stopped narrowing, folded or not.
     ///
     /// Infinite if there is none.
     pub(super) least_dip: f64,
@@ -155,8 +155,7 @@ impl FoldObserver {
         crossings
     }
 
-    /// Notes the stretch of a gap that closes and then opens again or stays, within or behind a
-    /// segment.
+    /// Notes the stretch of a gap that stops narrowing, within or behind a segment.
     fn note_dip(
         &mut self,
         chain: &Chain,
@@ -178,7 +177,9 @@ pub(super) fn is_folded(stretch: f64) -> bool {
     stretch <= CLOSE
 }
 
-/// Brackets the closing or opening of a gap by two places with their stretches.
+/// Brackets the closing or opening of a gap by two fractions of a segment.
+///
+/// Each comes with the stretch there.
 fn bracket(low: (f64, f64), high: (f64, f64)) -> Bracket {
     // A closed gap may be open by round-off; false position needs opposite signs, or a zero.
     let [low, high] = [low, high].map(|(place, g)| (place, if g.abs() <= CLOSE { 0.0 } else { g }));

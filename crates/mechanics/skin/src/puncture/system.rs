@@ -366,9 +366,8 @@ impl System for Chain {
         self.layout.load()
     }
 
-    /// A guided needle ends by its constraints, or at twice the thickness.
-    ///
-    /// The latter applies without a critical tilt.
+    /// Without an ending constraint, the path of a guided needle ends at twice the
+    /// thickness.
     fn target(&self) -> f64 {
         if self.needle.is_some() { DEEPEST / self.controls[0].scale } else { 1.0 }
     }

@@ -132,7 +132,7 @@ fn tangent_matches_finite_differences_in_every_contact_state() {
     assert_eq!(seen, ["open", "edge", "corner", "flush"].into());
 }
 
-/// The active flags of a state and its mode state the same contact forces.
+/// Active flags and mode of a state agree on the acting contact forces.
 #[test]
 fn active_flags_match_contact_modes() {
     for design in [LIVELY, FOLDING, SLIDING] {
@@ -359,7 +359,7 @@ fn parameters_out_of_range_are_rejected() {
         ),
         (|p| p.scales = super::RowLength::Scales(0), "number of scales is 0, expected at least 1"),
         (|p| p.poisson_ratio = 0.6, "poisson's ratio is 0.6, expected a ratio from 0 to 0.5"),
-        (|p| p.load_position = f64::INFINITY, "load position is inf, expected a number"),
+        (|p| p.load_position = f64::INFINITY, "load position is inf, expected a finite number"),
         (
             |p| p.contact_modulus_over_substrate = -1.0,
             "modulus of the contact law is -0.75, expected a positive number",

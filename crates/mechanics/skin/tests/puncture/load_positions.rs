@@ -101,19 +101,19 @@ fn an_inconclusive_position_hides_the_weakest_force() {
         displacement: None,
         tilt_deg: None,
         critical_event: None,
-        borne: Some(2.0),
+        largest_force: Some(2.0),
     };
     let status = Status::Stopped(Termination::Unloaded);
-    for (borne, status, expected) in [
+    for (largest_force, status, expected) in [
         (Some(0.9), status, Err(status)),
         (Some(1.1), status, Ok(Some(1.0))),
         (None, Status::Untilted, Ok(Some(1.0))),
     ] {
-        let other = LoadPosition { force: None, borne, status, ..held };
+        let other = LoadPosition { force: None, largest_force, status, ..held };
         let weakest = Weakest::from_positions(&[held, other]);
         assert_eq!(weakest.map(|weakest| weakest.force), expected);
     }
-    let stopped = LoadPosition { force: None, borne: Some(1.0), status, ..held };
+    let stopped = LoadPosition { force: None, largest_force: Some(1.0), status, ..held };
     assert_eq!(Weakest::from_positions(&[stopped]), Err(status));
     assert_eq!(Weakest::from_positions(&[]), Ok(Weakest::default()));
 }
@@ -123,7 +123,7 @@ fn a_single_load_position_is_rejected() {
     let design = design(0.1, 1.0, 0.0, Base::L);
     let springs = substrate::calibrate(&design.footprint(0.5).unwrap()).unwrap();
     let solved = puncture::solve(&design, &springs, &Common::default(), &parameters(FREE, 1));
-    assert!(solved.unwrap_err().to_string().contains("number of places"));
+    assert!(solved.unwrap_err().to_string().contains("number of load positions"));
 }
 
 /// Lists the critical tilt without its sign, and measures that a mirror image shares.

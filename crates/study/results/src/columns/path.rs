@@ -157,7 +157,7 @@ pub static LOADED_PLACES: &[Column<LoadPosition>] = &columns! { LoadPosition:
     "tilt_deg", "deg", |p| p.tilt_deg, "clockwise tilt of the punctured scale at that force";
     name::CRITICAL_EVENT, "-", |p| p.critical_event.map(CriticalEvent::name),
         "event that ended the path of a guided needle: tilt or through";
-    "largest_force", "E_s L t/(1-nu^2)", |p| p.borne,
+    "largest_force", "E_s L t/(1-nu^2)", |p| p.largest_force,
         "largest puncture force of the path; empty if the load tilts no scale from the first step on";
     "status", "-", |p| Outcome::from(p.status).text(),
         "complete, or why there is no critical force";

@@ -129,7 +129,7 @@ impl Chain {
         }
     }
 
-    /// Evaluates the conditions of a touch other than the one of its normal force.
+    /// Evaluates the conditions of a touch, except the condition of its normal force.
     fn touch_conditions(
         &self,
         needle: &GuidedNeedle,
@@ -198,9 +198,10 @@ impl Chain {
         here.is_some_and(|here| here.xi > here.length - BESIDE)
     }
 
-    /// Returns true if a constraint is the touch of a face beside which the tip sticks at a corner.
+    /// Returns true if a tip sticks at a corner beside the face of this constraint.
     ///
-    /// The corner stays on the face and the tip at the corner, so the gap of the touch is constant.
+    /// The constraint is the touch of that face. The corner stays on the face and the tip at the
+    /// corner, so the gap of the touch is constant.
     pub(in crate::puncture) fn sticks_beside_face(
         &self,
         needle: &GuidedNeedle,
@@ -219,10 +220,10 @@ impl Chain {
             && touches[1 - slot].is_some_and(|touch| self.sticks_at_corner(state, &touch))
     }
 
-    /// Returns true if the end of the next face is about to pass over the tip.
+    /// Returns true if the end of the next face is about to pass the tip from the side.
     ///
-    /// It comes from the side. The tip is then already below that face and a corner meets the
-    /// shaft, which the model does not cover.
+    /// The tip is then already below that face and a corner meets the shaft, which the model does
+    /// not cover.
     pub(in crate::puncture) fn is_met_from_the_side(&self, state: &SkinState) -> bool {
         if state.mode.needle.is_round() {
             return false;
@@ -281,7 +282,7 @@ impl Chain {
         let mut unknowns = vec![needle.depth];
         for (slot, touch, ..) in self.touches(state) {
             unknowns.push(needle.normal_force(slot));
-            if touch.is_at_a_place() {
+            if touch.has_fixed_position() {
                 unknowns.push(needle.normal_force(slot) + 1);
             }
         }
@@ -309,7 +310,7 @@ impl Chain {
                 }
             }
             let gap = (normal_force, meeting.tip.gap_slopes().map(|slope| -slope));
-            let xi = touch.is_at_a_place().then(|| (normal_force + 1, meeting.xi_slopes()));
+            let xi = touch.has_fixed_position().then(|| (normal_force + 1, meeting.xi_slopes()));
             for (force, slopes) in std::iter::once(gap).chain(xi) {
                 for (unknown, slope) in unknowns.into_iter().zip(slopes) {
                     entry(unknown, force, slope);
@@ -355,7 +356,7 @@ impl Chain {
     }
 
     /// Computes the dissipation `∫ μ_n N |dξ|` at the tip between two points.
-    pub(in crate::puncture) fn taken_at_tip(
+    pub(in crate::puncture) fn tip_dissipation(
         &self,
         from: &SkinPoint,
         to: &SkinPoint,
@@ -385,8 +386,8 @@ impl Chain {
                 });
                 let pushes = [from.state.z[normal_force], push];
                 // The tip may have stopped at the second point, so compute its slip from the poses.
-                let ways = [from.state.z[slid], sign * (end.xi() - start)];
-                product_integral([pushes, along(normal_force)], [ways, along(slid)])
+                let slips = [from.state.z[slid], sign * (end.xi() - start)];
+                product_integral([pushes, along(normal_force)], [slips, along(slid)])
                     * needle.friction
             })
             .sum()
@@ -394,7 +395,7 @@ impl Chain {
 
     /// Returns `T` and `ξ` of all touches by slot; the dissipation is `∫ T dξ`.
     #[cfg(test)]
-    pub(in crate::puncture) fn rubbing(&self, state: &SkinState) -> Vec<[f64; 2]> {
+    pub(in crate::puncture) fn tip_friction(&self, state: &SkinState) -> Vec<[f64; 2]> {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut all = vec![[0.0; 2]; needle.slots];
         for (slot, _, _, meeting) in self.touches(state) {
@@ -408,8 +409,8 @@ impl GuidedNeedle {
     /// Returns `N` and `T` of a touch.
     pub(super) fn forces(&self, z: &[f64], slot: usize) -> [f64; 2] {
         let normal_force = self.normal_force(slot);
-        let rubs = self.constraints_per_touch < self.unknowns_per_touch;
-        [z[normal_force], if rubs { z[normal_force + 1] } else { 0.0 }]
+        let has_friction = self.constraints_per_touch < self.unknowns_per_touch;
+        [z[normal_force], if has_friction { z[normal_force + 1] } else { 0.0 }]
     }
 
     /// Adds the equation for equal fractions of the friction limits in a notch.

@@ -72,7 +72,7 @@ impl Touch {
     }
 
     /// Returns true if the tangential force is unknown because the position is fixed.
-    pub(crate) fn is_at_a_place(&self) -> bool {
+    pub(crate) fn has_fixed_position(&self) -> bool {
         matches!(self.tip_state, TipState::Stick { .. } | TipState::Passing { .. })
     }
 

@@ -143,11 +143,12 @@ impl Tip {
 /// The tip in contact with a scale: on a face, or for a round tip also on a corner.
 ///
 /// The slip coordinate `ξ` of a round tip is the arc length of the contact point along the outline,
-/// from the left foot, minus the rolled arc, with the angle `ψ` of the normal, clockwise from
-/// upward. It is continuous from face to corner.
+/// from the left foot, minus the rolled arc. `ψ` is the angle of the normal, clockwise from upward,
+/// and `s` the length of the faces before the touched part. `ξ` is continuous from face to corner.
 ///
 /// ```text
-/// ξ = (C − E)·t + R ψ  on a face,   R ψ  on a corner,   both behind the faces before;     ∂ξ = −t, (P − O)·n, −t_y        (L9)
+/// ξ = s + (C − E)·t + R ψ  on a face,     s + R ψ  on a corner
+/// ∂ξ = −t, (P − O)·n, −t_y                                                             (L9)
 /// ```
 pub(super) struct Meeting {
     pub(super) tip: Tip,

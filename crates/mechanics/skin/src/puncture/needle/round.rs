@@ -26,9 +26,9 @@ const PUSHED_ALONG: usize = 2;
 /// Gaps of scales touched at rest agree within this round-off.
 const AT_REST: f64 = 1e-10;
 
-/// Maximum number of trials to settle a tip set down on two scales.
+/// Maximum number of trials to find the state at rest of a tip on two scales.
 ///
-/// It may rest on one of them, sticking or sliding.
+/// It may rest on only one of them, sticking or sliding.
 const SETTLES: usize = 8;
 
 const FACES: [OutlinePart; 3] = [OutlinePart::Left, OutlinePart::Top, OutlinePart::Right];
@@ -44,13 +44,13 @@ pub(in crate::puncture) fn reach(radius: f64, pitch: f64) -> Option<usize> {
 /// Counts the unknowns per scale in reach: normal force, condition on position.
 ///
 /// With friction also the tangential force and the forward and backward slip distances.
-pub(super) fn of_scale(rubs: bool) -> usize {
-    if rubs { 5 } else { 2 }
+pub(super) fn unknowns_per_scale(has_friction: bool) -> usize {
+    if has_friction { 5 } else { 2 }
 }
 
 /// Counts the unknowns of a round tip: depth, scales in reach, and endings.
-pub(in crate::puncture) fn unknowns(reach: usize, rubs: bool) -> usize {
-    1 + of_scale(rubs) * (2 * reach + 1) + ENDINGS
+pub(in crate::puncture) fn unknowns(reach: usize, has_friction: bool) -> usize {
+    1 + unknowns_per_scale(has_friction) * (2 * reach + 1) + ENDINGS
 }
 
 impl GuidedNeedle {
@@ -117,9 +117,9 @@ impl Chain {
             let gaps = places().map(|(place, face)| (place, face.gap));
             return gaps.reduce(|a, b| if b.1 > a.1 { b } else { a });
         }
-        // A face opposite the centre is the nearest part of a convex outline. Comparing its distance
-        // with the distance of its corner would not tell them apart near the corner, where the two
-        // differ by the square of a small length.
+        // A face opposite the centre is the nearest part of a convex outline. Near its corner the
+        // distances of face and corner differ only by the square of a small length, so comparing
+        // them would not distinguish the two.
         let opposite =
             places().find(|(_, face)| face.gap >= 0.0 && (0.0..=face.length).contains(&face.xi));
         if let Some((place, face)) = opposite {
@@ -198,22 +198,23 @@ impl Chain {
     ) {
         let through = needle.tilt_number() + 1;
         for (slot, scale) in needle.scales() {
-            let of_scale =
+            let conditions =
                 &mut values[needle.constraints_per_touch * slot..][..needle.constraints_per_touch];
             if state.mode.needle.touches[slot].is_none() {
                 let nearest = self.nearest(&state.z, scale);
-                of_scale[NORMAL] = nearest.map_or(HOLDS, |(_, distance)| distance - needle.radius);
+                conditions[NORMAL] =
+                    nearest.map_or(HOLDS, |(_, distance)| distance - needle.radius);
             }
         }
         for (slot, touch, _, meeting) in self.touches(state) {
-            let of_scale =
+            let conditions =
                 &mut values[needle.constraints_per_touch * slot..][..needle.constraints_per_touch];
-            of_scale[NORMAL] = meeting.gap();
+            conditions[NORMAL] = meeting.gap();
             let [before, after] = self.to_ends(state, touch.scale, touch.place);
             // One condition covers both ends; the transition determines which end was reached.
-            of_scale[needle.constraints_per_touch - 1] = before.min(after);
+            conditions[needle.constraints_per_touch - 1] = before.min(after);
             if needle.has_friction() {
-                needle.stick_slip_conditions(state, slot, touch, &meeting, of_scale);
+                needle.stick_slip_conditions(state, slot, touch, &meeting, conditions);
             }
         }
         values[through] = values[through].min(self.above_surface(needle, state));

@@ -144,7 +144,7 @@ impl Chain {
         self.contacts.lock(state, corner, Some(if forward { 1.0 } else { -1.0 }));
     }
 
-    /// Makes the corner of a notch stick with the tip, after sliding.
+    /// Makes the corner of a notch stick with the tip, after both slid.
     ///
     /// The tip is on the face of `slot`.
     fn stick_corner(

@@ -5,8 +5,9 @@ use super::*;
 use crate::puncture::Needle;
 use crate::puncture::needle::unknowns;
 
-/// Compares the loads on each scale with the springs below it, at every point of a path. Returns
-/// the largest number of loads on a scale.
+/// Compares the loads on each scale with the springs below it, along a path.
+///
+/// Returns the largest number of loads on a scale.
 fn compare_loads(path: Continuation<Chain>) -> usize {
     let (chain, mut most) = (path.system().clone(), 0);
     for point in path {

@@ -18,13 +18,12 @@ const TIPS: [([f64; 3], f64, f64, f64); 9] = [
     ([0.1, 1.0, 0.0], 0.2, 0.2, 0.95),
 ];
 
-/// The work of a round tip is stored or dissipated.
 #[test]
 fn work_of_a_round_tip_is_stored_or_dissipated() {
     let most = TIPS.map(|(of, radius, friction, place)| {
-        let rubbed = dissipated_fraction(round_path(of, [radius, friction, place], 0.01));
-        assert_eq!(rubbed > 1e-12, friction > 0.0, "{of:?} {rubbed}");
-        rubbed
+        let dissipated = dissipated_fraction(round_path(of, [radius, friction, place], 0.01));
+        assert_eq!(dissipated > 1e-12, friction > 0.0, "{of:?} {dissipated}");
+        dissipated
     });
     assert!(most.into_iter().fold(0.0, f64::max) > 0.01, "{most:?}");
 }
@@ -32,7 +31,7 @@ fn work_of_a_round_tip_is_stored_or_dissipated() {
 /// Checks the tangent on faces and corners, sticking and sliding.
 #[test]
 fn tangent_of_a_round_tip_matches_finite_differences() {
-    let mut rubs = HashSet::new();
+    let mut tip_states = HashSet::new();
     for (of, radius, friction, place) in TIPS {
         for_segments(round_path(of, [radius, friction, place], 0.1), |path, from, to| {
             if path.spans(from, to)[0].abs() < 1e-6 {
@@ -40,7 +39,7 @@ fn tangent_of_a_round_tip_matches_finite_differences() {
             }
             let Some(between) = path.between(from, to, 0.5) else { return };
             for touch in between.state.mode.needle.touches.iter().flatten() {
-                rubs.insert((
+                tip_states.insert((
                     touch.place == OutlinePart::Top,
                     std::mem::discriminant(&touch.tip_state),
                 ));
@@ -48,7 +47,7 @@ fn tangent_of_a_round_tip_matches_finite_differences() {
             check_tangent(path.system(), &between.state, 1e-5).unwrap();
         });
     }
-    assert_eq!(rubs.len(), 4);
+    assert_eq!(tip_states.len(), 4);
 }
 
 /// Compares derivatives by radius, position, length with solution differences.
