@@ -15,7 +15,7 @@ const BASE: u8 = 128;
 /// State of the handling of termination signals.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
-    /// True if the first signal only requests the end.
+    /// True if the first signal requests a graceful end instead of exiting at once.
     asks_first: Arc<AtomicBool>,
     stop: Arc<AtomicBool>,
     signal: Arc<AtomicUsize>,
@@ -31,7 +31,7 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// Lets the first signal only request the end from now on.
+    /// From now on, the first signal requests a graceful end instead of exiting at once.
     pub fn ask_first(&self) {
         self.asks_first.store(true, Ordering::Relaxed);
     }
@@ -105,7 +105,7 @@ mod system {
 
     /// Returns true if a signal was ignored at the start, as under `nohup`.
     ///
-    /// Known on Linux only.
+    /// Reads `/proc`, so it returns false on systems other than Linux.
     fn is_ignored(signal: i32) -> bool {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -123,8 +123,8 @@ mod system {
 
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
         for signal in [SIGINT, SIGTERM] {
-            // Set the shutdown action before the flag, so that the first signal does not see its
-            // own flag.
+            // Handlers run in the order of registration. The shutdown comes before the flag, so
+            // that only a second signal finds the flag set.
             let code = signal + i32::from(super::BASE);
             flag::register_conditional_shutdown(signal, code, Arc::clone(&interrupt.stop))?;
             let number = usize::try_from(signal).unwrap_or_default();

@@ -32,7 +32,7 @@ fn main() -> ExitCode {
         Err(error) if error.use_stderr() && !is_help(&error) => return refuse(&one_line(&error)),
         Err(error) => error.exit(),
     };
-    // Before any file is opened, so that no signal leaves a partial file.
+    // Install the handlers before any file is opened, so that no signal leaves a partial file.
     let interrupt = match Interrupt::listen() {
         Ok(interrupt) => interrupt,
         Err(error) => {

@@ -90,7 +90,7 @@ impl<W: Watched> Display<W> {
 pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
     let meter = Arc::<WorkMeter>::default();
     meter.begin(units as u64);
-    // This interrupt is never set: such work has nothing to finish.
+    // This interrupt is never set, because the work leaves nothing to finish after a signal.
     let display = Display::new(false, &Interrupt::default(), meter, "");
     work(display.watched())
 }

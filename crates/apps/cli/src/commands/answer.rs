@@ -11,7 +11,7 @@ use sweep::{Sweep, Variable};
 
 use crate::print::{FOLDED, digits, marked, warning};
 
-/// A relative margin below this is the limit itself.
+/// Relative margins smaller than this are reported as "at the limit".
 const AT_LIMIT: f64 = 1e-6;
 
 /// A solved design with its requirements.
@@ -49,8 +49,8 @@ impl<'a> DesignAnswer<'a> {
     /// pressure on the tissue is required.
     pub fn further_rows(&self) -> Vec<Vec<String>> {
         let bare = self.bare_needle().map(|bare| {
-            let words = format!("kPa; the skin lowers it {} times", digits(bare.reduction));
-            vec!["bare needle".to_owned(), digits(bare.pressure_kpa), words]
+            let unit = format!("kPa; the skin lowers it by a factor of {}", digits(bare.reduction));
+            vec!["bare needle".to_owned(), digits(bare.pressure_kpa), unit]
         });
         self.depth().into_iter().chain(bare).collect()
     }

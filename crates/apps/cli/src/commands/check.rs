@@ -34,7 +34,7 @@ pub struct Arguments {
     pub json: bool,
 }
 
-/// Number of designs from which the run time is estimated by solving a few designs.
+/// Smallest sweep for which a few designs are solved to estimate the run time.
 const LARGE: u64 = 10_000;
 
 /// Maximum number of listed values of an axis.
@@ -197,7 +197,7 @@ fn as_json(sweep: &Sweep) -> Value {
 
 /// Formats the contact moduli in `MPa`, if all designs share the moduli and ratios.
 fn contact_moduli(sweep: &Sweep) -> Option<String> {
-    // Two ratios define the same modulus of the scales; in MPa a discrepancy is visible.
+    // Both products are the modulus of the same scales, so in MPa a discrepancy is visible.
     let moduli = [
         ("puncture", ["substrate_modulus_MPa", "contact_modulus_over_substrate"]),
         ("bending", ["membrane_modulus_MPa", "contact_modulus_over_membrane"]),
@@ -261,7 +261,7 @@ fn values(axis: &Axis) -> String {
 /// Counts the footprints for which the substrate is calibrated.
 fn calibrations(sweep: &Sweep) -> u64 {
     let has_mm = sweep.gives_millimetres();
-    // Springs depend on lengths over the thickness, so the thickness matters for lengths in mm.
+    // Springs depend on lengths over the thickness, so the thickness counts if lengths are in mm.
     let matters =
         |of: &Parameter| of.has(Role::MovesSprings) || (has_mm && of.key == key::THICKNESS);
     let axes = sweep.grid().axes().iter();

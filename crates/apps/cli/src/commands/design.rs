@@ -36,7 +36,7 @@ Solves the design exactly as the sweep does. A design given by its lengths need 
 grid; if the grid has further axes, give a value for each with --set designs.KEY=VALUE.
 Writes measures.csv (every value with all its digits), path.csv, events.csv, scales.csv,
 steps.csv (every Newton iteration), the same of bending in flexure_path.csv and so on, and design.toml.
-With puncture.places also places.csv, the force at every place of the load.
+With puncture.places also places.csv, the force at every load position.
 --sensitivity also writes sensitivity.csv, and prints how one per cent of a parameter changes the measures.
 Exit code: 0 done, 1 the design failed, 2 bad input or a disk error.")]
 pub struct Arguments {
@@ -152,10 +152,10 @@ impl SolvedChoice {
         let rows: Vec<_> = rows.collect();
         let sensitivity = sensitivity(&self.solved.row.result.sensitivity);
         let (title, changes, table) = (self.title(), self.changes(), aligned(&rows));
-        let (places, judged) = (self.places(), self.judged());
+        let (weakest, judged) = (self.unknown_weakest(), self.judged());
         let answer = self.answer();
         let warnings = answer.warnings_text(None);
-        let notes = [self.overlap(), warnings, places, judged, sensitivity].concat();
+        let notes = [self.overlap(), warnings, weakest, judged, sensitivity].concat();
         let required = match answer.rows() {
             rows if rows.is_empty() => String::new(),
             rows => format!("{}\n", aligned(&rows)),
@@ -186,7 +186,7 @@ impl SolvedChoice {
     }
 
     /// Explains why the weakest load position is unknown; empty if it is known.
-    fn places(&self) -> String {
+    fn unknown_weakest(&self) -> String {
         let Some(puncture) = &self.solved.puncture else { return String::new() };
         let Err(status) = Weakest::from_positions(&puncture.places) else { return String::new() };
         let known = puncture.places.iter().filter_map(|place| Some((place.force?, place)));
@@ -208,7 +208,7 @@ impl SolvedChoice {
         )
     }
 
-    /// Returns the judged failure modes; `None` unless the first failure was sought.
+    /// Returns the judged failure modes; `None` without a puncture or without strengths.
     fn failure_modes(&self) -> Option<JudgedModes> {
         self.solved.row.result.puncture?;
         self.design.case().judged_modes()

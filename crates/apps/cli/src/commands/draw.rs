@@ -27,7 +27,7 @@ Examples:
 
 Draws the row at rest and at the critical tilt, or at the displacements u/t given by --at. Contacts are red,
 arrows are forces between scales, and bars are reactions of the substrate. A guided needle moves straight down;
-a ring marks the point on the scale where it was set down. With --flexure, draws the strip with its ends
+a ring marks the point of the scale that it touched first. With --flexure, draws the strip with its ends
 rotated by the angles given by --at, in degrees.")]
 pub struct Arguments {
     #[command(flatten)]
@@ -64,7 +64,7 @@ const ROTATIONS_DEG: [f64; 3] = [0.0, 45.0, 90.0];
 
 /// Draws designs.
 pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
-    check_places(arguments)?;
+    check_positions(arguments)?;
     check_sizes(&arguments.output)?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let mut files = FigureFiles::new(&arguments.output, || {
@@ -83,15 +83,15 @@ pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
 }
 
 /// Rejects negative displacements and forces of a puncture.
-fn check_places(arguments: &Arguments) -> anyhow::Result<()> {
+fn check_positions(arguments: &Arguments) -> anyhow::Result<()> {
     // A strip can bend both ways, so its angles may be negative.
     let displacements = if arguments.flexure { &[] } else { arguments.at.as_slice() };
-    check_place("--at", "a displacement u/t", displacements)?;
-    check_place("--force", "a force F*", &arguments.force)
+    require_non_negative("--at", "a displacement u/t", displacements)?;
+    require_non_negative("--force", "a force F*", &arguments.force)
 }
 
 /// Rejects negative or infinite values.
-pub fn check_place(option: &str, quantity: &str, values: &[f64]) -> anyhow::Result<()> {
+pub fn require_non_negative(option: &str, quantity: &str, values: &[f64]) -> anyhow::Result<()> {
     for value in values {
         ensure!(
             *value >= 0.0 && value.is_finite(),
@@ -130,9 +130,9 @@ impl Drawing<'_> {
             return files.html(&file, &drawing.animation()?);
         }
         let place = if self.arguments.force.is_empty() {
-            places(&self.arguments.at, "u", "critical-tilt")
+            position_names(&self.arguments.at, "u", "critical-tilt")
         } else {
-            places(&self.arguments.force, "force", "")
+            position_names(&self.arguments.force, "force", "")
         };
         let file = self.file(&format!("puncture-at-{place}"));
         files.svg(&file, &drawing.svg()?)
@@ -164,7 +164,11 @@ impl Drawing<'_> {
             .map(|(at, state)| match state {
                 Some(state) => Ok(state),
                 None => {
-                    bail!("design {}: the path does not reach {}", self.design.label(), place(*at))
+                    bail!(
+                        "design {}: the path does not reach {}",
+                        self.design.label(),
+                        position(*at)
+                    )
                 }
             })
             .collect()
@@ -194,12 +198,12 @@ impl Drawing<'_> {
             let file = self.file("flexure-animation");
             return files.html(&file, &drawing.animation()?);
         }
-        let place = places(
+        let positions = position_names(
             &self.arguments.at,
             "end-rotation",
             &format!("0-to-{}-deg", last.to_string().replace('-', "minus-")),
         );
-        let file = self.file(&format!("flexure-at-{place}"));
+        let file = self.file(&format!("flexure-at-{positions}"));
         files.svg(&file, &drawing.svg()?)
     }
 
@@ -243,15 +247,15 @@ pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
 }
 
 /// Formats points on a path for the name of a file.
-fn places(at: &[f64], quantity: &str, otherwise: &str) -> String {
+fn position_names(at: &[f64], quantity: &str, otherwise: &str) -> String {
     if at.is_empty() {
         return otherwise.to_owned();
     }
     let values: Vec<_> = at.iter().map(ToString::to_string).collect();
-    format!("{quantity}-{}", joined(&values, "places"))
+    format!("{quantity}-{}", joined(&values, "positions"))
 }
 
-fn place(at: puncture::At) -> String {
+fn position(at: puncture::At) -> String {
     match at {
         puncture::At::Displacement(u) => format!("u/t = {u}"),
         puncture::At::Force(force) => format!("F* = {force}"),

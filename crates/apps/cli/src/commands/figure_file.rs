@@ -81,7 +81,7 @@ impl<'a> FigureFiles<'a> {
         let output = self.output;
         let svg = if output.no_title { Cow::Owned(untitled(svg)) } else { Cow::Borrowed(svg) };
         if let Some(width) = output.width {
-            question_letters(name, &svg, width);
+            note_small_letters(name, &svg, width);
         }
         // Font sizes are proportional to the width.
         let width = output.width.or_else(|| Some(output.font_size? / smallest_letters(&svg, 1.0)?));
@@ -97,7 +97,7 @@ impl<'a> FigureFiles<'a> {
         image.map_or(Ok(()), |image| self.write(format!("{name}.png"), &image))
     }
 
-    /// Writes a figure, and prints a note about the panels that the paper has no room for.
+    /// Writes a figure, and prints a note about panels that do not fit on the paper.
     pub fn figure(&mut self, figure: &Figure) -> anyhow::Result<()> {
         if let Some(omitted) = &figure.omitted {
             note(&format!("{}.svg: {omitted}", figure.name));
@@ -129,7 +129,7 @@ impl<'a> FigureFiles<'a> {
 }
 
 /// Prints a note if the smallest letters are unreadable on paper.
-fn question_letters(name: &str, svg: &str, width: f64) {
+fn note_small_letters(name: &str, svg: &str, width: f64) {
     let smallest = smallest_letters(svg, width).filter(|points| *points < READABLE);
     if let Some(points) = smallest {
         let wide = (width * READABLE / points).ceil();

@@ -147,38 +147,38 @@ fn deviation(scatter: &Scatter) -> Option<String> {
     is_possible.then(|| format!("{} = {{ batch_sd = {} }}", parameter.key, digits(*deviation)))
 }
 
-const AS_SOUGHT: &str = "as unit says";
+const UNIT_OF_ROW: &str = "see the column unit";
 
 /// The columns of `fit.csv`.
 pub(super) static ESTIMATES: &[Column<Estimate>] = &columns! { Estimate:
     "sought", "-", |e| e.unknown.name.clone(), "key of a parameter, or offset of a curve";
-    "unit", "-", |e| e.unknown.unit, "its unit";
-    "value", AS_SOUGHT, |e| e.value, "value with the least squares";
-    "low", AS_SOUGHT, |e| e.interval[0], "lower end of the 95 % confidence interval; empty if it is open";
-    "high", AS_SOUGHT, |e| e.interval[1], "upper end of it";
-    "from", AS_SOUGHT, |e| e.unknown.from, "least value that was tried";
-    "to", AS_SOUGHT, |e| e.unknown.to, "largest value that was tried";
+    "unit", "-", |e| e.unknown.unit, "unit of the parameter or offset";
+    "value", UNIT_OF_ROW, |e| e.value, "value with the least squares";
+    "low", UNIT_OF_ROW, |e| e.interval[0], "lower end of the 95 % confidence interval; empty if it is open";
+    "high", UNIT_OF_ROW, |e| e.interval[1], "upper end of the 95 % confidence interval; empty if it is open";
+    "from", UNIT_OF_ROW, |e| e.unknown.from, "lower bound of the parameter";
+    "to", UNIT_OF_ROW, |e| e.unknown.to, "upper bound of the parameter";
 };
 
 /// A row of `residuals.csv`: file, position, measured value and fitted value.
 pub(super) type Point = (String, [f64; 3]);
 
-const AS_CURVE: &str = "mm and N, 1/mm and N mm, or none, as the curve";
+const UNIT_OF_CURVE: &str = "mm and N, or 1/mm and N mm; none if the curve has no units";
 
 /// The columns of `residuals.csv`.
 pub(super) static POINTS: &[Column<Point>] = &columns! { Point:
     "curve", "-", |(file, _)| file.clone(), "file of the measured curve";
-    "x", AS_CURVE, |(_, point)| point[0], "displacement or curvature";
-    "measured", AS_CURVE, |(_, point)| point[1], "measured force or moment";
-    "fitted", AS_CURVE, |(_, point)| point[2], "that of the fitted skin";
+    "x", UNIT_OF_CURVE, |(_, point)| point[0], "displacement or curvature";
+    "measured", UNIT_OF_CURVE, |(_, point)| point[1], "measured force or moment";
+    "fitted", UNIT_OF_CURVE, |(_, point)| point[2], "force or moment of the fitted skin";
 };
 
 /// The columns of `mean_curves.csv`.
 pub(super) static MEANS: &[Column<Point>] = &columns! { Point:
     "curves", "-", |(files, _)| files.clone(), "measured curves of one design";
-    "x", AS_CURVE, |(_, point)| point[0], "displacement or curvature";
-    "mean", AS_CURVE, |(_, point)| point[1], "mean force or moment while loading";
-    "sd", AS_CURVE, |(_, point)| point[2], "its standard deviation over the curves";
+    "x", UNIT_OF_CURVE, |(_, point)| point[0], "displacement or curvature";
+    "mean", UNIT_OF_CURVE, |(_, point)| point[1], "mean force or moment while loading";
+    "sd", UNIT_OF_CURVE, |(_, point)| point[2], "standard deviation of the force or moment over the curves";
 };
 
 /// Formats the fit.
@@ -236,7 +236,7 @@ fn undetermined_text(fitted: &Fitted) -> String {
         };
     }
     for scatter in &fitted.scatter {
-        let _ = writeln!(text, "  {}", differs(scatter));
+        let _ = writeln!(text, "  {}", scatter_text(scatter));
     }
     for estimate in fitted.estimates.iter().filter(|estimate| !estimate.rests_on.is_empty()) {
         let _ = writeln!(
@@ -301,7 +301,7 @@ fn names<'f>(fitted: &'f Fitted, indices: &[usize]) -> Vec<&'f str> {
 }
 
 /// Describes the distribution of a parameter over the specimens.
-fn differs(scatter: &Scatter) -> String {
+fn scatter_text(scatter: &Scatter) -> String {
     let Scatter { parameter, specimens, mean, mean_interval, .. } = scatter;
     let [mean_low, mean_high] = mean_interval.map(digits);
     let [low, high] = scatter.deviation_interval.map(digits);
@@ -339,8 +339,8 @@ fn remarks(curve: &FittedCurve, estimates: &[Estimate]) -> String {
     let has_offset = estimates.iter().any(|estimate| estimate.unknown.name == offset);
     let (as_notes, as_warnings): (Vec<_>, Vec<_>) =
         events.iter().partition(|event| is_note(event, has_offset));
-    let as_warnings = as_warnings.into_iter().map(|event| told(event, [x, y], has_offset));
-    let as_notes = as_notes.into_iter().map(|event| told(event, [x, y], has_offset));
+    let as_warnings = as_warnings.into_iter().map(|event| event_text(event, [x, y], has_offset));
+    let as_notes = as_notes.into_iter().map(|event| event_text(event, [x, y], has_offset));
     let warnings = warnings.into_iter().flatten().chain(as_warnings);
     let warnings = warnings.map(|text| format!("  (!) {file}: {text}\n"));
     let notes = notes.into_iter().chain(as_notes);
@@ -357,7 +357,7 @@ fn is_note(event: &CurveEvent, has_offset: bool) -> bool {
 }
 
 /// Describes an event of a curve with these axes.
-fn told(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String {
+fn event_text(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String {
     let CurveEvent { kind, line, left_out, at } = *event;
     let points = counted(left_out as u64, "point");
     let is_or_are = if left_out == 1 { "is" } else { "are" };
@@ -377,7 +377,7 @@ fn told(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String {
             format!("the {x} turns back after line {line}; both branches are fitted")
         }
         CurveEventKind::TurnsBack => format!(
-            "the {x} turns back after line {line}; {points} of the other branch {is_or_are} left out; branch = \"both\" fits them, too"
+            "the {x} turns back after line {line}; {points} of the other branch {is_or_are} left out; branch = \"both\" also fits them"
         ),
         CurveEventKind::TurnsAgain => {
             format!(
@@ -389,7 +389,7 @@ fn told(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String {
         ),
         CurveEventKind::Drops => {
             format!(
-                "the {y} drops after line {line} and goes on; the points are kept, to = … leaves them out"
+                "the {y} drops after line {line}, but the curve continues; the points are kept, to = … leaves them out"
             )
         }
         CurveEventKind::Held => {

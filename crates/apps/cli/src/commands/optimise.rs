@@ -42,13 +42,13 @@ Examples:
 A goal is a definition with two more sections. [variables] lists the parameters to search over: ranges, such
 as gap_over_t = { from = 0.1, to = 1 }, or lists of values. [goal] has maximize or minimize (one column gives
 the optimum, two to four give a Pareto front) and require, a list of constraints on columns; --require adds to it,
-and protects = \"needle 2\" adds a level of a standard. Every other parameter has one value. The search leaves out designs that fail, and designs whose surface folds unless
-sound = false, and counts both.
+and protects = \"needle 2\" adds a level of a standard. Every other parameter has one value. The search leaves out
+designs that fail, and designs with a fold of the surface unless sound = false. It counts both.
 One objective may be fitness (Eq. 7 of the paper). weights = { coverage = 1, compliance = 2 } names its criteria
 [default: the paper's four, with equal weights]; rescale = { coverage = [0, 0.9] } gives the worst and the best
 value of a criterion [default: those of the sample].
 With a [tolerance] section (see squama tolerance), the goal may also name statistics over samples: quantiles, such
-as critical_force_p05 (or _p50, _p95), and yield, the share of samples that meet all constraints on columns and do
+as critical_force_p05 (or _p50, _p95), and yield, the fraction of samples that meet all constraints on columns and do
 not fold (unless sound = false), as in require = [\"coverage >= 0.5\", \"yield >= 0.9\"]. The search solves
 skins = 200 samples of each design, with the same deviations for all, and five times as many near the best.
 Finally it solves 1000 new samples of the best design, and shows their statistics beside those of the search.

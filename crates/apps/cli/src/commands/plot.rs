@@ -14,7 +14,7 @@ use skin::puncture::{
 };
 use sweep::{Case, PARAMETERS, Parameter, Scalar, key};
 
-use super::draw::{check_place, substrate};
+use super::draw::{require_non_negative, substrate};
 use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
 use super::folder_contents::FolderContents;
 use super::measured::Reading;
@@ -211,7 +211,7 @@ fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
 
 fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     check_sizes(&arguments.output)?;
-    check_place("--to", "a displacement u/t", arguments.to.as_slice())?;
+    require_non_negative("--to", "a displacement u/t", arguments.to.as_slice())?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let cases: Vec<_> = designs.iter().map(SelectedDesign::case).collect();
     let measured = measured(arguments, &cases)?;
@@ -433,8 +433,8 @@ fn number(design: &SelectedDesign, cases: &[Case]) -> String {
     let own = design.case();
     let differing = PARAMETERS.iter().filter(|parameter| {
         // The geometry includes the thickness, which also scales lengths in mm.
-        let is_told = ["gap_over_t", "length_over_t", "slant_deg", key::THICKNESS];
-        !is_told.contains(&parameter.key)
+        let is_geometry = ["gap_over_t", "length_over_t", "slant_deg", key::THICKNESS];
+        !is_geometry.contains(&parameter.key)
             && cases.iter().any(|other| !is_alike(parameter, other, &own))
     });
     let values = differing.map(|parameter| {

@@ -173,7 +173,7 @@ fn judged_modes(sweep: &Sweep) -> Vec<Fact> {
 /// Describes how much less force a leading design withstands on curved bodies, if the sweep was
 /// solved flat.
 ///
-/// Returns `None` if no leading design bears less.
+/// Returns `None` if no leading design withstands less force.
 fn flat_body(sweep: &Sweep, rankings: &[Ranking<'_>]) -> Option<String> {
     let best = rankings.iter().flat_map(|ranking| {
         let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());

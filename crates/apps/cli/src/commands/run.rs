@@ -19,10 +19,10 @@ use crate::interrupt::Interrupt;
 use crate::print::{FOLDED, aligned, counted, note, print, time};
 use crate::progress::{ProgressDisplay, RESUMED};
 
-/// Reads a part of the designs.
-fn share(text: &str) -> Result<f64, String> {
-    let share = text.parse().ok().filter(|share| *share > 0.0 && *share <= 1.0);
-    share.ok_or_else(|| format!("{text} is out of range, expected a number above 0 and at most 1"))
+/// Parses a fraction of the designs, above 0 and at most 1.
+fn fraction(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| *value > 0.0 && *value <= 1.0);
+    value.ok_or_else(|| format!("{text} is out of range, expected a number above 0 and at most 1"))
 }
 
 /// Arguments of `squama run`.
@@ -78,7 +78,7 @@ pub struct Arguments {
     ///
     /// The second method takes steps a tenth as large, and solves a strip as a chain of all its
     /// gaps. A relative difference above 1e-6, or a different status, gives exit code 1.
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     pub audit: Option<f64>,
 
     #[command(flatten)]

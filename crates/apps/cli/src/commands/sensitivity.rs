@@ -28,8 +28,8 @@ Examples:
 Varies the parameters in [variables], such as gap_over_t = { from = 0.1, to = 1 } or length_over_t = [0.5, 1],
 independently and uniformly; all other parameters keep their values. Shows the fraction of the variance of each
 measure that is due to each variable, alone (first-order Sobol' index) and together with others (total index),
-with 95 % intervals. A sample solves two designs more than there are variables. A sample in which any of them
-fails is left out, and counted.
+with 95 % intervals. For n variables, each sample solves n + 2 designs. A sample in which any of them fails is
+left out, and counted.
 Writes sobol.csv, and samples/, from which the same command continues after an interruption.
 For derivatives at one design, use squama design --sensitivity.
 Exit code: 0 done, 2 bad input or a disk error.")]

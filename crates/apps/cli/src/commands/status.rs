@@ -21,7 +21,7 @@ Examples:
   squama status results/paper
   squama status results/paper --json
 
-Works while the run or the search is going on. Verifies the checksum of every table, and lists the rankings, figures and
+Also works during a run or a search. Verifies the checksum of every table, and lists the rankings, figures and
 pages that were made from tables which have changed since.
 Exit code: 0 done, 1 some designs failed or are missing, a search has not ended, or a table was changed,
 2 bad input.")]

@@ -37,11 +37,11 @@ Examples:
 
 Parts differ from the nominal design by the deviations in [tolerance]. batch_sd is the standard deviation of a
 normal deviation that all scales of a batch share, batch_within the largest value of a uniform one, and scale_sd
-the standard deviation from scale to scale, of gaps and slants. A key is that of a parameter, such as
-gap_over_t, or, with material.thickness_mm, that of a length in mm, such as gap_mm.
-Predicts the spread of every measure from its derivatives, with the share of each source, and solves samples to
-check the prediction. The yield is the share of samples that meet a requirement, with its 95 % interval; a sample
-that fails does not meet it, and is counted separately.
+the standard deviation from scale to scale, of gaps and slants. Keys are parameters, such as gap_over_t, or, with
+material.thickness_mm, lengths in mm, such as gap_mm.
+Predicts the spread of every measure from its derivatives, with the contribution of each source, and solves samples
+to check the prediction. The yield is the fraction of samples that meet a requirement, with its 95 % interval; a
+sample that fails does not meet it, and is counted separately.
 Writes tolerance.csv, tolerance_sources.csv, yield.csv, figures of a single design, and the samples of each design
 to samples/, from which the same command continues after an interruption, or adds more samples.
 Exit code: 0 done, 1 a nominal design failed, 2 bad input or a disk error.")]

@@ -335,11 +335,7 @@ fn a_fresh_run_removes_products_of_the_earlier_run() {
     for file in ["ranking.csv", "report.html", "a.xlsx"] {
         assert!(said.contains(file) && !place.path("r").join(file).exists(), "{file}: {said}");
     }
-    assert_eq!(
-        place.read("r/figures/coverage-maps-by-slant.svg"),
-        own,
-        "what somebody has changed stays"
-    );
+    assert_eq!(place.read("r/figures/coverage-maps-by-slant.svg"), own, "a changed file is kept");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::table::{cell, columns};
 use crate::{FEW, Place};
 
 /// The files of the path of a design.
-const COURSE: &str = "derived design.toml events.csv flexure_events.csv flexure_path.csv \
+const PATH_FILES: &str = "derived design.toml events.csv flexure_events.csv flexure_path.csv \
                       flexure_scales.csv flexure_steps.csv measures.csv path.csv scales.csv steps.csv";
 
 #[test]
@@ -74,7 +74,7 @@ fn design_follows_unloading_paths() {
     place.prints(&format!("{curves} --set contact.friction=.3 --out c"));
     for figure in ["force-displacement", "moment-curvature"] {
         let svg = place.read(&format!("c/{figure}-curves-of-0004.svg"));
-        assert!(svg.contains("thin dashes: the way back"), "{svg}");
+        assert!(svg.contains("thin dashes: unloading"), "{svg}");
     }
 }
 
@@ -126,7 +126,7 @@ fn design_evaluates_load_positions() {
     );
     place.prints(&format!("plot curves x.toml {design} --out c"));
     let figure = place.read("c/force-over-place-of-0004.svg");
-    assert!(figure.contains("place: 0 left corner of the top"), "{figure}");
+    assert!(figure.contains("load position: 0 left corner of the top"), "{figure}");
 }
 
 #[test]
@@ -162,9 +162,9 @@ fn design_writes_its_paths() {
     let place = Place::with(FEW);
     place.squama("design x.toml --gap 0.1 --length 1 --slant 45").assert().code(0);
     let folder = "results/few/designs/0004";
-    assert_eq!(place.list(folder), COURSE);
-    let course = COURSE.split_whitespace().filter(|file| file.contains(".csv"));
-    insta::assert_snapshot!(course.map(|file| {
+    assert_eq!(place.list(folder), PATH_FILES);
+    let tables = PATH_FILES.split_whitespace().filter(|file| file.contains(".csv"));
+    insta::assert_snapshot!(tables.map(|file| {
         let text = place.read(&format!("{folder}/{file}"));
         assert!(text.lines().count() > 1, "{file} is empty");
         format!("{file}: {}\n", text.lines().next().expect("a header"))
@@ -202,7 +202,7 @@ fn design_differentiates_its_measures() {
         assert!(table.contains(&format!("0004,{measure},slant_deg,")), "{measure}");
     }
     place.squama(&design.replace(" --sensitivity", "")).assert().code(0);
-    assert_eq!(place.list(folder), COURSE);
+    assert_eq!(place.list(folder), PATH_FILES);
 }
 
 #[test]
@@ -235,7 +235,7 @@ fn differences_from_the_sweep_are_listed() {
     let place = Place::with(FEW);
     let text = place.prints("design x.toml --design 4 --set puncture.scales=11 --out y");
     assert!(text.contains("  with puncture.scales = 11 instead of 21\n"), "{text}");
-    assert_eq!(place.list("y"), COURSE);
+    assert_eq!(place.list("y"), PATH_FILES);
 }
 
 #[test]

@@ -54,8 +54,11 @@ impl Running {
         let begun = Instant::now();
         while !happened() {
             let ended = self.child.try_wait().expect("a process");
-            assert_eq!(ended, None, "the process ended before it did what is waited for");
-            assert!(begun.elapsed() < PATIENCE, "waited in vain for {PATIENCE:?}");
+            assert_eq!(ended, None, "the process ended before the expected event");
+            assert!(
+                begun.elapsed() < PATIENCE,
+                "the expected event did not occur within {PATIENCE:?}"
+            );
             sleep(PAUSE);
         }
     }

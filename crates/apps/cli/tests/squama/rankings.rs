@@ -183,7 +183,7 @@ fn split(printed: &str) -> (String, String) {
     (ranking.to_owned(), answer.to_owned())
 }
 
-/// Designs on a layer are slow to solve, but the answer is worth waiting for.
+/// The answer solves the best design again, although designs on a layer are slow to solve.
 #[test]
 fn a_ranking_on_a_layer_has_an_answer_with_warnings() {
     let place = Place::with(

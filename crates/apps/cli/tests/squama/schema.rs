@@ -13,7 +13,9 @@ use sweep::{PARAMETERS, Parameter, Role, Sweep};
 use crate::json_schema::mismatch;
 use crate::{Place, long_campaigns};
 
-/// Problems of several keys together, or of the steps of a range, which a schema cannot express.
+/// Messages about several keys together, or about the steps of a range.
+///
+/// A schema cannot express these conditions.
 const TOGETHER: [&str; 11] = [
     "cannot be combined",
     "needs ",
@@ -102,8 +104,9 @@ fn is_out_of_order(value: &serde_json::Value) -> bool {
     numbers.is_some_and(|numbers| !numbers.is_sorted_by(|a, b| a < b))
 }
 
-/// Every definition that the schema refuses is refused by the parser. The parser refuses no other
-/// definition but for problems of several keys together.
+/// The parser refuses every definition that the schema refuses.
+///
+/// Other definitions are refused only because of several keys together.
 #[test]
 fn schema_and_parser_agree_on_random_definitions() {
     let schema = schema();

@@ -16,7 +16,7 @@ fn the_committed_page_matches_the_command() {
     let (sweeps, searches) =
         committed.split_once("\n## Between the grid points").expect("a section");
     // No grid contains a better design than the search over the same ranges.
-    assert!(searches.contains("neither equals nor beats 0 of them."), "{searches}");
+    assert!(searches.contains("neither equals nor dominates: 0."), "{searches}");
     let gains: Vec<&str> = searches.lines().filter(|line| line.ends_with(" % |")).collect();
     assert!(gains.len() == 5 && gains.iter().all(|row| row.contains("| +")), "{gains:?}");
     let differing = disagreement(&page, if long_campaigns() { &committed } else { sweeps });

@@ -91,7 +91,7 @@ fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Valu
     design
 }
 
-/// Returns the nominal objectives, including the fitness; statistics over samples are in `made`.
+/// Returns the nominal objectives, including the fitness, but no statistics over samples.
 fn objectives(goal: &DesignGoal, best: &BestDesign) -> Map<String, Value> {
     let Judgement::Judged(worth) = &best.candidate.verdict else { return Map::new() };
     let values = goal.objectives.iter().zip(&worth.objectives);

@@ -103,7 +103,8 @@ impl SearchReport<'_> {
         if let Some(reason) = &best.reason {
             let _ = writeln!(text, "\n{reason}");
         }
-        // At the requested position only the coupling differs, which is reported below.
+        // At the requested position the check differs from the search only by its full coupling,
+        // which is reported below.
         let requested = best.row.case.punctured().load_position;
         let places = best.checks.places.iter().filter(|of| of.place != requested);
         text += &places.filter_map(weakest_place).collect::<String>();
@@ -291,7 +292,8 @@ impl SearchReport<'_> {
         rows.extend(designs.iter().map(|best| {
             let row = self.named_values(best).into_iter();
             let mut row: Vec<String> = row.map(|[_, value]| value).collect();
-            // A floor bounds another objective; its price is the trade-off against this objective.
+            // A floor is a lower bound on another objective (ε-constraint). Its price is the
+            // trade-off between the two objectives.
             let floors = best
                 .bindings
                 .iter()
