@@ -50,7 +50,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
   async "no line of compliance crosses the onset of contact"() {
     const lines = await drawn(page, "compliance", ".series path[fill=none]");
     assert.ok(lines.length > 10);
-    // A contact costs compliance decades: a panel of 190 px has five of them.
+    // Contact reduces the compliance by decades; a panel of 190 px has five decades.
     const heights = (line) => [...line.matchAll(/[ML]\S+ (\S+)/g)].map(([, y]) => Number(y));
     for (const line of lines) heights(line).slice(1).forEach((y, k) => assert.ok(y - heights(line)[k] < 60, line));
   },

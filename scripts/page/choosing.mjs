@@ -78,7 +78,7 @@ export default ({ page, text, texts, run, results, open }) => {
         await input.fill("0.7");
         await input.fill(typed);
         assert.equal(await input.getAttribute("aria-invalid"), "true", typed);
-        assert.equal(await count(), 54, `${typed}: a limit that is not shown acts`);
+        assert.equal(await count(), 54, `${typed}: a hidden limit is active`);
         assert.match(await text("#requirement-count"), /A limit that is not a number is ignored/);
         assert.ok(!(await command()).includes("--require"), typed);
       }
@@ -90,7 +90,7 @@ export default ({ page, text, texts, run, results, open }) => {
       }
       await filter.fill(">=0,7x");
       assert.equal(await filter.getAttribute("aria-invalid"), "true");
-      assert.equal(await count(), 54, "the filter before acts behind one that cannot be read");
+      assert.equal(await count(), 54, "an invalid filter keeps the previous one active");
       await filter.fill("");
     },
 
@@ -117,7 +117,7 @@ export default ({ page, text, texts, run, results, open }) => {
       const [force, sink] = [scaled("critical_force", 1), scaled("sink", -1)];
       const best = rows.map((row, k) => [row.design, 0.5 * force[k] + 0.5 * sink[k]]).sort((a, b) => b[1] - a[1]);
       assert.deepEqual(await designs(), best.slice(0, 15).map(([design]) => design));
-      await page.locator('button[aria-label^="small sink: turn"]').click();
+      await page.locator('button[aria-label^="small sink: reverse"]').click();
       assert.match(await command(), /max:sink/);
       await page.locator("#usual-criteria").click();
       assert.match(await command(), /results --weights 0\.25,0\.25,0\.25,0\.25$/);

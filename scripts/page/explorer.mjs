@@ -74,7 +74,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       }
       const tasks = await page.evaluate(() => globalThis.longTasks);
       const told = (own) => own.map(([, duration]) => `${Math.round(duration)} ms`).join(" ") || "none";
-      console.log(`        tasks of the page above 50 ms: as it opens ${told(tasks.filter(([at]) => at < opened))}, under the hand ${told(tasks.filter(([at]) => at >= opened))}`);
+      console.log(`        tasks of the page above 50 ms: during opening ${told(tasks.filter(([at]) => at < opened))}, during drags ${told(tasks.filter(([at]) => at >= opened))}`);
       const times = (await page.evaluate(() => squama.live.times)).sort((a, b) => a - b), at = (share) => times[Math.floor(share * (times.length - 1))];
       console.log(`        ${times.length} answers to three drags: median ${at(0.5).toFixed(0)} ms, 90 % within ${at(0.9).toFixed(0)} ms, slowest ${at(1).toFixed(0)} ms`);
       assert.ok(times.length > 30 && at(0.5) < 1000, `${times.length} answers, ${at(0.5)} ms`);

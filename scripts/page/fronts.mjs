@@ -27,7 +27,7 @@ export default ({ open, page, place, folders }) => ({
     }));
     assert.ok(beaten.length > 4 && allowed.length < grid.length);
     const said = beaten.length === allowed.length ? "all" : beaten.length;
-    assert.match(await own.locator("#front-words").textContent(), new RegExp(`largest coverage and largest gap d/t; slant_deg <= 60; .*Of the ${allowed.length} designs of the grid that keep them, ${said} are beaten`));
+    assert.match(await own.locator("#front-words").textContent(), new RegExp(`largest coverage and largest gap d/t; slant_deg <= 60; .*Of the ${allowed.length} designs of the grid that meet them, ${said} are dominated`));
     const rows = await own.locator("#front-table tbody tr").allTextContents();
     assert.equal(rows.length, front.length);
     assert.ok(rows.some((row) => /slant_deg <= 60|upper end/.test(row)), rows.join());
@@ -47,7 +47,7 @@ export default ({ open, page, place, folders }) => ({
     await own.evaluate(() => squama.live.set({ critical_tilt_deg: 5 }));
     await own.locator('#front-table [data-found="1"]').click();
     await isUnderHand(1);
-    assert.equal(await own.evaluate(() => squama.live.value("critical_tilt_deg")), 10, "what the search did not vary is as in the definition");
+    assert.equal(await own.evaluate(() => squama.live.value("critical_tilt_deg")), 10, "parameters that the search did not vary keep the values of the definition");
     const far = marks.find(({ row, x, y }) => row !== null && marks.every((other) => other.row !== null || Math.hypot(other.x - x, other.y - y) > 20));
     await own.mouse.click(far.x, far.y);
     const now = await own.evaluate(() => squama.state.design);

@@ -1,4 +1,4 @@
-// Tests of the page in a real browser; check-page makes the pages and runs this.
+// Tests of the page in a real browser; check-page writes the pages and runs this.
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";

@@ -55,5 +55,5 @@ for (const [k, request] of requests.entries()) {
   });
 }
 assert.ok(numbers > 20 * DESIGNS, `${numbers} numbers`);
-assert.ok(largest <= DIFFERENCE, `numbers differ by ${largest}: ${where}; make the module anew with scripts/wasm`);
+assert.ok(largest <= DIFFERENCE, `numbers differ by ${largest}: ${where}; build the module again with scripts/wasm`);
 console.log(`${DESIGNS} designs, ${numbers} numbers: the module and the native solver differ by at most ${largest.toExponential(1)}`);

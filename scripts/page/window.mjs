@@ -26,7 +26,7 @@ export default ({ page, open, folders }) => ({
     const best = await page.locator("#live-best button").first().boundingBox();
     assert.ok(best.y > 0 && best.y < 844, `${best.y}`);
     const [summary, run] = await page.evaluate(() => ["summary", "run"].map((id) => document.getElementById(id).getBoundingClientRect().y));
-    assert.ok(run > summary + 3000, "the record of the run stands at the end");
+    assert.ok(run > summary + 3000, "the record of the run is at the end");
     const small = await page.evaluate(() => [...document.querySelectorAll("button, select, input:not([type=checkbox]), nav a, summary, label:has(input[type=checkbox]), #table tbody tr[data-row], #best tr[data-row]")]
       .filter((own) => own.checkVisibility()).map((own) => [own, own.getBoundingClientRect()]).filter(([, box]) => box.width > 0 && box.height < 43.9).map(([own, box]) => `${own.outerHTML.slice(0, 80)} ${box.height}`));
     assert.deepEqual(small, []);

@@ -279,7 +279,7 @@ pub(crate) fn mark_legend(
         palette.slants().iter().map(|&slant| (slant, MarkLook::Filled, format!("{slant}°")));
     let last = palette.slants().last().filter(|_| has_folds);
     let folded =
-        last.map(|&slant| (slant, MarkLook::Folded, "surface folds: do not trust".to_owned()));
+        last.map(|&slant| (slant, MarkLook::Folded, "surface folds: not valid".to_owned()));
     for (slant, look, text) in slants.chain(folded) {
         if left + 9.0 + width(&text, 12.0) > right {
             (left, y) = (x + 6.0, y + LINE);

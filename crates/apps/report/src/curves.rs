@@ -120,7 +120,7 @@ struct FigureText {
     units: fn(&Case) -> Option<[f64; 2]>,
 }
 
-const PLACE: &str = "place: 0 left corner of the top, 1 right corner";
+const POSITION: &str = "load position: 0 left corner of the top, 1 right corner";
 
 const FORCE: FigureText = FigureText {
     title: "puncture force against displacement",
@@ -139,9 +139,9 @@ const FORCE: FigureText = FigureText {
     units: |case| puncture_units(case).map(|[mm, newton, _]| [mm, newton]),
 };
 const PLACES: FigureText = FigureText {
-    title: "puncture force over the place of the load",
-    axes: [[PLACE, FORCE.axes[0][1]], [PLACE, FORCE.axes[1][1]]],
-    notes: ["", "○ the weakest place", "fine dots: across places without a critical force"],
+    title: "puncture force over the load position",
+    axes: [[POSITION, FORCE.axes[0][1]], [POSITION, FORCE.axes[1][1]]],
+    notes: ["", "○ the weakest position", "fine dots: positions without a critical force"],
     units: |case| puncture_units(case).map(|[_, newton, _]| [1.0, newton]),
 };
 const BODIES: FigureText = FigureText {
@@ -150,7 +150,7 @@ const BODIES: FigureText = FigureText {
         ["$t/R$: below 0 concave, 0 flat, above 0 convex", FORCE.axes[0][1]],
         ["1/$R$, 1/mm: below 0 concave, 0 flat, above 0 convex", FORCE.axes[1][1]],
     ],
-    notes: ["", "○ the worst body", "fine dots: across bodies without a critical force"],
+    notes: ["", "○ the worst body", "fine dots: bodies without a critical force"],
     units: |case| puncture_units(case).map(|[mm, newton, _]| [mm.recip(), newton]),
 };
 const MOMENT: FigureText = FigureText {
@@ -239,7 +239,9 @@ fn one_panel(
 /// Returns true if a curve has a mark.
 type IsMarked = fn(&CurveValues) -> bool;
 
-/// Returns the notes that apply to at least one curve: all of them are wider than the figure.
+/// Returns the notes that apply to at least one curve.
+///
+/// The other notes are left out, because all of them together are wider than the figure.
 fn notes(text: &FigureText, curves: &[Curve]) -> String {
     let [always, ring, dotted] = text.notes;
     let notes: [(&str, IsMarked); 6] = [
@@ -247,7 +249,7 @@ fn notes(text: &FigureText, curves: &[Curve]) -> String {
         (ring, |values| !values.rings.is_empty()),
         (dotted, |values| values.unstable.contains(&true)),
         ("▼ passing", |values| !values.passing.is_empty()),
-        ("thin dashes: the way back", |values| !values.back.is_empty()),
+        ("thin dashes: unloading", |values| !values.back.is_empty()),
         ("dots: limits of failure, the first one bold", |values| !values.limits.is_empty()),
     ];
     let shown = notes.into_iter().filter(|(words, occurs)| {

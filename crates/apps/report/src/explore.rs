@@ -161,8 +161,9 @@ fn shown(
     Shown { name, label, physical, words, is_curvature, has_goal, mode }
 }
 
-/// Returns the displayed measures, with the failure force if it is sought. The page shows the first
-/// four, and the others on request.
+/// Returns the displayed measures, including the failure force if it is computed.
+///
+/// The page shows the first four, and the others on request.
 fn measures(seeks_failure: bool) -> Vec<Shown> {
     let mut measures = vec![
         shown(name::COVERAGE, "Coverage", "", "fraction of the scale layer that is solid scale"),
@@ -331,7 +332,7 @@ impl Explorer {
         let grid = self.sweep.grid();
         let case = grid.case(0);
         let offered = Parameter::named(over_t)?;
-        // A needle keeps its radius if the thickness moves.
+        // In mm, the radius of a needle stays constant while the thickness changes.
         let is_needle = over_t == key::NEEDLE_RADIUS
             && self.sweep.gives(key::THICKNESS)
             && !self.sweep.gives(over_t);
@@ -346,7 +347,7 @@ impl Explorer {
             return None;
         }
         let [min, max] = span.unwrap_or(range.map(|end| end * factor));
-        // The first design of several is a corner of the grid and seldom a good one.
+        // Start inside the range: the first design of a grid is a corner and seldom a good one.
         let middle = min + opens_at * (max - min);
         let is_variable = self.sweep.variables().iter().any(|one| one.parameter() == parameter);
         let is_fixed = axis.is_none() && !is_variable;

@@ -35,7 +35,7 @@ pub struct Figure {
     pub name: String,
     /// The drawing, as SVG.
     pub svg: String,
-    /// The panels that narrow paper has no room for, in words.
+    /// Describes the panels that do not fit on narrow paper, if any.
     pub omitted: Option<String>,
 }
 

@@ -31,8 +31,8 @@ const ROOM: [f64; 2] = [92.0, 92.0];
 pub fn fit_figure(name: &str, curves: &[FitPanel]) -> String {
     let [width, height] = PANEL;
     let first = Area { left: 78.0, top: TOP, width, height };
-    let note = "left: measured points and the fitted curve; right: the outer lines hold 95 % of \
-                the points, if chance alone scatters them";
+    let note = "left: measured points and the fitted curve; right: residuals, with 95 % of \
+                random ones between the outer lines";
     let mut inside = vec![label(note, [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
     for (row, curve) in curves.iter().enumerate() {
         let [left, right] = [0, 1].map(|column| first.panel(2 * row + column, 2, ROOM));
@@ -43,7 +43,7 @@ pub fn fit_figure(name: &str, curves: &[FitPanel]) -> String {
         inside.push(text.with("fill", INK).text(curve.file));
     }
     let paper = [2.0 * width + ROOM[0] + 110.0, TOP + curves.len() as f64 * (height + ROOM[1])];
-    sheet(paper[0], paper[1], &format!("{name}: measured and fitted, and the difference"), inside)
+    sheet(paper[0], paper[1], &format!("{name}: measured and fitted curves, and residuals"), inside)
 }
 
 impl FitPanel<'_> {

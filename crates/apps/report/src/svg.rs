@@ -238,7 +238,7 @@ mod tests {
         let bare = untitled(&svg);
         assert!(bare.contains("height=\"168\" viewBox=\"0 32 300 168\""), "{bare}");
         assert!(!bare.contains("<text") && bare.contains("<g class=\"rest\"/>"), "{bare}");
-        assert!(bare.contains("<title>a &lt; b</title>"), "who cannot see it is told: {bare}");
+        assert!(bare.contains("<title>a &lt; b</title>"), "screen readers read the title: {bare}");
         assert_eq!(untitled(&bare), bare);
         let printed = resized(&bare, 85.0);
         assert!(printed.contains(" width=\"85mm\" height=\""), "{printed}");

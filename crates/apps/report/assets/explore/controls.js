@@ -48,7 +48,7 @@
         if (number !== null) live.set({ [control.key]: number });
       } });
     const unit = element("span", { class: "unit" });
-    // The body is given, and no arrow changes it.
+    // The body is given, so its control has no arrow.
     control.arrow = control.is_radius ? null : element("button", { type: "button", class: "arrow", onclick: () => live.follow(control.key, control.better > 0) });
     control.show = () => {
       const [factor, name] = live.shownAs(control);

@@ -3,7 +3,8 @@
 (() => {
   const { at, live } = squama;
   const EXAMPLE = "pin 2 mm, 5 N, bends to 25 mm, gap 0.4 mm, covers 50 %";
-  // Largest number of designs that a search solves, and of those spread over the sliders.
+  // Maximum number of designs that a search solves, and number of initial designs spread over the
+  // ranges of the sliders.
   const MOST = 160, SPREAD = 40;
   // Number of sliders that a search moves.
   const VARIED = 4;
@@ -13,7 +14,7 @@
   const MISSING = 100;
 
   const force = () => live.data.measures[1].physical;
-  // Clauses of a sentence: a pattern with a number, and its requirement or its pin.
+  // Clauses of a sentence: a pattern with a number, and the requirement or pin diameter that it means.
   const NUMBER = "(\\d+(?:[.,]\\d+)?)";
   const CLAUSES = [
     [`\\b(?:pin|needle|nail|tip)\\b.*?${NUMBER} ?mm`, (size) => ({ pin: size })],
@@ -105,7 +106,7 @@
     for (const point of present.miss > 0 ? starts(varied, present.point) : []) tried.push(await look(point));
     const met = tried.filter(({ miss }) => miss <= 0).sort((one, other) => distance(one.point, present.point) - distance(other.point, present.point));
     best = met[0] ?? tried.reduce(better);
-    // Moves along one slider at a time, by smaller and smaller steps, from the best three.
+    // Pattern search from the best three: moves one slider at a time, and halves the step.
     tried = tried.sort((one, other) => one.miss - other.miss).slice(0, 3);
     for (let local of best.miss > 0 ? tried : []) {
       for (let step = 0.16; step > 0.004 && best.miss > 0 && count < MOST - HALVINGS; step /= 2) {
@@ -118,7 +119,7 @@
         best = better(best, local);
       }
     }
-    // The nearest one on the line to the present design.
+    // Bisects the line to the present design, down to the nearest design that meets the requirements.
     if (best.miss <= 0 && present.miss > 0) {
       for (let k = 0, [near, far] = [0, 1], from = best.point; k < HALVINGS; k += 1) {
         const middle = (near + far) / 2, next = await look(between(present.point, from, middle));

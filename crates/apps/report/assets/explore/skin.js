@@ -26,7 +26,7 @@ squama.live = (() => {
     const control = live.control(key);
     return values[control.key] / (key === control.key ? 1 : values.thickness_mm ?? data.thickness);
   };
-  /** Returns the value of a control; a needle that was not moved is where the definition puts it. */
+  /** Returns the value of a control; a needle that was not dragged has the position in the last answer. */
   live.current = ({ value, max }) => value ?? live.answer?.puncture?.load_position ?? max;
 
   live.digits = (number, count = 4) => (number === null || number === undefined ? "–" : String(Number(number.toPrecision(count))));

@@ -30,7 +30,7 @@ const BARS: f64 = 62.0;
 const SHAFT: f64 = 5.0;
 /// Length of the point of a sharp needle, px.
 const NOSE: f64 = 16.0;
-/// Radius of the ring at the point where the needle was set down, px.
+/// Radius of the ring at the first contact point of the needle, px.
 const RING: f64 = 3.5;
 /// Height above the scales for the load arrow, px.
 const AIR: f64 = LONGEST + 24.0;
@@ -219,7 +219,7 @@ impl<'a> RowSheet<'a> {
             None => format!("$u^*$ = {},  $F^*$ = {}", short(u), short(f)),
         };
         let ring =
-            if self.ring(state).is_some() { ",  ○ where the needle was set down" } else { "" };
+            if self.ring(state).is_some() { ",  ○ first contact of the needle" } else { "" };
         format!(
             "{load},  tilt {:.2}°,  {}{force}{ring}",
             state.tilt_deg + 0.0,
@@ -332,7 +332,7 @@ impl<'a> RowSheet<'a> {
 
     /// Returns the current position of the loaded point of the punctured scale; `None` without a
     /// load.
-    fn set_down(&self, state: &RowSnapshot) -> Option<Vec2> {
+    fn loaded_point(&self, state: &RowSnapshot) -> Option<Vec2> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
@@ -343,7 +343,7 @@ impl<'a> RowSheet<'a> {
 
     /// Returns the ends of the arrow of the load; `None` without a load.
     fn load_arrow(&self, state: &RowSnapshot) -> Option<[Spot; 2]> {
-        let follows = self.set_down(state)?;
+        let follows = self.loaded_point(state)?;
         // A guided tip moves straight down instead of following the scale.
         let to = self.place(state.tip.unwrap_or(follows.into()));
         // Small loads get a minimum arrow length, which shows the point of application.
@@ -363,17 +363,17 @@ impl<'a> RowSheet<'a> {
             let ring = circle(self.place(place.into()), RING);
             ring.with("fill", "none").with("stroke", INK).with("class", "set-down")
         });
-        // The arrow is drawn over the needle.
+        // Draw the arrow last, so that it is visible over the needle.
         let parts = self.tip(state).into_iter().chain(drawn.into_iter().flatten());
         Element::group("load").containing(parts.chain(ring))
     }
 
-    /// Returns the material point on which a guided needle was set down.
+    /// Returns the current position of the point of the scale that a guided needle touched first.
     ///
-    /// `None` for a round tip between two scales, which is set down on neither of them.
+    /// `None` for a round tip between two scales, which touches a corner of each.
     fn ring(&self, state: &RowSnapshot) -> Option<Vec2> {
         let is_on_top = (0.0..=1.0).contains(&self.case.punctured().load_position);
-        self.set_down(state).filter(|_| is_on_top && state.tip.is_some())
+        self.loaded_point(state).filter(|_| is_on_top && state.tip.is_some())
     }
 
     /// Returns the outline of a guided needle; a dead load has only an arrow.

@@ -79,7 +79,7 @@ pub enum InvalidMap {
         known: Vec<String>,
     },
     /// There are too many maps.
-    #[error("{count} maps, one for each value of {}, expected at most {MAPS}: hold a parameter with --at, e.g. --at {example}", axes.join(" and "))]
+    #[error("{count} maps, one for each value of {}, expected at most {MAPS}: fix a parameter with --at, e.g. --at {example}", axes.join(" and "))]
     TooMany {
         /// Number of maps.
         count: usize,

@@ -48,7 +48,7 @@ fn panels(designs: &Designs, across: &str, paper: Paper) -> (usize, Vec<f64>) {
     (columns, some(values, paper.panels(WIDTH, columns, PANELS)))
 }
 
-/// Describes the panels that a figure has no room for.
+/// Describes the panels that do not fit on the paper; `None` if all fit.
 pub(crate) fn omitted(designs: &Designs, paper: Paper) -> Option<String> {
     let across = &lengths(designs)[1];
     let all = designs.values(across).len();

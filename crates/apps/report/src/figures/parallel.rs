@@ -82,7 +82,7 @@ impl ParallelFigure<'_> {
         let (low, high) = self.ends(k);
         let x = SIDE + k as f64 * self.step();
         let name = in_words(&self.axes[k]);
-        // Names of neighbours are at two heights, so that each has the room of two axes.
+        // Names of neighbours are at two heights, so that each has the width of two axes.
         let above = [22.0, 36.0][k % 2];
         let room = 1.8 * self.step().min(90.0);
         let size = fitting(&name, 12.0, room);

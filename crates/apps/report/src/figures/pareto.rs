@@ -92,7 +92,7 @@ pub(crate) fn physical_axes(designs: &Designs) -> [CriterionAxis; 4] {
 }
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 /// Colour of dominated designs.
-const BEATEN: &str = "#b5b5b5";
+const DOMINATED: &str = "#b5b5b5";
 
 /// Draws the designs in all pairs of criteria; `None` for fewer than two designs.
 pub(crate) fn figure(
@@ -164,9 +164,9 @@ fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element
         points.iter().zip(&on_front).filter(|(_, on)| **on).map(|(point, _)| point).collect();
     front.sort_by(|a, b| a.criteria[0].total_cmp(&b.criteria[0]));
     // The front keeps all its marks; dominated designs of long tables are thinned.
-    let beaten = thinned(points.len(), PAIRS.len()).filter(|&k| !on_front[k]).map(|k| {
+    let dominated = thinned(points.len(), PAIRS.len()).filter(|&k| !on_front[k]).map(|k| {
         let (point, dot) = (&points[k], Element::new("use").with("href", "#dot"));
-        let dot = dot.at("x", point.spot[0]).at("y", point.spot[1]).with("color", BEATEN);
+        let dot = dot.at("x", point.spot[0]).at("y", point.spot[1]).with("color", DOMINATED);
         dot.with("data-design", designs.design(point.row))
     });
     let spots: Vec<Spot> = front.iter().map(|point| point.spot).collect();
@@ -175,7 +175,7 @@ fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element
         .iter()
         .filter_map(|p| design_mark(designs, palette, p.row, p.spot, MarkLook::of(designs, p.row)));
     Element::group("front")
-        .containing(beaten)
+        .containing(dominated)
         .containing([line.with("class", "line")])
         .containing(marks)
 }

@@ -75,7 +75,7 @@ impl PageFront {
             inside.extend(self.panel(grid, pair, area, pairs.len()));
         }
         let rows = pairs.len().div_ceil(columns) as f64;
-        sheet(WIDTH, above + rows * (PANEL + below), "What a search has found", inside)
+        sheet(WIDTH, above + rows * (PANEL + below), "Designs found by the search", inside)
     }
 
     /// Draws one panel: grid designs, designs found, and the line of a front.

@@ -168,7 +168,7 @@ fn a_guided_needle_keeps_its_horizontal_position() {
     assert_eq!((needles.len(), rings.len()), (2, 2), "{text}");
     assert_eq!(needles[0], needles[1]);
     assert!(rings[0] > needles[0] + 1.0 && rings[1] > rings[0], "{rings:?} {needles:?}");
-    assert_eq!(text.matches("○ where the needle was set down").count(), 2);
+    assert_eq!(text.matches("○ first contact of the needle").count(), 2);
     assert!(!svg(&design, &punctured(&design, 9677.0)).contains("set-down"));
 }
 
@@ -192,11 +192,11 @@ fn a_round_tip_touches_both_corners() {
     let lowest = 1.0 + 0.4 - 0.5 - 0.05;
     let [x, y] = state.tip.expect("a tip");
     assert!((x - (0.5 * design.length + 0.3)).abs() < 1e-12 && (y - lowest).abs() < 1e-12);
-    // The tip was set down on no scale, so there is no ring.
+    // The tip starts between two scales, so there is no ring.
     let between = format!("load_position = {}", parameters.load_position);
     let needle = format!("needle = 'guided'\nneedle_radius_over_t = 0.5\n{between}");
     let text = drawn(&case(&design, &needle, ""), &[state]);
-    assert!(text.contains("class=\"tip\"") && !text.contains("set down"), "{text}");
+    assert!(text.contains("class=\"tip\"") && !text.contains("first contact"), "{text}");
 }
 
 /// Returns the number of outlines in each group with this class.

@@ -359,8 +359,8 @@ fn only_measures_affected_by_folds_are_crossed_out() {
         [true, true, true, false, false, false]
     );
     let all = figures("x", &designs, None, Paper::WIDE);
-    assert!(figure(&all, "critical-force").contains("do not trust"));
-    assert!(!figure(&all, "compliance").contains("do not trust"));
+    assert!(figure(&all, "critical-force").contains("surface folds: not valid"));
+    assert!(!figure(&all, "compliance").contains("surface folds: not valid"));
 }
 
 #[test]

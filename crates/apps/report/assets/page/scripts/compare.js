@@ -42,7 +42,7 @@
     log.checked = state.log;
     const rows = pair(), missing = rows.filter((row) => !squama.solved(row)?.curves);
     control.hidden = drawing.hidden = missing.length === rows.length;
-    words.replaceChildren(squama.element("p", { class: "note" }, `${missing.length > 0 ? `The page holds the curves of ${squama.drawings.length} designs, those that are best for some weights before others. ` : "Dashed: the pinned design. "}With contacts, folds and energies both are drawn by`),
+    words.replaceChildren(squama.element("p", { class: "note" }, `${missing.length > 0 ? `The page has the curves of only ${squama.drawings.length} designs, first of the best for some weights. ` : "Dashed: the pinned design. "}This command draws both with contacts, folds and energies:`),
       squama.command(`squama plot curves ${squama.folder}/run.toml --design ${[...new Set(rows.map(squama.number))].join(",")}`));
     const figure = squama.figures.find(({ kind, choice }) => kind === "curves" && (choice === "log") === state.log);
     if (!figure) return;

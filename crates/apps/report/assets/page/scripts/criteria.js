@@ -39,7 +39,7 @@
     sliders.push({ input, output });
     return squama.element("div", { class: "weight" },
       squama.element("label", { for: id }, ...(isUsual() ? [squama.element("i", {}, LETTERS[k]), " "] : []), squama.criterionName(criterion)), input, output,
-      squama.element("button", { type: "button", title: "Large or small values are good", "aria-label": `${squama.criterionName(criterion)}: turn round which values are good`, onclick: turn }, criterion.goal === "max" ? "↑" : "↓"),
+      squama.element("button", { type: "button", title: "Large or small values are good", "aria-label": `${squama.criterionName(criterion)}: reverse which values are good`, onclick: turn }, criterion.goal === "max" ? "↑" : "↓"),
       squama.element("button", { type: "button", "aria-label": `Leave out ${squama.criterionName(criterion)}`, onclick: remove, disabled: state.criteria.length === 1 }, "✕"));
   };
 
@@ -154,7 +154,7 @@
     showHead();
     showIncomparable();
     const { length } = squama.contest.rows;
-    squama.at("ranking-count").textContent = `${length} designs take part; the other ${squama.count - length} ${squama.meeting.length < squama.count ? "do not meet the requirements, or " : ""}${squama.comparable.now().length > 0 ? "are not measured alike, or " : ""}lack coverage or a value.`;
+    squama.at("ranking-count").textContent = `${length} designs are ranked; the other ${squama.count - length} ${squama.meeting.length < squama.count ? "do not meet the requirements, or " : ""}${squama.comparable.now().length > 0 ? "are measured under other parameters, or " : ""}lack coverage or a value.`;
     show();
   });
   squama.listen("weights", show);

@@ -56,7 +56,7 @@ squama.chooser = (row) => squama.pressed(() => squama.choose(row));
 
 /** Returns the warning sign of a design with a fold; empty for others. */
 squama.warning = (row) => (squama.folded(row)
-  ? [squama.element("span", { class: "warning", title: "The surface of the substrate folds: the critical force is not to be trusted.", role: "img", "aria-label": "folded" }, "⚠")]
+  ? [squama.element("span", { class: "warning", title: "The surface of the substrate folds: the critical force is not valid.", role: "img", "aria-label": "folded" }, "⚠")]
   : []);
 
 /** Creates a command with a copy button. */

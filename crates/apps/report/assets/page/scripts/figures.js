@@ -114,8 +114,8 @@ squama.charts = [];
     chart.area.style.cursor = marks.length > 0 ? "pointer" : "default";
     if (marks.length === 0) return;
     tip.replaceChildren(...marks.slice(0, NAMED).map((mark) => line(chart, mark)),
-      ...(marks.length > NAMED ? [squama.element("div", {}, `and ${marks.length - NAMED} more in the same place`)] : []),
-      ...(marks.some(({ row }) => row !== null && squama.folded(row)) ? [squama.element("small", {}, "⚠ The surface folds: the critical force is not to be trusted.")] : []));
+      ...(marks.length > NAMED ? [squama.element("div", {}, `and ${marks.length - NAMED} more at the same position`)] : []),
+      ...(marks.some(({ row }) => row !== null && squama.folded(row)) ? [squama.element("small", {}, "⚠ The surface folds: the critical force is not valid.")] : []));
     tip.style.left = `${Math.max(4, Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 6))}px`;
     tip.style.top = `${event.clientY + 16 + tip.offsetHeight > innerHeight ? event.clientY - tip.offsetHeight - 8 : event.clientY + 16}px`;
   };

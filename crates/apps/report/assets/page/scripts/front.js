@@ -9,10 +9,10 @@
   const isFront = found.objectives.length > 1;
 
   /** Designs of the grid that meet the requirements of the search. */
-  const could = new Set(ranking.meeting(squama, found.requirements.filter(({ column }) => squama.has(column)), (row) => !(found.sound && squama.folded(row))));
+  const feasible = new Set(ranking.meeting(squama, found.requirements.filter(({ column }) => squama.has(column)), (row) => !(found.sound && squama.folded(row))));
 
   /** Returns true if the found design dominates a design of the grid. */
-  const beats = (k, row) => {
+  const dominates = (k, row) => {
     const better = found.objectives.map(({ column, goal }) => {
       const [own, other] = [cell(k, column), squama.numbers(column)[row]];
       return ranking.same(own, other) ? 0 : (goal === "max" ? 1 : -1) * Math.sign(own - other);
@@ -23,15 +23,15 @@
   const words = () => {
     const objectives = found.objectives.map(({ column, goal }) => `${goal === "max" ? "largest" : "least"} ${squama.label(column)}`).join(" and ");
     const bounds = found.requirements.map(ranking.written).join(", ");
-    const judged = [...could].filter((row) => found.objectives.every(({ column }) => !Number.isNaN(squama.numbers(column)[row])));
-    const beaten = judged.filter((row) => rows.some((k) => beats(k, row))).length;
-    const grid = judged.length === 0 ? "No design of the grid keeps them." : `Of the ${judged.length} designs of the grid that keep them, ${beaten === judged.length ? "all" : beaten} are beaten by one that was found.`;
-    const made = found.made.length === 0 ? "" : ` Judged by what is made of each design, ${found.made.join(" and ")}, which stand in the table with their 95 % intervals; everything else shows designs as they are drawn.`;
-    return `${isFront ? `${found.count} designs of a front` : "The best design"} between those of the grid, from ${found.folder}: ${objectives}${bounds === "" ? "" : `; ${bounds}`}${found.sound ? "; the surface does not fold" : ""}.${made} ${grid}`;
+    const judged = [...feasible].filter((row) => found.objectives.every(({ column }) => !Number.isNaN(squama.numbers(column)[row])));
+    const dominated = judged.filter((row) => rows.some((k) => dominates(k, row))).length;
+    const grid = judged.length === 0 ? "No design of the grid meets them." : `Of the ${judged.length} designs of the grid that meet them, ${dominated === judged.length ? "all" : dominated} are dominated by a design found.`;
+    const made = found.made.length === 0 ? "" : ` The search used statistics over samples, ${found.made.join(" and ")}, which the table lists with their 95 % intervals; all other values are nominal.`;
+    return `${isFront ? `Front of ${found.count} designs` : "Best design"} found by the search in ${found.folder}: ${objectives}${bounds === "" ? "" : `; ${bounds}`}${found.sound ? "; the surface does not fold" : ""}.${made} ${grid}`;
   };
   squama.at("front-words").textContent = words();
   squama.at("front-differences").hidden = found.differences.length === 0;
-  squama.at("front-differences").textContent = `⚠ The search does not solve what the grid solves: ${found.differences.join(", ")}.`;
+  squama.at("front-differences").textContent = `⚠ Fixed parameters of the search differ from the grid: ${found.differences.join(", ")}.`;
 
   const value = (k, name) => squama.short(cell(k, name));
   const title = (k) => `${isFront ? `Front ${k + 1}` : "Optimum"}: ${columns.map((name) => `${squama.label(name)} ${value(k, name)}`).join(", ")}`;
@@ -42,8 +42,8 @@
   squama.at("front").hidden = false;
   squama.at("front-link").hidden = false;
   squama.addChart({
-    id: "front", into: squama.at("front-figure"), title: isFront ? "The front over the designs of the grid" : "The best design over those of the grid",
-    description: "Diamonds: found by the search. Grey: designs of the grid; pale: outside the bounds of the search. Click a diamond to open it in the explorer.", tip, take, passes: (row) => could.has(row), columns: () => found.axes,
+    id: "front", into: squama.at("front-figure"), title: isFront ? "The front over the designs of the grid" : "The best design over the designs of the grid",
+    description: "Diamonds: found by the search. Grey: designs of the grid; pale: outside the bounds of the search. Click a diamond to open it in the explorer.", tip, take, passes: (row) => feasible.has(row), columns: () => found.axes,
   });
 
   const within = (k, name) => `${value(k, name)} (${value(k, `${name}_low`)} to ${value(k, `${name}_high`)})`;

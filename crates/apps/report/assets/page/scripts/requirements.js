@@ -18,7 +18,7 @@
     const label = squama.label(one.column), isText = one.sign === "~";
     return squama.element("li", {},
       squama.dropdown({ "aria-label": "Column", onchange: (event) => change(k, { column: event.target.value, sign: isText ? ">=" : one.sign, limit: isText ? 0 : one.limit }) }, columns(one.column), one.column),
-      squama.dropdown({ "aria-label": `How ${label} stands to the limit`, onchange: (event) => change(k, { sign: event.target.value }) },
+      squama.dropdown({ "aria-label": `Relation of ${label} to its limit`, onchange: (event) => change(k, { sign: event.target.value }) },
         isText ? [["~", "has"]] : [[">=", "≥"], ["<=", "≤"], [">", ">"], ["<", "<"], ["==", "="]], one.sign),
       squama.element("input", { type: "text", inputmode: isText ? null : "decimal", value: one.limit, "aria-label": `Limit of ${label}`, oninput: (event) => {
         const limit = isText ? event.target.value : ranking.number(event.target.value), isRead = isText || Number.isFinite(limit);

@@ -65,7 +65,7 @@
     .map((name) => ({ row, measure: name.replace("_status", ""), reason: squama.cell(row, name) })));
   const list = squama.at("failure-list");
   if (failed.length === 0) {
-    list.append(squama.element("p", {}, "None: every design that was asked for has every value."));
+    list.append(squama.element("p", {}, "None: every design has all requested values."));
   } else {
     list.append(squama.element("div", { class: "wide" }, squama.element("table", {},
       squama.element("thead", {}, squama.element("tr", {}, ...["design", "measure", "reason"].map((text) => squama.element("th", { scope: "col" }, text)))),
