@@ -1,8 +1,9 @@
 //! Finite-element deck of a punctured row, for `CalculiX` and Abaqus.
 //!
 //! One row of scales stands on a block of substrate; the middle scale is pushed down along a line
-//! across its top. Quadratic hexahedra, one half by symmetry in `y`. Bases and substrate share
-//! nodes, neighbouring scales have contact. Lengths in mm, forces in N, stresses in `MPa`.
+//! across its top. The elements are quadratic hexahedra, for one half of the symmetric row in `y`.
+//! Bases and substrate share nodes; neighbouring scales have contact. Lengths in mm, forces in N,
+//! stresses in `MPa`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -51,13 +52,13 @@ pub struct Puncture {
 )]
 pub struct NoDeck(usize);
 
-/// A node by its block (0: substrate, then the scales) and its place in the grid of half elements.
-type Place = [usize; 4];
+/// Block of a node (0: substrate, then the scales), and its indices in the grid of half elements.
+type NodeIndex = [usize; 4];
 
 /// Nodes and elements.
 #[derive(Default)]
 struct Mesh {
-    nodes: BTreeMap<Place, usize>,
+    nodes: BTreeMap<NodeIndex, usize>,
     coordinates: Vec<[f64; 3]>,
     elements: Vec<[usize; 20]>,
 }
@@ -105,7 +106,7 @@ fn growing(first: f64, total: f64) -> Vec<f64> {
 
 impl Mesh {
     /// Returns the number of a node, which is created at its first use.
-    fn node(&mut self, place: Place, coordinates: [f64; 3]) -> usize {
+    fn node(&mut self, place: NodeIndex, coordinates: [f64; 3]) -> usize {
         let next = self.nodes.len() + 1;
         let number = *self.nodes.entry(place).or_insert(next);
         if number == next {
@@ -116,11 +117,11 @@ impl Mesh {
 
     /// Adds a block of elements, and returns their numbers from 0, along the first axis first.
     ///
-    /// `node` gives a node from its place in the block, in half elements.
+    /// `node` returns the node at given indices in the block, in half elements.
     fn block(
         &mut self,
         [along, across, height]: [usize; 3],
-        node: impl Fn([usize; 3]) -> (Place, [f64; 3]),
+        node: impl Fn([usize; 3]) -> (NodeIndex, [f64; 3]),
     ) -> Range<usize> {
         let first = self.elements.len();
         for element in 0..along * across * height {
@@ -341,7 +342,7 @@ fn contacts(
             }
         }
     }
-    // A pressure of E_s overlaps by a thousandth of the thickness.
+    // Under a pressure of E_s, surfaces overlap by a thousandth of the thickness.
     let stiffness = 1e3 * puncture.substrate / t;
     let _ = write!(
         text,

@@ -137,7 +137,7 @@ impl Patch {
         if length >= around {
             return Err(NoPatch::Circumference(length, around));
         }
-        // Inside a concave body the membrane has room.
+        // Only a convex body limits the thickness of the membrane.
         if (0.0..=patch.membrane).contains(&radius) {
             return Err(NoPatch::Membrane(patch.membrane, radius));
         }
@@ -238,7 +238,7 @@ impl Patch {
     }
 
     /// Returns the lower left corners of the bases (`x`, `y`), row by row.
-    pub fn places(&self) -> impl Iterator<Item = [f64; 2]> {
+    pub fn base_corners(&self) -> impl Iterator<Item = [f64; 2]> {
         let ([gx, gy], [px, py], [nx, ny]) = (self.gaps(), self.pitches(), self.scales);
         (0..ny).flat_map(move |j| {
             let first = gx + self.row_shift(j);
@@ -254,7 +254,7 @@ impl Patch {
     fn flat_solids(&self) -> Solids {
         let ([length, breadth, h], profile) = (self.membrane_size(), self.profile());
         let outline = vec![[0.0, 0.0], [length, 0.0], [length, h], [0.0, h]];
-        let scales = self.places().map(|[x, y]| Prism {
+        let scales = self.base_corners().map(|[x, y]| Prism {
             outline: profile.iter().map(|[along, up]| [x + along, h + up]).collect(),
             across: [y, y + self.width],
         });
@@ -268,7 +268,7 @@ impl Patch {
     fn curved_solids(&self) -> Solids {
         let (mut membrane, mut scales) = (Vec::new(), Vec::new());
         let ([length, breadth, _], places) =
-            (self.membrane_size(), self.places().collect::<Vec<_>>());
+            (self.membrane_size(), self.base_corners().collect::<Vec<_>>());
         for (j, row) in places.chunks(self.scales[0]).enumerate() {
             // Each rung joins a point of the surface, from left to right, to the point below it on
             // the lower face of the membrane.
@@ -281,7 +281,8 @@ impl Patch {
                 rungs.extend([-half_base, half_base].map(|along| self.rung(&frame, along)));
             }
             rungs.push(self.rung(&self.frame(length), 0.0));
-            // Shifted rows bend the membrane at other places, in strips that meet between rows.
+            // A shifted row bends the membrane at different positions than its neighbours, so each row
+            // has its own strip.
             let rows = if self.is_brick { self.scales[1] } else { 1 };
             if j < rows {
                 let from = if j == 0 { 0.0 } else { self.middle_before(j) };
@@ -408,7 +409,7 @@ pub(crate) mod tests {
     #[test]
     fn every_second_row_of_a_brick_laid_patch_is_shifted_by_half_a_pitch() {
         let patch = patch().brick_laid();
-        let places: Vec<_> = patch.places().collect();
+        let places: Vec<_> = patch.base_corners().collect();
         let half = patch.pitches()[0] / 2.0;
         assert!((places[5][0] - places[0][0] - half).abs() < 1e-12);
         assert_eq!(places[10][0], places[0][0]);

@@ -125,7 +125,7 @@ impl Sheet {
         let size = [length + 2.0 * RIM, width + 2.0 * RIM];
         let origin = [0.0, top + SPACING];
         // Cut holes before the rim, because a part may shift once it is cut out.
-        for [x, y] in patch.places() {
+        for [x, y] in patch.base_corners() {
             let place = [origin[0] + RIM + x, origin[1] + RIM + y];
             self.add(Self::LAYERS[1], rectangle(place, hole, -kerf / 2.0));
         }
@@ -189,7 +189,7 @@ mod tests {
         assert!((hole[1][0] - hole[0][0] + kerf - patch.base() - lean).abs() < 1e-12);
         assert!((hole[2][1] - hole[1][1] + kerf - patch.width()).abs() < 1e-12);
         let pitch = template[1].corners[0][0] - hole[0][0];
-        assert!((pitch - patch.pitches()[0]).abs() < 1e-12, "the template holds the pitch");
+        assert!((pitch - patch.pitches()[0]).abs() < 1e-12, "holes are at the pitch");
     }
 
     #[test]

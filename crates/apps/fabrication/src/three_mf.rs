@@ -34,9 +34,9 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
     ];
     for (name, text) in files {
         zip.start_file(name, options).expect("a name is used once");
-        zip.write_all(text.as_bytes()).expect("memory takes what is written");
+        zip.write_all(text.as_bytes()).expect("writing to memory succeeds");
     }
-    zip.finish().expect("memory takes what is written").into_inner()
+    zip.finish().expect("writing to memory succeeds").into_inner()
 }
 
 /// Writes scales and membrane as two parts of one object.
