@@ -7,7 +7,7 @@ use crate::{CheckedClaim, Finding};
 #[derive(Clone, Debug)]
 pub struct ChangedVerdicts {
     /// The statements with another verdict, as rows of their table.
-    turned: Vec<String>,
+    changed: Vec<String>,
     /// The number of statements with the same verdict.
     kept: usize,
 }
@@ -22,35 +22,35 @@ impl ChangedVerdicts {
         bases: usize,
     ) -> Self {
         // All models have the same claims in the same order.
-        let turned = paper.iter().enumerate().flat_map(|(k, claim)| {
+        let changed = paper.iter().enumerate().flat_map(|(k, claim)| {
             let others: Vec<_> = others.iter().map(|claims| &claims[k]).collect();
-            claim.rows_beside(&others, bases, turns)
+            claim.rows_beside(&others, bases, differs)
         });
-        let turned: Vec<_> = turned.collect();
+        let changed: Vec<_> = changed.collect();
         let all: usize = paper.iter().map(|claim| claim.statements.len()).sum();
-        Self { kept: all - turned.len(), turned }
+        Self { kept: all - changed.len(), changed }
     }
 
     /// Returns a table of the statements with another verdict for a friction of 0.1 or 0.3.
     pub(crate) fn in_words(&self) -> String {
         let kept = self.kept;
         let setting = "With a friction of 0.1 and of 0.3, and the base L,";
-        if self.turned.is_empty() {
+        if self.changed.is_empty() {
             return format!("{setting} all {kept} statements of the claims keep their verdict.\n");
         }
         format!(
             "{setting} {kept} statements of the claims keep their verdict, and these do not:\n\n| | No friction | 0.1 | 0.3 |\n|---|---|---|---|\n{}",
-            lines(&self.turned, String::clone)
+            lines(&self.changed, String::clone)
         )
     }
 
     /// Returns the parts of the page in Markdown: the rows, and the number of unchanged verdicts.
-    pub(crate) fn parts(&self, [turned, kept]: [&'static str; 2]) -> [(&'static str, String); 2] {
-        [(turned, lines(&self.turned, String::clone)), (kept, self.kept.to_string())]
+    pub(crate) fn parts(&self, [changed, kept]: [&'static str; 2]) -> [(&'static str, String); 2] {
+        [(changed, lines(&self.changed, String::clone)), (kept, self.kept.to_string())]
     }
 }
 
 /// Returns true if the findings of a statement have different verdicts.
-fn turns(found: &[&Finding]) -> bool {
+fn differs(found: &[&Finding]) -> bool {
     found.windows(2).any(|pair| pair[0].verdict != pair[1].verdict)
 }

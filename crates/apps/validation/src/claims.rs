@@ -22,7 +22,7 @@ pub use verdict::Verdict;
 
 use crate::study::{MeasuredDesign, Study};
 
-/// The table of claims with their places in the paper.
+/// The table of claims, each with its section or figure in the paper.
 const CLAIMS: &str = include_str!("../claims.csv");
 
 /// The table of statements with the measured quantities and their limits.

@@ -79,7 +79,7 @@ impl GridGapSearch {
         let ranking = Ranking::new(&sound, TetrahedralGrid::default())?;
         let ends = ends(&ranking);
         let alone = Weights::alone().zip(CRITERIA.iter().map(|criterion| criterion.name.as_ref()));
-        let weights = alone.chain([(Weights::BALANCED, "all four alike")]);
+        let weights = alone.chain([(Weights::BALANCED, "all four equal")]);
         let fittest = weights.map(|weights| {
             let winner = ranking.winner(weights.0);
             // The rows of the ranking are indices into the designs without a fold.
@@ -94,7 +94,7 @@ impl GridGapSearch {
         let FrontOverGrid { designs, grid, grid_front, undominated } = self.front;
         let front = format!(
             "The Pareto front of critical force and coverage, with a compliance of at least {LEAST_COMPLIANCE}, has {designs} designs. {grid} designs of the grid \
-             do not fold and bend that well; {grid_front} of them are on their own Pareto front, and the front of the search neither equals nor beats {undominated} of them."
+             have no fold and this compliance; {grid_front} of them are on their own Pareto front. Designs of the grid that the front of the search neither equals nor dominates: {undominated}."
         );
         [("between", lines(&self.fittest, FittestDesign::row)), ("front", front)]
     }

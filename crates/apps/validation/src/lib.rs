@@ -153,10 +153,11 @@ impl Validation {
         let between = between.transpose()?;
         begin("strips of equal gaps");
         let gap_counts = StripLength::all()?;
-        let (sensitivity, effects, rubbing) = sensitivity::sensitivity(settings, &paper, begin)?;
-        let rubbing: Vec<_> = rubbing.iter().map(Vec::as_slice).collect();
+        let (sensitivity, effects, with_friction) =
+            sensitivity::sensitivity(settings, &paper, begin)?;
+        let with_friction: Vec<_> = with_friction.iter().map(Vec::as_slice).collect();
         // The sweep over friction has only the base L.
-        let friction = ChangedVerdicts::compare(&claims, &rubbing, 1);
+        let friction = ChangedVerdicts::compare(&claims, &with_friction, 1);
         Ok(Self {
             benchmarks,
             claims,

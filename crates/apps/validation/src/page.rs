@@ -28,7 +28,7 @@ impl Validation {
         ];
         parts.extend(self.soundness.parts());
         parts.extend(
-            self.needle.parts(["claims turned by the needle", "claims kept under the needle"]),
+            self.needle.parts(["claims changed by the needle", "claims kept under the needle"]),
         );
         parts.push(("claims with friction", self.friction.in_words()));
         let mut page = PAGE.to_owned();

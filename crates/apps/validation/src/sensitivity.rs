@@ -155,13 +155,13 @@ pub(crate) fn sensitivity(
         }
     }
     // The first setting has no friction and therefore the claims of the paper.
-    let rubbing = frictions.iter().skip(1).map(|(_, study)| claims::check([study; 2]));
-    let rubbing = rubbing.collect::<Result<_, _>>()?;
+    let with_friction = frictions.iter().skip(1).map(|(_, study)| claims::check([study; 2]));
+    let with_friction = with_friction.collect::<Result<_, _>>()?;
     let [coupling, friction] = [couplings, frictions].map(|studies| {
         let others = studies.iter().skip(1);
         others.flat_map(|other| ChoiceEffect::of(&studies[0].1, other)).collect()
     });
-    Ok((all, ChoiceEffects { coupling, friction }, rubbing))
+    Ok((all, ChoiceEffects { coupling, friction }, with_friction))
 }
 
 impl ChoiceEffect {
@@ -201,7 +201,7 @@ impl Headlines {
     pub(crate) fn of(study: &Study) -> Self {
         let best = study.design(0.1, 0.1, 75.0);
         let force = best.and_then(|design| design.critical_force);
-        // A study without a ranking has a row that says so, because that is a result, too.
+        // A study without a ranking keeps its row, which states that there is none.
         let ranking = Ranking::new(&study.results, TetrahedralGrid::default()).ok();
         let weights = std::iter::once(Weights::BALANCED).chain(Weights::alone());
         let mut winners = weights.map(|weights| {

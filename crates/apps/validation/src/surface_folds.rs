@@ -18,7 +18,7 @@ pub struct SurfaceFolds {
     /// Rows for the statements of the claims in [`CONCERNED`].
     claims: Vec<String>,
     /// Rows for other claims that change their verdict with the law.
-    turned: Vec<String>,
+    changed: Vec<String>,
 }
 
 impl SurfaceFolds {
@@ -31,27 +31,27 @@ impl SurfaceFolds {
         neo_hookean: &[Study; 2],
         claims: [&[CheckedClaim]; 2],
     ) -> Self {
-        let (mut rows_of_claims, mut turned) = (Vec::new(), Vec::new());
+        let (mut rows_of_claims, mut changed) = (Vec::new(), Vec::new());
         for (claim, other) in claims[0].iter().zip(claims[1]) {
             if CONCERNED.contains(&claim.claim.id.as_str()) {
                 rows_of_claims.extend(claim.rows_beside(&[other], 2, |_| true));
             } else if claim.verdicts != other.verdicts {
-                turned.push(claim.claim.id.clone());
+                changed.push(claim.claim.id.clone());
             }
         }
-        Self { rows: rows(linear, neo_hookean), claims: rows_of_claims, turned }
+        Self { rows: rows(linear, neo_hookean), claims: rows_of_claims, changed }
     }
 
     /// Returns the parts of the page in Markdown, by their names.
     pub(crate) fn parts(&self) -> [(&'static str, String); 3] {
-        let turned = match self.turned.as_slice() {
+        let changed = match self.changed.as_slice() {
             [] => "No other claim has another verdict.".to_owned(),
-            turned => format!("Other claims with another verdict: {}.", turned.join(", ")),
+            changed => format!("Other claims with another verdict: {}.", changed.join(", ")),
         };
         [
             ("folds", lines(&self.rows, |row| format!("| {} |", row.join(" | ")))),
             ("claims on folds", lines(&self.claims, String::clone)),
-            ("other claims", turned),
+            ("other claims", changed),
         ]
     }
 }
@@ -75,10 +75,10 @@ fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
                 digits,
             )
         }),
-        ("width of the tightest gap at 10°, over that at rest", |study| {
+        ("width of the narrowest gap at 10°, over its width at rest", |study| {
             spread(study.designs.iter().filter_map(|d| d.gap_stretch_min).reduce(f64::min), digits)
         }),
-        ("width of the widest", |study| {
+        ("width of the widest gap at 10°, over its width at rest", |study| {
             spread(study.designs.iter().filter_map(|d| d.gap_stretch_max).reduce(f64::max), digits)
         }),
         ("largest `F_c*`", |study| largest(study, |design| design.critical_force)),
@@ -89,11 +89,11 @@ fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
         [what.to_owned(), a, b, c, d]
     });
     let mut rows: Vec<[String; 5]> = rows.collect();
-    for (what, folded) in [("that fold", true), ("that do not", false)] {
+    for (what, folded) in [("that fold", true), ("that do not fold", false)] {
         let changes = [0, 1].map(|base| changes(&linear[base], &neo_hookean[base], folded));
         let [paper, as_written] = changes;
         let what = format!(
-            "`F_c*` against linear springs, of designs {what} there: smallest, median, largest"
+            "change of `F_c*` from linear springs, of designs {what} on them: smallest, median, largest"
         );
         // The columns of linear springs stay empty, because linear springs are the reference.
         rows.push([what, String::new(), paper, String::new(), as_written]);

@@ -197,7 +197,7 @@ fn rows_without_contact_count_as_latest_contact() {
 }
 
 #[test]
-fn steps_without_a_value_do_not_count() {
+fn steps_without_a_value_count_against_a_trend() {
     let line = |values: [Option<f64>; 5]| {
         let gaps = [0.1, 0.2, 0.3, 0.4, 0.5];
         let along = gaps.iter().zip(values);
