@@ -6,7 +6,7 @@ from scipy.optimize import minimize
 
 import squama
 
-warnings.simplefilter("ignore", squama.KinkWarning)  # SLSQP can do nothing about kinks, not even with a mean; squama.optimise can.
+warnings.simplefilter("ignore", squama.KinkWarning)  # SLSQP cannot handle kinks, even with mean slopes; squama.optimise can.
 
 keys = ["gap_over_t", "slant_deg"]
 skin = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60)

@@ -11,7 +11,7 @@
 //! | `work` | interruptible work with progress |
 //! | `value`, `error` | values and errors between the two languages |
 
-#![expect(clippy::needless_pass_by_value, reason = "what comes from Python is taken by value")]
+#![expect(clippy::needless_pass_by_value, reason = "PyO3 passes arguments by value")]
 
 mod error;
 mod gradient;

@@ -104,7 +104,7 @@ fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
     })
 }
 
-/// The measures that a call asks for, and the columns if it names nothing but columns.
+/// The measures requested by a call, and the columns if it names only columns.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RequestedMeasures {
     pub measures: Vec<Measure>,
@@ -125,7 +125,7 @@ pub fn asked(of: Option<&Bound<'_, PyAny>>) -> PyResult<RequestedMeasures> {
             None if name == "all" => Ok(Measure::USUAL.to_vec()),
             None => {
                 let expected =
-                    "all, coverage, puncture, flexure, sensitivity, a value of these, or a list";
+                    "all, coverage, puncture, flexure, sensitivity, one of their columns, or a list";
                 Err(error::invalid_parameter(of.py(), "measures", Some(of.clone()), expected))
             }
         })
@@ -263,8 +263,8 @@ impl Skin {
         given.collect::<PyResult<Vec<_>>>()?.into_py_dict(py)
     }
 
-    /// Returns the failure modes, each with the reason for which it is not judged; `None` unless
-    /// the first failure is sought.
+    /// Returns the failure modes, each with the reason if it is not judged; `None` unless the first
+    /// failure is computed.
     #[getter]
     fn failure_modes<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let modes = self.case().judged_modes();

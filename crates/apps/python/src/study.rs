@@ -103,7 +103,7 @@ pub fn run(
             work: &watch.run,
         };
         ::run::run(&sweep, Subset::default(), &place, start, &options, &PROGRAM, |progress| {
-            watch.tell(progress);
+            watch.update(progress);
         })
     })?;
     // Failed designs are results; only an interrupt leaves designs missing.

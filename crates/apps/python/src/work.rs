@@ -39,7 +39,7 @@ pub struct Watch {
 
 impl Watch {
     /// Updates the counters from the progress of a run.
-    pub fn tell(&self, progress: Progress) {
+    pub fn update(&self, progress: Progress) {
         match progress {
             Progress::Begun { designs, done } => {
                 self.all.store(designs as usize, Ordering::Relaxed);

@@ -129,7 +129,7 @@ def test_skins_are_immutable_values():
     assert SKIN._repr_svg_().startswith("<svg")
 
 
-def test_a_skin_in_mm():
+def test_lengths_in_mm_equal_lengths_over_the_thickness():
     skin = squama.Skin(gap_mm=0.25, length_mm=1.25, slant_deg=60, thickness_mm=2.5, substrate_modulus_MPa=0.31)
     assert (skin.gap_over_t, skin.length_over_t, skin.gap_mm) == (0.1, 0.5, 0.25)
     assert skin.replace(gap_mm=0.5).gap_over_t == 0.2
@@ -140,7 +140,7 @@ def test_a_skin_in_mm():
     assert gradient[0] == pytest.approx(over_t[0] / 2.5, rel=1e-9)
 
 
-def test_definitions_of_several_designs():
+def test_a_design_of_a_definition_is_selected_by_number():
     assert squama.Skin.from_toml(SMOKE, design=2) == squama.Skin.all_from_toml(str(SMOKE))[1]
     for design in (None, 0, 10_000):
         with pytest.raises(squama.InvalidParameter, match="the number of one of its"):
@@ -418,7 +418,7 @@ def ended_early(begin, ending):
     return process.wait() != 0
 
 
-@pytest.mark.skipif(not os.environ.get("SQUAMA") or os.name == "nt", reason="SQUAMA names no command to go on with")
+@pytest.mark.skipif(not os.environ.get("SQUAMA") or os.name == "nt", reason="SQUAMA names no command to resume with")
 def test_command_and_package_resume_each_others_runs(tmp_path):
     command, part, other = os.environ["SQUAMA"], tmp_path / "part", tmp_path / "other"
     definition = tmp_path / "long.toml"
@@ -443,13 +443,13 @@ def test_command_and_package_resume_each_others_runs(tmp_path):
     assert (part / "designs.csv").read_bytes() == (other / "designs.csv").read_bytes()
 
 
-def test_a_bar_is_shown(capsys):
+def test_a_progress_bar_is_shown(capsys):
     squama.solve_many([SKIN.replace(slant_deg=k / 10) for k in range(600)], progress=True)
     shown = capsys.readouterr().err
     assert "/600 designs" in shown and shown.endswith("\r")
 
 
-def test_searches_and_tolerances(tmp_path):
+def test_searches_and_tolerances_return_their_tables(tmp_path):
     goal = tmp_path / "goal.toml"
     goal.write_text(
         "name = 'covered'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n"
@@ -525,20 +525,20 @@ def test_the_example_of_the_package_runs():
     assert doctest.testmod(squama) == (0, 4)
 
 
-def test_representations_in_notebooks():
+def test_notebooks_show_results_and_tables_as_html():
     assert "critical_force" in SKIN.solve()._repr_html_() and repr(SKIN.solve()).count("\n") == 0
     table = squama.solve_many([SKIN] * 12)
     assert "12 rows" in table._repr_html_() and "12 rows" in repr(table) and table.row(3)["slant_deg"] == 60
 
 
-def test_pandas_and_matplotlib_if_installed():
+def test_tables_convert_to_data_frames_and_results_are_plotted():
     frame = pytest.importorskip("pandas") and squama.solve_many([SKIN] * 2).to_pandas()
     assert frame["coverage"].tolist() == [SKIN.solve()["coverage"]] * 2
     pytest.importorskip("matplotlib").use("Agg")
     assert len(SKIN.solve().plot()) == 2
 
 
-def test_arrow_if_installed():
+def test_tables_convert_to_arrow():
     arrow = pytest.importorskip("pyarrow")
     table = squama.solve_many([SKIN, stopped()])
     read = arrow.table(table)

@@ -62,7 +62,7 @@ pub struct Follow {
 impl Request {
     /// Returns the measures to compute for `case`.
     ///
-    /// Derivatives on a layer take nine calibrations, and with full coupling each takes seconds.
+    /// Omits derivatives on a layer with full coupling: their nine calibrations take seconds each.
     pub(crate) fn measures(&self, case: &Case) -> Vec<Measure> {
         let is_slow = case.tissue_thickness.is_some() && case.coupling == Coupling::Full;
         let differentiates = self.fine && !is_slow;

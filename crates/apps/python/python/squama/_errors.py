@@ -1,4 +1,4 @@
-"""Exceptions and warnings of the package. All pickle: their arguments are all that they hold."""
+"""Exceptions and warnings of the package. They can be pickled, because their arguments define them."""
 
 
 class InvalidParameter(ValueError):

@@ -33,9 +33,9 @@ def skin():
     lines = [
         "A skin of scales: Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60).",
         "",
-        "Immutable and hashable; it pickles. Every parameter of a definition is a keyword and an attribute. Lengths are",
-        "over the thickness t of the scales; with thickness_mm every *_over_t may be given in mm as *_mm.",
-        "None is the default.",
+        "Skins are immutable and hashable, and can be pickled. Every parameter of a definition is a keyword and an",
+        "attribute; None stands for its default. Lengths are over the thickness t of the scales; with thickness_mm every",
+        "*_over_t may be given in mm as *_mm.",
     ]
     last = None
     for key, section, unit, meaning, expected, default in parameters():

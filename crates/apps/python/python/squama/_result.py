@@ -23,7 +23,7 @@ class Result:
     ``skin``            the skin
     ``status``          ``"complete"``, or the reason why a measure has no value
     ``warnings``        texts: failures, limits of the model, curved bodies and printing, as the commands print them
-    ``values``          all measures as a dict, ``None`` where there is none; ``units`` and ``meanings`` of them
+    ``values``          all measures as a dict, ``None`` for a missing value; ``units`` and ``meanings`` likewise
     ``path``            puncture: displacement, force, tilt … at every equilibrium, as a `Table`
     ``events``          puncture: contacts that open, close and slide, folds and snaps
     ``scales``          puncture: displacement and rotation of every scale at the end
@@ -39,7 +39,7 @@ class Result:
     def __init__(self, skin, solved):
         self.skin, self._solved = skin, solved
 
-    # Taken from the solver on first use; pickling takes everything.
+    # Each property copies its values from the solver on first access. Pickling accesses all of them.
     @cached_property
     def _tables(self):
         return self._solved.tables()

@@ -9,7 +9,7 @@ def replace(self, **parameters):
 
     The name of another material or body replaces all values that it supplies.
     """
-    # A length takes the place of the same length in the other unit.
+    # A length replaces the same length in the other unit.
     lengths = {name.removesuffix("_mm") for name in parameters} | {name.removesuffix("_over_t") for name in parameters}
     other = {f"{name}{unit}" for name in lengths for unit in ("_mm", "_over_t")} - {"thickness_mm"}
     other.update(key for keyword, _, _, keys in named() if keyword in parameters for key in keys)

@@ -10,7 +10,7 @@ from . import _squama
 
 
 def find(known, name, what, given=()):
-    """Returns ``known[name]``; the error suggests a similar name, or the material that is needed and not ``given``."""
+    """Returns ``known[name]``; the error suggests a similar name, or names the material keys that are not ``given``."""
     try:
         return known[name]
     except KeyError:
