@@ -1,4 +1,4 @@
-//! Definitions of sweeps, and settings: read, or refused in a line for each mistake.
+//! Definitions and settings are accepted, or rejected with one line per error.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -8,7 +8,7 @@ fuzz_target!(|text: &str| {
     let (setting, definition) = text.split_once('\n').unwrap_or(("", text));
     let settings: Vec<_> = Setting::parse(setting).into_iter().collect();
     match Sweep::parse(definition, "x.toml", &settings) {
-        // What was read can be written and read again.
+        // An accepted definition can be written and read again.
         Ok(sweep) => assert!(Sweep::parse(&sweep.to_toml(), "x.toml", &[]).is_ok()),
         Err(error) => assert!(error.to_string().lines().all(|mistake| mistake.contains(": "))),
     }

@@ -1,4 +1,6 @@
-//! Journals: read, or refused in one line. The checksums of a text are put right first, so that all else is read too.
+//! Journals are accepted, or rejected with a one-line error.
+//!
+//! Half of the inputs get correct checksums first, so that the contents of their lines are read.
 #![no_main]
 
 use std::io::Cursor;
@@ -19,7 +21,7 @@ fuzz_target!(|bytes: &[u8]| {
     }
 });
 
-/// The header of a small sweep with its checksum, and the lines of `bytes` with theirs.
+/// Returns a journal with correct checksums: the header of a small sweep, and the lines of `bytes`.
 fn sealed(bytes: &[u8]) -> Vec<u8> {
     let definition = Sweep::parse("name = 'x'", "x.toml", &[]).expect("a sweep").to_toml();
     let digest = sha256(&definition);
@@ -36,7 +38,7 @@ fn sealed(bytes: &[u8]) -> Vec<u8> {
     journal
 }
 
-/// A line with the checksum that it must have.
+/// Returns a line of a journal with its checksum.
 fn line(seal: &str, content: &[u8]) -> Vec<u8> {
     let mut hasher = crc32fast::Hasher::new();
     hasher.update(seal.as_bytes());

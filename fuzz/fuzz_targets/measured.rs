@@ -1,4 +1,4 @@
-//! Files of testing machines: read, or refused with the name of the file.
+//! Files of testing machines are accepted, or rejected with an error that names the file.
 #![no_main]
 
 use fit::MeasuredCurve;
@@ -10,7 +10,7 @@ fuzz_target!(|bytes: &[u8]| {
     std::fs::write(&path, bytes).expect("writable");
     match MeasuredCurve::read(&path, None) {
         Ok(curves) => {
-            // No more points than bytes.
+            // A point takes at least one byte.
             let points: usize = curves.iter().map(|curve| curve.points.len()).sum();
             assert!(points <= bytes.len());
             for curve in &curves {

@@ -1,4 +1,4 @@
-//! The record of a run and the statement of its contents: read, or refused in one line.
+//! Records of runs and `contents.toml` are accepted, or rejected with one-line errors.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

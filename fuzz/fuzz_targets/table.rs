@@ -1,4 +1,4 @@
-//! Tables of designs: read, or refused in one line.
+//! Tables of designs are accepted, or rejected with a one-line error.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

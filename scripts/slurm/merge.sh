@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Merges the shards of a sweep of squama; see submit.sh. Fails and names the missing designs until all
-# are solved.
+# Merges the shards of a sweep; see submit.sh. If designs are missing, squama lists them and exits
+# with code 1.
 #SBATCH --open-mode=append
 set -euo pipefail
 . "$1/sweep.sh"
 
-# Shards that have not begun have no journal.
+# Omit shards without a journal, which have not started.
 shards=()
 for shard in "$1/../shards/"*"-of-$SHARDS"; do
     if [ -s "$shard/journal.jsonl" ]; then shards+=("$shard"); fi
