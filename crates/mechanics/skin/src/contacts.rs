@@ -357,7 +357,7 @@ impl Contacts {
         state.active[first..first + FORCES].copy_from_slice(&next.contact.acting());
         // Update the normal forces first, because the friction of the new state depends on them.
         if let Some(before) = before {
-            self.carry_friction(state, &before, contact, force == Force::Partner);
+            self.update_friction(state, &before, contact, force == Force::Partner);
         }
         Some(first + next.valid as usize)
     }

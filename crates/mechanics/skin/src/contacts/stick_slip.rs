@@ -13,7 +13,7 @@ impl Contacts {
     ///
     /// `before` is the state at the event. `is_back` is true if parting corners return to the
     /// previous edge.
-    pub(super) fn carry_friction(
+    pub(super) fn update_friction(
         &self,
         state: &mut SkinState,
         before: &SkinState,
@@ -25,48 +25,89 @@ impl Contacts {
         let ratios = pair.map(|contact| self.ratio(before, contact));
         let mut friction_states =
             pair.map(|contact| self.inherited_friction(before, contact, state));
-        match (before.mode.contacts[contact], state.mode.contacts[contact].edge()) {
-            (_, None) => friction_states[0] = FrictionState::None,
-            (CornerContact::Open, Some(edge)) => {
-                // A newly closed contact has not slid yet; the rates decide whether it slips at
-                // once.
-                friction_states[0] =
-                    FrictionState::Stick { anchor: self.slip_coordinate(state, edge, contact) };
-            }
-            (CornerContact::Corner(_), Some(edge)) => {
-                let here = self.slip_coordinate(state, edge, contact);
-                // A corner that continues with the sliding ratio slips on along the next edge. A
-                // corner that returns, or has a smaller ratio, sticks at the end of its edge.
-                friction_states[0] = if self.is_sliding(ratios[0]) && !is_back {
-                    FrictionState::Slip { sign: -ratios[0].signum(), start: here }
-                } else {
-                    FrictionState::Stick { anchor: here }
-                };
-            }
-            _ => {}
-        }
-        if let CornerContact::Corner(_) = state.mode.contacts[contact] {
-            friction_states[0] = FrictionState::Locked { ratio: ratios[0] };
-        }
+        friction_states[0] = self
+            .changed_friction(state, before, contact, ratios[0], is_back)
+            .unwrap_or(friction_states[0]);
         if friction_states.iter().all(|friction_state| friction_state.carries_friction())
             && Self::slide_along_one_line(state, contact)
         {
             // The previous carrier stays the carrier, because its anchor is known.
             let shared = usize::from(before.mode.friction_states[contact].carries_friction());
             friction_states[shared] = FrictionState::None;
-            // Two contacts that slid in opposite directions have less friction than the limit together,
-            // so the shared contact sticks.
-            let normal = pair.map(|contact| self.own_and_flush_force(&state.z, contact));
-            let sum = ratios[0] * normal[0] + ratios[1] * normal[1];
-            let carrier = pair[1 - shared];
-            if let (FrictionState::Slip { .. }, Some(edge)) =
-                (friction_states[1 - shared], state.mode.contacts[carrier].edge())
-                && !self.is_sliding(sum / (normal[0] + normal[1]))
+            if let Some(anchor) =
+                self.anchor_of_carrier(state, pair, ratios, friction_states[1 - shared], shared)
             {
-                let anchor = self.slip_coordinate(state, edge, carrier);
                 friction_states[1 - shared] = FrictionState::Stick { anchor };
             }
         }
+        self.set_friction_of_pair(state, before, pair, ratios, friction_states);
+    }
+
+    /// Returns the friction state of a contact that closes, opens, or reaches or leaves a corner.
+    ///
+    /// `ratio` is `T/Λ` before the change. `None` for other changes, after which the contact keeps
+    /// the inherited friction.
+    fn changed_friction(
+        &self,
+        state: &SkinState,
+        before: &SkinState,
+        contact: usize,
+        ratio: f64,
+        is_back: bool,
+    ) -> Option<FrictionState> {
+        if let CornerContact::Corner(_) = state.mode.contacts[contact] {
+            return Some(FrictionState::Locked { ratio });
+        }
+        let Some(edge) = state.mode.contacts[contact].edge() else {
+            return Some(FrictionState::None);
+        };
+        let here = self.slip_coordinate(state, edge, contact);
+        match before.mode.contacts[contact] {
+            // A corner that continues with the sliding ratio slips on along the next edge.
+            CornerContact::Corner(_) if self.is_sliding(ratio) && !is_back => {
+                Some(FrictionState::Slip { sign: -ratio.signum(), start: here })
+            }
+            // A corner that returns, or has a smaller ratio, sticks at the end of its edge. A newly
+            // closed contact has not slid yet; the rates decide whether it slips at once.
+            CornerContact::Open | CornerContact::Corner(_) => {
+                Some(FrictionState::Stick { anchor: here })
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns the anchor of a carrier that stops slipping under the friction of both contacts.
+    ///
+    /// Two contacts that slid in opposite directions have less friction than the limit together.
+    /// `None` if the carrier keeps its friction state `carried`.
+    fn anchor_of_carrier(
+        &self,
+        state: &SkinState,
+        pair: [usize; 2],
+        ratios: [f64; 2],
+        carried: FrictionState,
+        shared: usize,
+    ) -> Option<f64> {
+        let normal = pair.map(|contact| self.own_and_flush_force(&state.z, contact));
+        let sum = ratios[0] * normal[0] + ratios[1] * normal[1];
+        let carrier = pair[1 - shared];
+        let edge = state.mode.contacts[carrier].edge()?;
+        let slips = matches!(carried, FrictionState::Slip { .. });
+        (slips && !self.is_sliding(sum / (normal[0] + normal[1])))
+            .then(|| self.slip_coordinate(state, edge, carrier))
+    }
+
+    /// Sets the friction states of a pair and the unknowns that belong to them.
+    ///
+    /// `ratios` are the values of `T/Λ` before the change.
+    fn set_friction_of_pair(
+        &self,
+        state: &mut SkinState,
+        before: &SkinState,
+        pair: [usize; 2],
+        ratios: [f64; 2],
+        friction_states: [FrictionState; 2],
+    ) {
         // Set both states first: the normal force that bounds a multiplier depends on which contact
         // is shared.
         for (contact, friction_state) in pair.into_iter().zip(friction_states) {

@@ -14,12 +14,13 @@ use super::row_exterior::{Beyond, RowExterior};
 use super::surface_fold::FoldObserver;
 use super::system::{Chain, RowLayout};
 use super::{
-    At, Bending, DIRECT_STIFFNESS, FailureMode, LONGEST_ROW, Passage, PerturbedScale, Puncture,
-    PunctureEnd, PunctureMeasures, PunctureParameters, PuncturePoint, RowLength, TIP_REACH,
-    TiltMeasures, ending, failure, overlaps_at_rest,
+    At, Bending, CriticalEvent, DIRECT_STIFFNESS, FailureMode, LONGEST_ROW, Passage,
+    PerturbedScale, Puncture, PunctureEnd, PunctureMeasures, PunctureParameters, PuncturePoint,
+    RowLength, TIP_REACH, TiltMeasures, ending, failure, overlaps_at_rest,
 };
 use crate::arrangement::Arrangement;
 use crate::contacts::pair_constraints;
+use crate::path_location::PointLocator;
 use crate::record::{PathFunction, Record};
 use crate::{Common, Design, PathDetail, Sample, Status, Unloading};
 
@@ -88,23 +89,10 @@ impl Followed {
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         measures.passage = passage;
         if let Some(failure) = failure {
-            let at_end = passage.critical_event.map_or(FailureMode::Tilt, FailureMode::from);
-            let at_end = match status {
-                Status::Complete => Some(at_end),
-                Status::Bent => Some(FailureMode::Bend),
-                _ => None,
-            };
+            let at_end = failure_at_end(status, passage.critical_event);
             measures.failure = failure.measures(path, at_end);
         }
-        let loaded = force.points.first().and_then(Option::as_ref);
-        measures.tissue_pressure_at_force =
-            loaded.map(|point| path.system().tissue_pressure(&point.state));
-        // The outer option tells whether a depth was requested, the inner one whether it was
-        // reached.
-        let deep = depth.points.first().map(|found| found.as_ref().map(|deep| &deep.state));
-        // A skin that fails before this depth carries no more than its final force.
-        let end = Some(&path.point().state).filter(|_| status == Status::Complete);
-        measures.force_at_depth = deep.and_then(|deep| Some(path.system().force(deep.or(end)?)));
+        add_requested(&mut measures, [&depth, &force], path, status);
         let (instability, snaps) = if path.system().is_critical_only() {
             (Vec::new(), Vec::new())
         } else {
@@ -147,6 +135,32 @@ impl Followed {
             places: Vec::new(),
             end: None,
         }
+    }
+}
+
+/// Adds the force at the requested `depth`, and the pressure at the requested `force`.
+fn add_requested(
+    measures: &mut PunctureMeasures,
+    [depth, force]: [&PointLocator<Chain>; 2],
+    path: &Continuation<Chain>,
+    status: Status,
+) {
+    let loaded = force.points.first().and_then(Option::as_ref);
+    measures.tissue_pressure_at_force =
+        loaded.map(|point| path.system().tissue_pressure(&point.state));
+    measures.force_at_depth = depth.points.first().and_then(|deep| {
+        // A skin that fails before this depth carries no more than its final force.
+        let end = Some(path.point()).filter(|_| status == Status::Complete);
+        Some(path.system().force(&deep.as_ref().or(end)?.state))
+    });
+}
+
+/// Returns the mode of failure at the end of a path; `None` if the path ended early.
+fn failure_at_end(status: Status, event: Option<CriticalEvent>) -> Option<FailureMode> {
+    match status {
+        Status::Complete => Some(event.map_or(FailureMode::Tilt, FailureMode::from)),
+        Status::Bent => Some(FailureMode::Bend),
+        _ => None,
     }
 }
 

@@ -219,7 +219,8 @@ impl Problem<'_> {
     ) -> Vec<MeasuredPoint<Chain>> {
         let PathObservers { record, passage, failure, depth: marked, .. } = watch;
         let FoldObserver { folds, first, .. } = &watch.folds;
-        let bent = if is_bent { path.system().bent_at(path.point()) } else { None };
+        let bent =
+            is_bent.then(|| path.system().limit_at(path.point(), FailureMode::Bend)).flatten();
         let summits = self.summits(watch, path, is_bent, bent.as_ref());
         let passed = passage.passed.as_ref();
         let passed = passed.and_then(|[from, to]| event_before(path, [from, to]));
@@ -231,14 +232,9 @@ impl Problem<'_> {
         let deep = first_marked(&marked.points, DEPTH_MARK);
         let loaded = first_marked(&watch.force.points, FORCE_MARK);
         let failed = failure.as_ref().and_then(|failure| failure.first.as_ref());
-        let failed = failed.and_then(|(mode, point)| {
-            let mark = chain.limit_mark(&point.state, *mode);
-            // A fold is anchored to its gap.
-            mark.map_or_else(
-                || folded.clone(),
-                |mark| Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark))),
-            )
-        });
+        // A fold is anchored to its gap, other failures to the limit of a scale.
+        let failed = failed
+            .and_then(|(mode, point)| chain.limit_at(point, *mode).or_else(|| folded.clone()));
         let (mut at_end, at_fold) = at_end_and_fold(folded.is_some(), is_bent);
         // A path that ends before this depth reports its final force instead.
         if !is_bent && !marked.points.is_empty() && deep.is_none() {
@@ -397,9 +393,9 @@ impl Chain {
         AnchoredPoint { anchor: ended.map_or(place.anchor, PathAnchor::Guard), ..place }
     }
 
-    /// Anchors the end of a path to the limit of bending.
-    fn bent_at(&self, point: &SkinPoint) -> Option<AnchoredPoint<SkinMode>> {
-        let mark = self.limit_mark(&point.state, FailureMode::Bend)?;
+    /// Anchors a point to the limit of a scale; `None` if the mode is no such limit.
+    fn limit_at(&self, point: &SkinPoint, mode: FailureMode) -> Option<AnchoredPoint<SkinMode>> {
+        let mark = self.limit_mark(&point.state, mode)?;
         Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark)))
     }
 

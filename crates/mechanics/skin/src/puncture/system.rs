@@ -131,6 +131,45 @@ fn controls(
     controls
 }
 
+/// Creates the needle of a row with this number of contact constraints; `None` for a free one.
+fn guided_needle(
+    parameters: &PunctureParameters,
+    load_arm: Vec2,
+    layout: RowLayout,
+    contacts: usize,
+) -> Option<GuidedNeedle> {
+    match parameters.needle {
+        Needle::Free => None,
+        Needle::Guided { friction } => {
+            Some(GuidedNeedle::new(friction, parameters, load_arm, layout, contacts))
+        }
+    }
+}
+
+/// Returns the stiffness of the bars along the row; `None` for a linear substrate.
+fn bar_stiffness(law: SubstrateLaw, neighbours: &[Neighbour]) -> Option<f64> {
+    match law {
+        SubstrateLaw::Linear => None,
+        // Couplings are stored as `−β`, but the stiffness of a bar is positive.
+        SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
+    }
+}
+
+/// Returns the blocks of the tangent; `None` if couplings exceed the block structure.
+///
+/// A round tip couples several scales across blocks, and contacts may reach farther than the
+/// substrate, which couples a scale with `neighbours` on each side. Band elimination handles both.
+fn tangent_blocks(
+    parameters: &PunctureParameters,
+    layout: RowLayout,
+    contact_reach: usize,
+    neighbours: usize,
+) -> Option<Blocks> {
+    let reach = neighbours.max(1);
+    let has_blocks = contact_reach <= reach && reach <= FARTHEST_LINK;
+    (has_blocks && parameters.needle_radius.is_none()).then(|| layout.blocks(reach))
+}
+
 impl Chain {
     /// Assembles the solved part of a row of this `design`.
     pub(crate) fn new(
@@ -151,30 +190,17 @@ impl Chain {
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
         let load_arm = left + parameters.load_position * (right - left);
         let constraints = forces.len();
-        let needle = match parameters.needle {
-            Needle::Free => None,
-            Needle::Guided { friction } => {
-                Some(GuidedNeedle::new(friction, parameters, load_arm, layout, constraints))
-            }
-        };
+        let needle = guided_needle(parameters, load_arm, layout, constraints);
         let of_needle = needle.iter().flat_map(GuidedNeedle::constraints);
         let constraints = forces.iter().copied().chain(of_needle).collect();
-        let bars = match parameters.substrate_law {
-            SubstrateLaw::Linear => None,
-            // Couplings are stored as `−β`, but the stiffness of a bar is positive.
-            SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
-        };
+        let bars = bar_stiffness(parameters.substrate_law, &neighbours);
         let body = parameters.body();
         let contacts = Contacts::new(arrangement, body, law, scales, forces, false);
         let of_needle = needle.iter().flat_map(|needle| needle.slip_distances.iter().copied());
         let monotone = contacts.slip_distances.iter().copied().chain(of_needle).collect();
-        // A round tip couples several scales across blocks, and contacts may reach farther than the
-        // substrate. Band elimination handles both.
-        let reach = neighbours.len().max(1);
-        let has_blocks = contacts.reach <= reach && reach <= FARTHEST_LINK;
-        let has_blocks = has_blocks && parameters.needle_radius.is_none();
         let mut chain = Self {
             layout,
+            blocks: tangent_blocks(parameters, layout, contacts.reach, neighbours.len()),
             contacts,
             monotone,
             length: design.length,
@@ -187,7 +213,6 @@ impl Chain {
             half_base: a,
             direct,
             roll,
-            blocks: has_blocks.then(|| layout.blocks(reach)),
             neighbours,
             bars,
             exterior,
