@@ -31,8 +31,8 @@ pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, Vec2), poses: &[Pose
         .iter()
         .enumerate()
         .map(|(i, pose)| {
-            let (scale, place) = standing(i);
-            Extents::new(&scale, pose, place)
+            let (scale, node) = standing(i);
+            Extents::new(&scale, pose, node)
         })
         .collect();
     // `begins[k]`: leftmost extent of scale `k` and all scales to its right.

@@ -81,16 +81,16 @@ pub(crate) fn quantity<S: Skin>(measure: &'static str, value: ValueOf<S>) -> Mea
 /// Quantities measured at one point of a path.
 pub(crate) struct MeasuredPoint<S: Skin> {
     /// The point; `None` if unknown.
-    pub(crate) place: Option<AnchoredPoint<S::Mode>>,
+    pub(crate) point: Option<AnchoredPoint<S::Mode>>,
     pub(crate) quantities: Vec<MeasuredQuantity<S>>,
 }
 
 impl<S: Skin> MeasuredPoint<S> {
     pub(crate) fn new(
-        place: Option<AnchoredPoint<S::Mode>>,
+        point: Option<AnchoredPoint<S::Mode>>,
         quantities: impl Into<Vec<MeasuredQuantity<S>>>,
     ) -> Self {
-        Self { place, quantities: quantities.into() }
+        Self { point, quantities: quantities.into() }
     }
 }
 
@@ -119,8 +119,8 @@ pub(crate) fn derivatives<S: Skin>(
 ) -> Vec<Derivative> {
     let mut derivatives = Vec::new();
     // One factorisation serves all quantities at a point.
-    for MeasuredPoint { place, quantities } in merged(spots) {
-        let here = place.and_then(|place| Linearisation::new(system, place).ok());
+    for MeasuredPoint { point, quantities } in merged(spots) {
+        let here = point.and_then(|point| Linearisation::new(system, point).ok());
         // A singular tangent has no unique direction, so there are no derivatives here.
         let Some(here) = here else { continue };
         let turns = quantities.iter().any(|quantity| quantity.turns);
@@ -148,7 +148,7 @@ fn merged<S: Skin>(spots: Vec<MeasuredPoint<S>>) -> Vec<MeasuredPoint<S>> {
     let mut merged: Vec<MeasuredPoint<S>> = Vec::new();
     for spot in spots {
         match merged.iter_mut().find(|other| {
-            match (&other.place, &spot.place) {
+            match (&other.point, &spot.point) {
                 // The same state moves differently under another anchor.
                 (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
                 _ => false,
@@ -263,9 +263,9 @@ pub(crate) fn missing<S: Skin>(
     parameters: usize,
 ) -> Vec<Derivative> {
     let mut derivatives = Vec::new();
-    for MeasuredPoint { place, quantities } in spots {
-        for (quantity, place) in quantities.iter().zip(std::iter::repeat(place)) {
-            let value = place.as_ref().map_or(0.0, |place| quantity.at(skin, place));
+    for MeasuredPoint { point, quantities } in spots {
+        for (quantity, point) in quantities.iter().zip(std::iter::repeat(point)) {
+            let value = point.as_ref().map_or(0.0, |point| quantity.at(skin, point));
             let kink = "no derivative: a stick position depends on another event";
             derivatives.extend((0..parameters).map(|parameter| Derivative {
                 measure: quantity.measure,
@@ -282,15 +282,15 @@ pub(crate) fn missing<S: Skin>(
 
 impl<S: Skin> MeasuredQuantity<S> {
     /// Evaluates the quantity at a point.
-    pub(crate) fn at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> f64 {
-        self.value_at(system, place).0
+    pub(crate) fn at(&self, system: &S, point: &AnchoredPoint<S::Mode>) -> f64 {
+        self.value_at(system, point).0
     }
 
     /// Evaluates the quantity, and lists the indices that may become extreme nearby.
-    fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> (f64, Vec<usize>) {
+    fn value_at(&self, system: &S, point: &AnchoredPoint<S::Mode>) -> (f64, Vec<usize>) {
         let count = self.extreme.map_or(1, |_| system.contacts().scales.len());
         let values: Vec<f64> = (0..count)
-            .map(|number| (self.value)(system, &place.state, &place.direction, number))
+            .map(|number| (self.value)(system, &point.state, &point.direction, number))
             .collect();
         let extreme = values.iter().copied().reduce(|one, other| self.outer(one, other));
         // The extreme of no values is NaN, and non-finite derivatives are dropped.

@@ -146,8 +146,8 @@ impl Layer {
     fn new(poisson_ratio: f64) -> Self {
         let mut points = Vec::with_capacity(INTERVALS as usize * GAUSS.len());
         for k in 0..INTERVALS {
-            for [place, weight] in GAUSS {
-                let x = INTERVAL * (f64::from(k) + 0.5 * (1.0 + place));
+            for [point, weight] in GAUSS {
+                let x = INTERVAL * (f64::from(k) + 0.5 * (1.0 + point));
                 let parts = beside_half_space(poisson_ratio, x);
                 points.push((x, parts.map(|part| 0.5 * INTERVAL * weight * part)));
             }

@@ -247,9 +247,9 @@ impl Quadrature {
                     let [right, left] = [0, 1].map(|side| {
                         smooth[side] + on_half_space(closed[side], footprint.poisson_ratio())
                     });
-                    let place = [i * depth + k, column];
-                    fill(&mut systems[0], n, place, right, left, [1.0, -1.0]);
-                    fill(&mut systems[1], n, place, right, left, [-1.0, 1.0]);
+                    let entry = [i * depth + k, column];
+                    fill(&mut systems[0], n, entry, right, left, [1.0, -1.0]);
+                    fill(&mut systems[1], n, entry, right, left, [-1.0, 1.0]);
                 }
             }
         }

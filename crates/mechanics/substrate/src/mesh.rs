@@ -47,8 +47,8 @@ impl GradedAxis {
     /// order.
     fn between(grading: &Grading, start: f64, cells: usize) -> Self {
         let [edges, points] = [(0.0, cells + 1), (0.5, cells)].map(|(shift, count)| {
-            let places = (0..count).map(|k| (1.0 - start) * (k as f64 + shift) / cells as f64);
-            places.map(|place| grading.at(start + place)).collect()
+            let fractions = (0..count).map(|k| (1.0 - start) * (k as f64 + shift) / cells as f64);
+            fractions.map(|fraction| grading.at(start + fraction)).collect()
         });
         Self { edges, points }
     }

@@ -51,7 +51,7 @@ proptest! {
     #[test]
     fn the_foot_is_the_position_of_the_corner_on_the_edge(
         slants in prop::array::uniform2(0.0_f64..80.0), half_bases in prop::array::uniform2(0.02_f64..3.0),
-        rotations in prop::array::uniform2(-0.5_f64..0.5), place in -0.5_f64..1.5, off in -0.2_f64..0.2,
+        rotations in prop::array::uniform2(-0.5_f64..0.5), fraction in -0.5_f64..1.5, off in -0.2_f64..0.2,
         corner_edge in 0_usize..6,
     ) {
         let corner_edge = CornerEdge::ALL[corner_edge];
@@ -73,14 +73,14 @@ proptest! {
         };
         let (start, end) = (scales[b].corner(start), scales[b].corner(end));
         let along = end - start;
-        let target = start + place * along + outward * off * quarter(along.normalize());
+        let target = start + fraction * along + outward * off * quarter(along.normalize());
         let mut poses = rotations.map(|rotation| Pose::new(0.0, 0.0, rotation));
         let at = [0.0, 7.0];
         let corner = poses[a].turn(scales[a].corner(corner_edge.corner()));
         let shift = poses[b].turn(target) - corner + Vec2::new(at[b] - at[a], 0.0);
         poses[a] = Pose::new(shift.x, shift.y, rotations[a]);
         let gap = pair.gap(corner_edge, &poses[0], &poses[1]);
-        assert_relative_eq!(gap.foot, place, epsilon = 1e-11);
+        assert_relative_eq!(gap.foot, fraction, epsilon = 1e-11);
         assert_relative_eq!(gap.value, off, epsilon = 1e-12);
     }
 }

@@ -19,8 +19,8 @@ pub(super) fn under_the_base(turned: f64, inside: f64, below: f64) -> (Pair, [Po
     // The corner is at −1 from the node of its scale, and the neighbour's base ends at +1.
     let arm = Pose::new(0.0, 0.0, -turned.to_radians()).turn(Vec2::new(-1.0, 0.0));
     let corner = Vec2::new(1.0 - inside, -below);
-    let place = corner - arm - Vec2::new(2.2, 0.0);
-    (pair, [Pose::new(0.0, 0.0, 0.0), Pose::new(place.x, place.y, -turned.to_radians())])
+    let node = corner - arm - Vec2::new(2.2, 0.0);
+    (pair, [Pose::new(0.0, 0.0, 0.0), Pose::new(node.x, node.y, -turned.to_radians())])
 }
 
 /// Builds the same pair rotated by 180°, so that tops and bases exchange roles.

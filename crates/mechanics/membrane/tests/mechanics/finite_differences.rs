@@ -93,8 +93,8 @@ proptest! {
         let gradient = arm.gradient(q[2]);
         for i in 0..3 {
             let slope = derivative(|q| {
-                let place = arm.attached(&NodePose::new(q[0], q[1], q[2]));
-                DVector::from_column_slice(place.as_slice())
+                let attached = arm.attached(&NodePose::new(q[0], q[1], q[2]));
+                DVector::from_column_slice(attached.as_slice())
             }, &q, i);
             prop_assert!((slope - gradient.column(i)).amax() < TOLERANCE);
         }

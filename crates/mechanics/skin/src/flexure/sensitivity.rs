@@ -175,9 +175,9 @@ impl FlexureProblem<'_> {
         let strips = Neighbours::map_all(variations, |input| strip(input, resolution))?;
         let strip = bent.path.system();
         let (sticking, free): (Vec<_>, Vec<_>) = spots.into_iter().partition(|spot| {
-            spot.place
+            spot.point
                 .as_ref()
-                .is_some_and(|place| Contacts::stick_slip_counts(&place.state)[0] > 0)
+                .is_some_and(|point| Contacts::stick_slip_counts(&point.state)[0] > 0)
         });
         let unknown = missing(strip, &sticking, variations.len());
         let mut derivatives = derivatives(strip, free, &strips, &self.common.solver);
@@ -246,7 +246,7 @@ impl FlexureProblem<'_> {
             ),
             (strain, quantity("membrane_strain_max", |s, state, _, _| s.largest_strain(state))),
         ];
-        points.map(|(place, quantity)| MeasuredPoint::new(place, [quantity])).into()
+        points.map(|(point, quantity)| MeasuredPoint::new(point, [quantity])).into()
     }
 }
 
@@ -297,8 +297,8 @@ fn measured(
     Ok(spots
         .iter()
         .flat_map(|spot| {
-            spot.place.as_ref().map_or_else(Vec::new, |place| {
-                spot.quantities.iter().map(|of| (of.measure, of.at(strip, place))).collect()
+            spot.point.as_ref().map_or_else(Vec::new, |point| {
+                spot.quantities.iter().map(|of| (of.measure, of.at(strip, point))).collect()
             })
         })
         .collect())

@@ -233,11 +233,11 @@ impl Chain {
         let mut bent = vec![self.unloaded(punctured)];
         let load = self.free_load(&bent[0].beam, state);
         bent[0].loads.push(load);
-        let mut places = vec![None; self.layout.scales()];
-        places[punctured] = Some(0);
+        let mut indices = vec![None; self.layout.scales()];
+        indices[punctured] = Some(0);
         for touching in self.contacts.closed_edges(state) {
             for scale in touching.ends {
-                let at = *places[scale].get_or_insert_with(|| {
+                let at = *indices[scale].get_or_insert_with(|| {
                     bent.push(self.unloaded(scale));
                     bent.len() - 1
                 });

@@ -61,8 +61,8 @@ impl Chain {
         let mut left = end(self.displacement(z, 0));
         for scale in 1..self.layout.scales() {
             let right = end(self.displacement(z, scale));
-            let places = [scale - 1, scale].map(|i| self.layout.scale(i));
-            show(places, &Bar::new(&self.strip(scale - 1), spring, [left, right]));
+            let nodes = [scale - 1, scale].map(|i| self.layout.scale(i));
+            show(nodes, &Bar::new(&self.strip(scale - 1), spring, [left, right]));
             left = right;
         }
     }
@@ -121,15 +121,15 @@ impl Bar {
 
     /// Adds forces and tangent of the bar.
     ///
-    /// `places` are the first unknowns of its two scales.
+    /// `nodes` are the first unknowns of its two scales.
     pub(super) fn linearise(
         &self,
-        places: [usize; 2],
+        nodes: [usize; 2],
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
-        self.add_force(places, residual);
-        self.add_stiffness(places, matrix);
+        self.add_force(nodes, residual);
+        self.add_stiffness(nodes, matrix);
     }
 
     fn add_force(&self, [left, right]: [usize; 2], residual: &mut Residual) {
@@ -141,16 +141,16 @@ impl Bar {
         }
     }
 
-    pub(super) fn add_stiffness(&self, places: [usize; 2], matrix: &mut impl Tangent) {
+    pub(super) fn add_stiffness(&self, nodes: [usize; 2], matrix: &mut impl Tangent) {
         let along = self.stiffness - self.spring;
         let arms = self.turns.map(|turn| self.half_base * turn.sin);
         // The elongation decreases with x of the left scale and increases with x of the right one.
         let signs = [-1.0, 1.0];
-        for (i, row) in places.into_iter().enumerate() {
+        for (i, row) in nodes.into_iter().enumerate() {
             // `∂²s/∂φ² = a cos φ` (V3).
             let curved = self.tension * self.half_base * (1.0 - self.turns[i].shortened);
             let turned = self.stiffness * arms[i];
-            for (j, column) in places.into_iter().enumerate() {
+            for (j, column) in nodes.into_iter().enumerate() {
                 let own = if i == j { curved } else { 0.0 };
                 let along_row =
                     [signs[i] * signs[j] * along, 0.0, signs[i] * self.stiffness * arms[j]];

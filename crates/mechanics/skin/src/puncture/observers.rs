@@ -35,7 +35,7 @@ impl PathObservers {
         path: &Continuation<Chain>,
         parameters: &PunctureParameters,
         functions: &[PathFunction<Chain>],
-        places: &[At],
+        requested: &[At],
     ) -> Self {
         let tilts = parameters.tilts_deg().map(|tilt| At::Tilt(tilt).location());
         let depth = parameters.depth.map(|depth| At::Displacement(depth).location());
@@ -50,7 +50,7 @@ impl PathObservers {
             tilts: PointLocator::new(path, tilts),
             depth: PointLocator::new(path, depth),
             force: PointLocator::new(path, force),
-            requested: PointLocator::new(path, places.iter().map(|place| place.location())),
+            requested: PointLocator::new(path, requested.iter().map(|at| at.location())),
         }
     }
 

@@ -316,9 +316,9 @@ impl<'a> Problem<'a> {
     pub(super) fn follow(
         &self,
         functions: &[PathFunction<Chain>],
-        places: &[At],
+        requested: &[At],
     ) -> Result<Followed, OutOfRange> {
-        let mut followed = self.follow_once(functions, places)?;
+        let mut followed = self.follow_once(functions, requested)?;
         for factor in FINER_STEPS {
             if !followed.is_back_at_rest() {
                 break;
@@ -327,12 +327,12 @@ impl<'a> Problem<'a> {
             let settings = Settings { max_step, ..self.settings };
             let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
             let finer = Problem { stiffness, endless, settings, ..*self };
-            followed = finer.follow_once(functions, places)?;
+            followed = finer.follow_once(functions, requested)?;
         }
         Ok(followed)
     }
 
-    /// Follows the path until it ends, and locates the points requested in `places`.
+    /// Follows the path until it ends, and locates the `requested` points.
     ///
     /// Initially each scale may touch its direct neighbours. If the audit finds overlap with a more
     /// distant scale, which happens in at most one row in a hundred, the path is followed again
@@ -341,12 +341,12 @@ impl<'a> Problem<'a> {
     fn follow_once(
         &self,
         functions: &[PathFunction<Chain>],
-        places: &[At],
+        requested: &[At],
     ) -> Result<Followed, OutOfRange> {
         let mut contact_reach = 1;
         loop {
             let (start, longest) = self.start(contact_reach)?;
-            let followed = self.follow_row(start, longest, functions, places)?;
+            let followed = self.follow_row(start, longest, functions, requested)?;
             let path = &followed.path;
             let beyond = match followed.status {
                 Status::Interpenetration => {
@@ -380,10 +380,10 @@ impl<'a> Problem<'a> {
         chain: Chain,
         longest: usize,
         functions: &[PathFunction<Chain>],
-        places: &[At],
+        requested: &[At],
     ) -> Result<Followed, OutOfRange> {
         let mut growing = AdaptiveRowPath::new(self, chain, longest);
-        let mut watch = PathObservers::new(&growing.path, self.parameters, functions, places);
+        let mut watch = PathObservers::new(&growing.path, self.parameters, functions, requested);
         let mut is_bent = false;
         while let Some(mut segment) = growing.next()? {
             if let Some(bent) = failure::bent_within(&mut growing.path, &segment) {

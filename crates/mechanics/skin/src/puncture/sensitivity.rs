@@ -195,7 +195,7 @@ impl Problem<'_> {
         let mut found = Vec::new();
         // Build the perturbed rows once for all points with the same history variables.
         for spots in group_by_history(self.measured_points(watch, path, is_bent)) {
-            let state = spots.iter().find_map(|spot| Some(&spot.place.as_ref()?.state));
+            let state = spots.iter().find_map(|spot| Some(&spot.point.as_ref()?.state));
             // Without a known point there is no derivative.
             let Some(state) = state else { continue };
             let system = path.system();
@@ -294,14 +294,14 @@ impl Problem<'_> {
         let failure = failure.as_ref().filter(|_| !is_bent);
         let maxima = failure.map(|failure| failure.summits(path)).into_iter().flatten();
         let mut stresses = Vec::new();
-        for ((place, f), quantity) in maxima.zip(MAXIMA).zip(largest_stresses()) {
-            let place = sensitivity::summit(place.as_ref(), path, f, settings);
-            stresses.push(MeasuredPoint::new(place, [quantity]));
+        for ((point, f), quantity) in maxima.zip(MAXIMA).zip(largest_stresses()) {
+            let point = sensitivity::summit(point.as_ref(), path, f, settings);
+            stresses.push(MeasuredPoint::new(point, [quantity]));
         }
         let chain = path.system();
         let [highest, stiffest] =
-            [highest, stiffest].map(|place| place.map(|place| chain.end_of_target(place)));
-        let peak = highest.as_ref().map(|place| chain.extremum(place));
+            [highest, stiffest].map(|point| point.map(|point| chain.end_of_target(point)));
+        let peak = highest.as_ref().map(|point| chain.extremum(point));
         Summits {
             load: [
                 MeasuredPoint::new(highest, [force("peak_force")]),
@@ -375,7 +375,7 @@ impl PunctureInput {
 fn group_by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<Chain>>> {
     let mut groups: Vec<(Vec<HistoryVariable>, Vec<MeasuredPoint<Chain>>)> = Vec::new();
     for spot in spots {
-        let kept = spot.place.as_ref().map(|place| history(&place.state)).unwrap_or_default();
+        let kept = spot.point.as_ref().map(|point| history(&point.state)).unwrap_or_default();
         match groups.iter_mut().find(|(other, _)| *other == kept) {
             Some((_, group)) => group.push(spot),
             None => groups.push((kept, vec![spot])),
@@ -388,9 +388,9 @@ impl Chain {
     /// Anchors the end of a path to its cause.
     ///
     /// It is the critical tilt, or a constraint of a guided needle.
-    fn end_of(&self, place: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
-        let ended = self.needle.as_ref().and_then(|n| n.ended_at(self, &place.state));
-        AnchoredPoint { anchor: ended.map_or(place.anchor, PathAnchor::Guard), ..place }
+    fn end_of(&self, point: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
+        let ended = self.needle.as_ref().and_then(|n| n.ended_at(self, &point.state));
+        AnchoredPoint { anchor: ended.map_or(point.anchor, PathAnchor::Guard), ..point }
     }
 
     /// Anchors a point to the limit of a scale; `None` if the mode is no such limit.
@@ -400,17 +400,17 @@ impl Chain {
     }
 
     /// Anchors a point like the end of the path if it is there.
-    fn end_of_target(&self, place: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
-        if place.anchor == PathAnchor::Target { self.end_of(place) } else { place }
+    fn end_of_target(&self, point: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
+        if point.anchor == PathAnchor::Target { self.end_of(point) } else { point }
     }
 
     /// Anchors the point of largest load to its zero load rate.
     ///
     /// If an event or the target fixes the point, it keeps that anchor.
-    fn extremum(&self, place: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
-        let held = sensitivity::is_held(self, place);
-        let anchor = if held { place.anchor } else { PathAnchor::Stationary(LOAD_RATE) };
-        AnchoredPoint { anchor, ..place.clone() }
+    fn extremum(&self, point: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
+        let held = sensitivity::is_held(self, point);
+        let anchor = if held { point.anchor } else { PathAnchor::Stationary(LOAD_RATE) };
+        AnchoredPoint { anchor, ..point.clone() }
     }
 
     /// Anchors an equilibrium to its vanishing gap.
@@ -424,11 +424,11 @@ impl Chain {
 ///
 /// At a smooth reversal they depend on the path direction.
 fn at_turn<const N: usize>(
-    place: Option<AnchoredPoint<SkinMode>>,
+    point: Option<AnchoredPoint<SkinMode>>,
     quantities: [MeasuredQuantity<Chain>; N],
 ) -> MeasuredPoint<Chain> {
-    let turns = place.as_ref().is_some_and(|p| matches!(p.anchor, PathAnchor::Stationary(_)));
-    MeasuredPoint::new(place, quantities.map(|quantity| MeasuredQuantity { turns, ..quantity }))
+    let turns = point.as_ref().is_some_and(|p| matches!(p.anchor, PathAnchor::Stationary(_)));
+    MeasuredPoint::new(point, quantities.map(|quantity| MeasuredQuantity { turns, ..quantity }))
 }
 
 /// Lists the quantities at the critical tilt and at the first fold.

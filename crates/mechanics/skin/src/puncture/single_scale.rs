@@ -23,14 +23,14 @@ impl PerturbedScale {
     pub(super) fn within(self, row: &Row, layout: RowLayout) -> Result<UnevenRow, OutOfRange> {
         let mut scales = vec![*row.scale(); layout.scales()];
         let mut gaps = vec![row.gap(); layout.scales() - 1];
-        let place = usize::try_from(layout.left as i64 + i64::from(self.place));
+        let index = usize::try_from(layout.left as i64 + i64::from(self.place));
         // A perturbed scale beyond the solved part changes nothing.
-        let place = place.unwrap_or(usize::MAX);
-        if let Some(scale) = scales.get_mut(place) {
+        let index = index.unwrap_or(usize::MAX);
+        if let Some(scale) = scales.get_mut(index) {
             let slant = scale.slant().to_degrees() + self.slant_deg;
             *scale = Parallelogram::leaning(scale.half_base(), slant)?;
         }
-        if let Some(gap) = gaps.get_mut(place) {
+        if let Some(gap) = gaps.get_mut(index) {
             *gap += self.gap;
         }
         UnevenRow::new(scales, gaps)

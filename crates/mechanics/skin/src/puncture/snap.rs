@@ -193,13 +193,13 @@ fn turning_point(
     let mut bracket = Bracket::new((0.0, leaving), (1.0, arriving));
     let mut nearest = from.clone();
     for _ in 0..EVALUATIONS {
-        let place = bracket.secant();
-        nearest = path.between(from, to, place)?;
+        let fraction = bracket.secant();
+        nearest = path.between(from, to, fraction)?;
         let slope = path.system().depth_slope(&nearest.state.z, &nearest.arriving);
         if slope.abs() <= FLAT * (leaving - arriving) {
             break;
         }
-        bracket.narrow(place, slope);
+        bracket.narrow(fraction, slope);
     }
     Some(nearest)
 }

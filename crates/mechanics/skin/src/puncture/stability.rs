@@ -37,11 +37,11 @@ impl Chain {
             return None;
         }
         let kept = self.kept(state);
-        let mut places = vec![LEFT_OUT; self.layout.size()];
-        for (place, &unknown) in kept.iter().enumerate() {
-            places[unknown] = place;
+        let mut index = vec![LEFT_OUT; self.layout.size()];
+        for (kept_index, &unknown) in kept.iter().enumerate() {
+            index[unknown] = kept_index;
         }
-        let factors = self.stiffness_matrix(state, kept.len(), &places).factorise().ok()?;
+        let factors = self.stiffness_matrix(state, kept.len(), &index).factorise().ok()?;
         // All other unknowns are forces.
         let motions = 3 * self.layout.scales() + usize::from(self.needle.is_some());
         let forces = kept.len() - motions;
@@ -61,10 +61,10 @@ impl Chain {
         let [depth, tilt] = [(depth, of_beam[0]), (tilt, of_beam[1])].map(|(loads, of_beam)| {
             let mut x = vec![0.0; kept.len()];
             for &(unknown, load) in &loads {
-                x[places[unknown]] += load;
+                x[index[unknown]] += load;
             }
             factors.solve(&mut x);
-            let motions = loads.iter().map(|&(unknown, load)| load * x[places[unknown]]);
+            let motions = loads.iter().map(|&(unknown, load)| load * x[index[unknown]]);
             let compliance = motions.sum::<f64>() + of_beam;
             load.saturating_sub(usize::from(compliance < 0.0))
         });
@@ -83,12 +83,12 @@ impl Chain {
         kept
     }
 
-    fn stiffness_matrix(&self, state: &SkinState, size: usize, places: &[usize]) -> SkylineMatrix {
+    fn stiffness_matrix(&self, state: &SkinState, size: usize, index: &[usize]) -> SkylineMatrix {
         let mut entries = Vec::new();
         let mut entry =
-            |row: usize, column: usize, value| entries.push((places[row], places[column], value));
+            |row: usize, column: usize, value| entries.push((index[row], index[column], value));
         self.constant_tangent(&mut entry);
-        self.for_bars(&state.z, |places, bar| bar.add_stiffness(places, &mut entry));
+        self.for_bars(&state.z, |nodes, bar| bar.add_stiffness(nodes, &mut entry));
         if self.needle.is_some() {
             self.for_needle_stiffness(state, &mut entry);
         } else {

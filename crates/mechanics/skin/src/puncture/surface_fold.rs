@@ -91,13 +91,13 @@ impl FoldObserver {
         if is_known {
             return;
         }
-        let mut places: Vec<_> = crossings
+        let mut located: Vec<_> = crossings
             .into_iter()
             .map(|crossing| (crossing.locate(path, from, to), crossing))
             .collect();
         // Crossings are listed by gap; sort them along the path.
-        places.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
-        for ((_, point), FoldCrossing { pair, folds, .. }) in places {
+        located.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
+        for ((_, point), FoldCrossing { pair, folds, .. }) in located {
             let chain = path.system();
             let (left_scale, here) = (chain.layout.number(pair), chain.path_point(&point));
             self.folds.push(Fold { point: here, left_scale, folds, events_before });
@@ -139,14 +139,15 @@ impl FoldObserver {
             }
             // `dip` detects minima towards zero from above, so invert the sign for a folded gap.
             let sign = if is_folded(start) { -1.0 } else { 1.0 };
-            let Some(place) = dip([start, end].map(|g| sign * g), slopes.map(|g| sign * g)) else {
+            let Some(fraction) = dip([start, end].map(|g| sign * g), slopes.map(|g| sign * g))
+            else {
                 continue;
             };
-            let Some(inside) = path.between(from, to, place) else { continue };
+            let Some(inside) = path.between(from, to, fraction) else { continue };
             let stretch = path.system().gap_stretch(&inside.state, pair);
             // The slopes only suggest a dip; the equilibrium there decides.
             if is_folded(stretch) != is_folded(start) {
-                let inside = (place, stretch);
+                let inside = (fraction, stretch);
                 let [before, after] = [bracket((0.0, start), inside), bracket(inside, (1.0, end))];
                 crossings.push(FoldCrossing { pair, folds: is_folded(stretch), bracket: before });
                 crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket: after });
@@ -182,7 +183,8 @@ pub(super) fn is_folded(stretch: f64) -> bool {
 /// Each comes with the stretch there.
 fn bracket(low: (f64, f64), high: (f64, f64)) -> Bracket {
     // A closed gap may be open by round-off; false position needs opposite signs, or a zero.
-    let [low, high] = [low, high].map(|(place, g)| (place, if g.abs() <= CLOSE { 0.0 } else { g }));
+    let [low, high] =
+        [low, high].map(|(fraction, g)| (fraction, if g.abs() <= CLOSE { 0.0 } else { g }));
     Bracket::new(low, high)
 }
 
@@ -199,15 +201,15 @@ impl FoldCrossing {
         let mut bracket = self.bracket;
         let mut near = (0.0, from.clone());
         for _ in 0..EVALUATIONS {
-            let place = bracket.secant();
+            let fraction = bracket.secant();
             // Start from the last equilibrium, the nearest one known.
-            let Some(point) = path.between_from(from, to, place, &near.1) else { break };
+            let Some(point) = path.between_from(from, to, fraction, &near.1) else { break };
             let stretch = path.system().gap_stretch(&point.state, self.pair);
-            near = (place, point);
+            near = (fraction, point);
             if stretch.abs() <= CLOSE || bracket.width() < f64::EPSILON {
                 break;
             }
-            bracket.narrow(place, stretch);
+            bracket.narrow(fraction, stretch);
         }
         near
     }

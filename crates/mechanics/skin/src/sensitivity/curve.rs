@@ -43,8 +43,9 @@ pub(crate) fn curve_point<S: Skin>(
     let slope = rise_y / rise_x;
     // Anchor the point to its section of the path, where it moves little even at turning points of
     // the curve; then correct along the curve to the same `x`.
-    let place = AnchoredPoint::arriving(point, PathAnchor::Still);
-    let point = MeasuredPoint::new(Some(place), [quantity("x", curve[0]), quantity("y", curve[1])]);
+    let anchored = AnchoredPoint::arriving(point, PathAnchor::Still);
+    let point =
+        MeasuredPoint::new(Some(anchored), [quantity("x", curve[0]), quantity("y", curve[1])]);
     let found = derivatives(system, vec![point], variations, settings);
     // At a singular tangent there are no derivatives at all.
     let mut rates = vec![None; variations.len()];

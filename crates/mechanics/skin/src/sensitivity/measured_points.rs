@@ -115,13 +115,13 @@ pub(crate) fn turn<S: Skin>(
 /// Returns true if the target or a contact change fixes a point.
 ///
 /// Otherwise the point is a smooth maximum, which a parameter moves along the path.
-pub(crate) fn is_held<S: Skin>(system: &S, place: &AnchoredPoint<S::Mode>) -> bool {
-    match place.anchor {
+pub(crate) fn is_held<S: Skin>(system: &S, point: &AnchoredPoint<S::Mode>) -> bool {
+    match point.anchor {
         PathAnchor::Still => false,
         PathAnchor::Target | PathAnchor::Marker(_) | PathAnchor::Stationary(_) => true,
         // A nonzero guard is only a section through the path.
         PathAnchor::Guard(constraint) => {
-            Newton::guards(system, &place.state)[constraint].abs() < VANISHED
+            Newton::guards(system, &point.state)[constraint].abs() < VANISHED
         }
     }
 }

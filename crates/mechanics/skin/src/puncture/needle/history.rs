@@ -75,10 +75,10 @@ pub(in crate::puncture) fn anchors(
         });
     }
     for [from, to] in segments {
-        let place = event_before(path, [from, to]);
+        let event = event_before(path, [from, to]);
         // Earlier history variables shift this event, too, so process segments in path order.
-        let varied = place.as_ref().and_then(|place| with(&anchors, &place.state, variations));
-        let mut here = place.and_then(|place| Linearisation::new(path.system(), place).ok());
+        let varied = event.as_ref().and_then(|event| with(&anchors, &event.state, variations));
+        let mut here = event.and_then(|event| Linearisation::new(path.system(), event).ok());
         let new =
             history(&to.state).into_iter().filter(|kept| !history(&from.state).contains(kept));
         // Solve for the perturbed equilibria at the event once, for all its history variables.

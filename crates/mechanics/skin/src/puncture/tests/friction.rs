@@ -87,11 +87,11 @@ fn rows_with_friction_have_mirror_images() {
     {
         let [right, left] = [slant, -slant].map(|slant_deg| {
             let design = Design { gap, length, slant_deg, ..BLOCKS };
-            let place = 1.0 - 0.05 / length;
+            let position = 1.0 - 0.05 / length;
             let parameters = PunctureParameters {
                 scales: RowLength::Scales(31),
                 needle: Needle::Guided { friction: needle },
-                load_position: if slant_deg < 0.0 { 1.0 - place } else { place },
+                load_position: if slant_deg < 0.0 { 1.0 - position } else { position },
                 ..PunctureParameters::default()
             };
             let row = design.leaning_row().unwrap();

@@ -86,9 +86,9 @@ fn mirrored_rows_have_mirrored_forces() {
             let law = law(&LIVELY, Law::PRINTED, HARD);
             let exterior = RowExterior::default();
             let chain = Chain::new(row, &stiffness, law, layout, exterior, &parameters, &LIVELY);
-            let places = (0..=last).map(|k| layout.scale(if side > 0.0 { k } else { last - k }));
+            let nodes = (0..=last).map(|k| layout.scale(if side > 0.0 { k } else { last - k }));
             let mut state = SkinState::at_rest(&chain);
-            for (k, at) in places.clone().enumerate() {
+            for (k, at) in nodes.clone().enumerate() {
                 let k = k as f64;
                 state.z[at] = side * 0.2 * LIVELY.gap * (3.0 * k).sin();
                 state.z[at + 1] = 0.1 * (5.0 * k).cos();
@@ -96,7 +96,7 @@ fn mirrored_rows_have_mirrored_forces() {
             }
             let mut residual = Residual::new(chain.size());
             chain.residual(&state, &mut residual);
-            let forces = places.map(|at| {
+            let forces = nodes.map(|at| {
                 let [x, y, moment] = [0, 1, 2].map(|k| residual.value[at + k]);
                 [side * x, y, side * moment]
             });
