@@ -302,7 +302,7 @@ impl Meeting {
         self.gradient_along(corner_edge, self.normal)
     }
 
-    /// Differentiates the corner coordinate along a direction that turns with the edge.
+    /// Differentiates the coordinate of the corner along a direction fixed to the edge.
     #[inline]
     fn gradient_along(&self, corner_edge: CornerEdge, direction: Vec2) -> [f64; 6] {
         let (of_corner, of_edge) =
@@ -315,7 +315,7 @@ impl Meeting {
         }
     }
 
-    /// Evaluates the corner coordinate along a direction that turns with the edge.
+    /// Evaluates the coordinate of the corner along a direction fixed to the edge.
     #[inline]
     fn along(&self, corner_edge: CornerEdge, direction: Vec2, value: f64) -> Gap {
         let Self { arm, to_corner, foot, .. } = *self;

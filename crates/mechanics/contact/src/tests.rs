@@ -145,7 +145,7 @@ proptest! {
         }
     }
 
-    /// A corner that slides to the end of its edge goes on without a jump of force or moment.
+    /// Force and moment do not jump where a sliding corner reaches the end of its edge.
     #[test]
     fn friction_is_continuous_where_a_corner_reaches_the_end_of_its_edge(
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),

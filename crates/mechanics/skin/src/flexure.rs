@@ -63,7 +63,7 @@ pub struct FlexureParameters {
     pub elements_per_gap: MembraneMesh,
     /// Rotation of each end at which bending ends, degrees.
     ///
-    /// Negative: the strip bends the other way, with the scales on the outside.
+    /// Negative if the strip bends in the opposite direction, with the scales on the outside.
     pub max_end_rotation_deg: f64,
     /// True to remove the moment again at the end.
     pub unload: bool,

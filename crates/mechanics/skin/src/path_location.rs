@@ -84,7 +84,7 @@ impl<S: System> PointLocator<S> {
         Self { locations, points }
     }
 
-    /// Searches between two points of the path.
+    /// Searches for the remaining locations between two points of the path.
     pub(crate) fn follow(
         &mut self,
         path: &mut Continuation<S>,

@@ -75,9 +75,7 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     /// Returns the control parameter, degrees.
     fn angle_deg(&self, state: &SkinState) -> f64;
 
-    /// Computes the derivative of the load with respect to its displacement.
-    ///
-    /// It is taken along a path direction.
+    /// Computes the derivative of the load by its displacement, along a path direction.
     fn stiffness(&self, state: &SkinState, direction: &[f64]) -> f64;
 
     /// Returns the number of a scale in reports; `None` if all pairs behave alike.

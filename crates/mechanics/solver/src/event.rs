@@ -242,9 +242,9 @@ impl<S: System> Continuation<S> {
         Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
-    /// Makes the candidate an event at which constraints change sides.
+    /// Marks the candidate as the event at which `constraint` changes sides.
     ///
-    /// They are `constraint` and simultaneous others.
+    /// Includes other constraints that change sides at the same point.
     fn mark_event(
         &self,
         located: Candidate<S::Mode>,

@@ -210,7 +210,7 @@ impl Tractions<'_> {
 /// Point of a cell with its weight, for the smooth part of the influence.
 type QuadraturePoint = [f64; 2];
 
-/// Quadrature points of a mesh: by column along the row, by row across it.
+/// Quadrature points of cells: along the row by column, across it by row.
 struct Quadrature {
     columns: Vec<Vec<QuadraturePoint>>,
     depth: Vec<Vec<QuadraturePoint>>,

@@ -32,7 +32,7 @@ pub const NEAREST: usize = 24;
 
 /// Orders of the additional polynomials of long rows.
 ///
-/// These are smaller and need fewer.
+/// The additional values are smaller and need fewer orders.
 pub const ROW: usize = 16;
 
 /// Orders of the polynomials in `log(1 − ν)`, in which `α_x` is smoother.

@@ -18,9 +18,9 @@ const OFF_EDGE: f64 = 1e-6;
 /// Step sizes were reduced to 1e-9 before the path stopped.
 const AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 
-/// Smallest jump of the penetration that indicates a passed edge end.
+/// Smallest jump of the penetration, over `t`, where a corner passes an edge end.
 ///
-/// It is over `t`. The jump occurs within one of the steps [`AHEAD`].
+/// The jump occurs within one of the steps [`AHEAD`].
 const BEHIND: f64 = 1e-3;
 
 impl Contacts {

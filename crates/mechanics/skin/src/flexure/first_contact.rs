@@ -196,9 +196,7 @@ impl BareGap {
         None
     }
 
-    /// Bisects for the rotation at which the neighbours touch.
-    ///
-    /// It is between `open` and `closed`.
+    /// Bisects for the rotation of first contact between `open` and `closed`.
     fn narrowed(&self, mut open: f64, mut closed: f64) -> f64 {
         loop {
             let middle = f64::midpoint(open, closed);

@@ -37,9 +37,7 @@ pub struct FlexureMeasures {
     pub error: Option<f64>,
     /// Number of gaps `n` of the strip, an integer in a chain.
     pub gaps: f64,
-    /// Frictional dissipation between scales at the end of the path, over `E_m t³`.
-    ///
-    /// It is for the whole strip.
+    /// Frictional dissipation in the whole strip at the end of the path, over `E_m t³`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
     /// `κ*` at which friction locks the strip.

@@ -83,7 +83,7 @@ pub(crate) struct StripExtent {
     pub(crate) rotation: f64,
     /// End of the path as a multiple of that rotation.
     ///
-    /// It is 1, except for one of several unequal gaps, which may take more than its share.
+    /// It is 1, except for one of several unequal gaps, which may rotate by more than its fraction.
     pub(crate) farthest: f64,
 }
 

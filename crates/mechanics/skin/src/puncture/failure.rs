@@ -232,7 +232,7 @@ pub(super) struct FailureObserver {
 }
 
 impl FailureObserver {
-    /// Starts at the first point of a path; `None` if the first failure is not sought.
+    /// Starts at the first point of a path; `None` if no failure is requested.
     pub(super) fn new(path: &Continuation<Chain>, parameters: &PunctureParameters) -> Option<Self> {
         parameters.failure?;
         let mut observer = Self {

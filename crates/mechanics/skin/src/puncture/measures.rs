@@ -44,9 +44,7 @@ pub struct PunctureMeasures {
     pub peak_tilt_deg: Option<f64>,
     /// True if the row is stable at the critical tilt under a constant load.
     pub stable_under_load: Option<bool>,
-    /// True if the row is stable at the critical tilt under constant depth.
-    ///
-    /// It is the depth of the loaded point.
+    /// True if the row is stable at the critical tilt at constant depth of the load.
     pub stable_under_depth: Option<bool>,
     /// `F*` up to which the path is stable under load control; `None` if all of it is.
     pub load_stability_force: Option<f64>,

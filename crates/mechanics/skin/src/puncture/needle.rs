@@ -286,7 +286,7 @@ impl Chain {
         }
         let control = self.controls[0];
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
-        // Try sticking first: the rates tell whether that exceeds the friction limit.
+        // Try sticking first: the rates show whether that exceeds the friction limit.
         let normal_force = needle.normal_force(0);
         if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
             let [normal, tangential] = [rates[normal_force], rates[normal_force + 1]];

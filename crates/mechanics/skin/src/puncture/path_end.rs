@@ -81,8 +81,9 @@ impl PunctureEnd {
 
 /// Solves a puncture like [`solve`](super::solve), but from the `end` of a similar design.
 ///
-/// `None` if the end of the design cannot be found from there, or if its path may matter. The
-/// measures agree with a solution along the whole path up to the tolerance of Newton's method.
+/// `None` if the end of the design cannot be found from there, or if an event along its path may
+/// change the result. The measures agree with a solution along the whole path, up to the tolerance
+/// of Newton's method.
 ///
 /// # Errors
 /// As [`solve`](super::solve).

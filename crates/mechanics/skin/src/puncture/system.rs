@@ -98,7 +98,7 @@ pub(crate) struct Chain {
 
 /// Part of the substrate stiffness.
 ///
-/// It is consecutive entries along a diagonal, or a full block of two scales.
+/// Consecutive entries along a diagonal, or a full block of two scales.
 #[derive(Clone, Copy)]
 enum Part<'a> {
     Diagonal(&'a [f64]),

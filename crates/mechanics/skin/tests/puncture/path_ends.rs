@@ -157,7 +157,7 @@ fn a_load_left_of_the_middle_leaves_no_end() {
 
 /// Four hundred pairs; ten thousand in a long campaign.
 ///
-/// An end is never found on another branch than the path of the design leads to.
+/// No end lies on another branch than the end of the path from rest.
 #[test]
 fn ends_of_similar_designs_agree_with_their_paths() {
     let known = Calibrations::default();

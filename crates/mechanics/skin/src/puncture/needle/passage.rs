@@ -35,7 +35,7 @@ pub struct Passage {
     pub critical_event: Option<CriticalEvent>,
     /// `F*` at which the needle first touches more than its initial face.
     ///
-    /// This is a corner or another scale. `None` if it never does.
+    /// The needle then touches a corner or another scale, too. `None` if it never does.
     pub passing_force: Option<f64>,
     /// `u*` there.
     pub passing_displacement: Option<f64>,

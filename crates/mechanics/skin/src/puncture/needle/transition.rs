@@ -205,7 +205,7 @@ impl Chain {
         }
         if let Some([_, corner]) = self.notch(state).filter(|_| needle.friction > 0.0) {
             // Tip and corner are at one position of the face. Lock the corner: two stick equations
-            // would be redundant. Its force stays as it is, so the path goes on without a jump.
+            // would be redundant. Its force is unchanged, so the path continues without a jump.
             self.contacts.lock(state, corner, None);
         }
         Some(NORMAL)

@@ -13,7 +13,7 @@ pub(super) fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
     Design { gap, length, slant_deg, base: Base::L, width: 1.0 }
 }
 
-/// Needle set down at the distance `inside` from the top right corner.
+/// Sets the needle at the distance `inside` from the top right corner.
 fn parameters(design: &Design, friction: f64, inside: f64) -> PunctureParameters {
     let load_position = 1.0 - inside / (2.0 * design.half_base());
     let needle = Needle::Guided { friction };

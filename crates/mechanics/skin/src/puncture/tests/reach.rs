@@ -51,8 +51,8 @@ fn scales_stop_at_their_second_neighbours() {
             assert!((ours.force - theirs.force).abs() < 1e-9 * theirs.force.abs().max(1e-3));
         }
         // Unused contact unknowns change nothing.
-        let room = solved(&design, &common, Some(3));
-        let [ours, theirs] = [&stopped, &room].map(|p| p.measures.critical_force.unwrap());
+        let longer = solved(&design, &common, Some(3));
+        let [ours, theirs] = [&stopped, &longer].map(|p| p.measures.critical_force.unwrap());
         assert!((ours - theirs).abs() < 1e-9 * theirs, "{ours} {theirs}");
     }
 }
