@@ -121,7 +121,7 @@ impl<D: Designs> JournalHeader<D> {
         format!("{} ({})", self.version, self.revision)
     }
 
-    /// Returns the header of the same journal for another part of the designs.
+    /// Returns the header of the same journal for another subset of the designs.
     #[must_use]
     pub fn with_subset(self, subset: D) -> Self {
         Self { subset, ..self }
@@ -150,15 +150,15 @@ impl<D: Designs> JournalHeader<D> {
     fn difference(&self, wanted: &Self) -> Option<String> {
         if self.program() != wanted.program() {
             let (here, there) = (self.program(), wanted.program());
-            return Some(format!("is by squama {here}, this is squama {there}"));
+            return Some(format!("was written by squama {here}, this is squama {there}"));
         }
         if self.definition != wanted.definition {
             let changes = changes(&self.definition, &wanted.definition);
-            return Some(format!("is of another definition: {changes}"));
+            return Some(format!("has another definition: {changes}"));
         }
         // The format and the digest were checked when the header was read.
         (self.subset != wanted.subset)
-            .then(|| format!("is of {}, not of {}", self.subset, wanted.subset))
+            .then(|| format!("contains {} instead of {}", self.subset, wanted.subset))
     }
 }
 
@@ -184,7 +184,7 @@ fn changes(here: &str, there: &str) -> String {
     let names: BTreeSet<_> = here.keys().chain(there.keys()).collect();
     let changes = names.into_iter().filter_map(|name| {
         let [old, new] = [&here, &there].map(|keys| keys.get(name).map_or("not set", |v| v));
-        (old != new).then(|| format!("{name} is {old} in it and {new} now"))
+        (old != new).then(|| format!("{name} is {old} in the journal and {new} now"))
     });
     changes.collect::<Vec<_>>().join("; ")
 }

@@ -25,11 +25,11 @@ use crate::tail;
 /// A power failure costs this much work; each synchronisation takes about ten milliseconds.
 const SYNC: Duration = Duration::from_secs(1);
 
-/// Time to wait for a lock, because readers hold it briefly.
+/// Maximum time to wait for a lock. Readers hold a lock only briefly.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Advice if an existing journal belongs to another definition.
-const GO_ON: &str = "no difference, or --fresh to throw the results away";
+/// Advice if an existing journal has another definition, subset of designs or program.
+const ADVICE: &str = "no difference, or --fresh to discard the results";
 
 /// Treatment of existing results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,7 +64,7 @@ impl<R: Records> Journal<R> {
     ///
     /// # Errors
     ///
-    /// If the journal is in use, damaged or of other work, or exists and `start` is `New`.
+    /// If the journal is in use, is damaged, has another header, or exists and `start` is `New`.
     pub fn begin(
         path: &Path,
         header: JournalHeader<R::Designs>,
@@ -79,7 +79,7 @@ impl<R: Records> Journal<R> {
                 Err(JournalError::Exists(folder(path)))
             }
             Some((records, length)) if start == Start::Resume => {
-                records.header().require(&header, path, GO_ON)?;
+                records.header().require(&header, path, ADVICE)?;
                 Self::at_end(records, length, path, file)
             }
             _ => {

@@ -90,7 +90,7 @@ fn intact_from<R: Records>(
     let io = |error| unreadable(path, &error);
     let mut lines = Lines::new(source);
     if !lines.begin_with(BEFORE).map_err(io)? {
-        let problem = "squama begins none like this".to_owned();
+        let problem = "it does not begin with a checksum".to_owned();
         return Err(JournalError::NoHeader { path: path.to_owned(), problem });
     }
     let first = lines.next().map_err(io)?;

@@ -121,8 +121,8 @@ mod tests {
         #[test]
         fn lines_with_a_flipped_bit_are_refused(at in 0..1000_usize, bit in 0..8_u32) {
             let mut bytes = Seal::default().seal(&line());
-            let place = at % bytes.len();
-            bytes[place] ^= 1 << bit;
+            let index = at % bytes.len();
+            bytes[index] ^= 1 << bit;
             prop_assert!(Seal::default().read::<Line>(&mut bytes).is_err());
         }
 

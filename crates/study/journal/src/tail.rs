@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use crate::atomic_file::OutputError;
 
-/// Copies the bytes of the journal at `path` after `length` to a file beside it.
+/// Copies the journal at `path` without its first `length` bytes to a file beside it.
 ///
-/// Returns a message about the copy, or `None` if there are no such bytes.
+/// Returns a message about the copy, or `None` if the journal is no longer than that.
 pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, OutputError> {
     let unkept = |error: io::Error| OutputError::file(path, &error);
     let mut journal = File::open(path).map_err(unkept)?;

@@ -49,9 +49,9 @@ impl Windows {
     ///
     /// If the file cannot be read.
     pub fn line(&mut self, offset: u64) -> io::Result<Vec<u8>> {
-        let known = self.windows.iter().position(|window| window.line(offset).is_some());
-        let window = match known {
-            Some(place) => self.windows.remove(place),
+        let cached = self.windows.iter().position(|window| window.line(offset).is_some());
+        let window = match cached {
+            Some(index) => self.windows.remove(index),
             None => self.open(offset)?,
         };
         let line = window.line(offset).unwrap_or(&window.bytes).to_vec();
@@ -59,9 +59,9 @@ impl Windows {
         Ok(line)
     }
 
-    /// Replaces the least recently used window.
+    /// Reads a window that starts at `offset` and contains a whole line.
     ///
-    /// The new window starts at `offset` and contains a whole line.
+    /// A full cache loses its least recently used window.
     fn open(&mut self, offset: u64) -> io::Result<Window> {
         let mut bytes =
             if self.windows.len() < COUNT { Vec::new() } else { self.windows.remove(0).bytes };

@@ -1,7 +1,7 @@
 //! Equality of numbers up to round-off, and numbers as text.
 //!
 //! Two numbers that are computed in different ways differ in their last digits. Every comparison of
-//! values in squama uses [`same`]: axes, filters, matches of two runs, ranks and fronts.
+//! values in squama uses [`same`]: axes, filters, the matching of two runs, ranks and fronts.
 
 use std::fmt::{self, Write};
 
@@ -16,11 +16,11 @@ pub fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUND_OFF * a.abs().max(b.abs())
 }
 
-/// Returns the short decimal number that `value` equals, or else `value`.
+/// Rounds `value` to 12 significant digits if this changes only its round-off.
 ///
-/// The two are equal up to the last digits. `0.3/3` is `0.09999999999999999` as an `f64`, and means
-/// `0.1`. `size` is the largest number in the computation of `value`, because a difference has the
-/// round-off of its operands.
+/// Otherwise returns `value` unchanged. For example, `0.3/3` is `0.09999999999999999` as an `f64`,
+/// and becomes `0.1`. `size` is the largest number in the computation of `value`; it sets the
+/// tolerance, because a difference has the round-off of its operands.
 pub fn short_decimal(value: f64, size: f64) -> f64 {
     if is_far_from_short_decimals(value, size) {
         return value;
@@ -31,19 +31,19 @@ pub fn short_decimal(value: f64, size: f64) -> f64 {
 
 /// Returns true if no decimal number with 12 significant digits is near `value`.
 ///
-/// Most numbers end here. The exact answer needs the number as text, which costs a hundred times as
-/// much.
+/// This test rejects most numbers. The exact test formats the number as text, which takes a hundred
+/// times as long.
 fn is_far_from_short_decimals(value: f64, size: f64) -> bool {
     let exponent = value.abs().log10().floor() as i32;
     let scale = 10_f64.powi(11_i32.saturating_sub(exponent));
     let short = (value * scale).round() / scale;
-    // False for zero and very small numbers, which give NaN: the text decides.
+    // Zero and very small numbers give NaN, so the comparison is false and the exact test decides.
     (short - value).abs() > 8.0 * f64::EPSILON * size.abs()
 }
 
-/// Different numbers in ascending order.
+/// Distinct numbers in ascending order.
 ///
-/// Numbers that are equal up to round-off are one.
+/// Numbers that are equal up to round-off count as one number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DistinctNumbers {
     /// The smallest number of each group.

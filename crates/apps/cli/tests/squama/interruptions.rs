@@ -72,8 +72,8 @@ fn results_are_not_overwritten_without_fresh() {
     place.squama("run x.toml -q").assert().code(0);
     let before = place.read("results/few/designs.csv");
     insta::assert_snapshot!(place.refused("run x.toml"), @"error: results/few: already holds results; use --resume to continue from them, or --fresh to discard them");
-    insta::assert_snapshot!(place.refused("run x.toml --resume --set contact.c1=2 --set designs.slant_deg=30"), @"error: results/few/journal.jsonl: is of another definition: contact.c1 is 1.1 in it and 2 now; designs.slant_deg is [0, 45] in it and [30] now; expected no difference, or --fresh to throw the results away");
-    insta::assert_snapshot!(place.refused("run x.toml --resume --sample 3"), @"error: results/few/journal.jsonl: is of all designs, not of --sample 3 --seed 0; expected no difference, or --fresh to throw the results away");
+    insta::assert_snapshot!(place.refused("run x.toml --resume --set contact.c1=2 --set designs.slant_deg=30"), @"error: results/few/journal.jsonl: has another definition: contact.c1 is 1.1 in the journal and 2 now; designs.slant_deg is [0, 45] in the journal and [30] now; expected no difference, or --fresh to discard the results");
+    insta::assert_snapshot!(place.refused("run x.toml --resume --sample 3"), @"error: results/few/journal.jsonl: contains all designs instead of --sample 3 --seed 0; expected no difference, or --fresh to discard the results");
     assert_eq!(place.read("results/few/designs.csv"), before);
     place.squama("run x.toml -q --fresh --set contact.c1=2").assert().code(0);
     assert_ne!(place.read("results/few/designs.csv"), before);
@@ -101,7 +101,7 @@ fn foreign_files_are_not_touched() {
     let place = Place::with(FEW);
     std::fs::create_dir(place.path("r")).expect("a folder");
     std::fs::write(place.path("r/journal.jsonl"), "{\"a\": 1}").expect("writable");
-    insta::assert_snapshot!(place.refused("run x.toml --out r"), @"error: r/journal.jsonl:1: not the first line of a journal (squama begins none like this); restore it, or use --fresh to discard everything");
+    insta::assert_snapshot!(place.refused("run x.toml --out r"), @"error: r/journal.jsonl:1: not the first line of a journal (it does not begin with a checksum); restore it, or use --fresh to discard everything");
     assert_eq!(place.read("r/journal.jsonl"), "{\"a\": 1}");
 }
 
@@ -141,7 +141,7 @@ fn journals_of_other_programs_are_rejected() {
     let forged = format!("{{\"crc\":\"{sum:08x}\",{content}\n{rest}");
     std::fs::write(place.path("results/few/journal.jsonl"), forged).expect("writable");
     let message = place.refused("run x.toml --resume");
-    assert!(message.contains("is by squama 9."), "{message}");
+    assert!(message.contains("was written by squama 9."), "{message}");
 }
 
 #[test]

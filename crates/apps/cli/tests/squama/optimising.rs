@@ -72,7 +72,7 @@ fn tables_do_not_depend_on_threads_or_interruptions() {
         );
     }
     let different = place.refused("optimise x.toml --set goal.seed=1 --out three --resume");
-    assert!(different.contains("is of another definition: goal.seed is "), "{different}");
+    assert!(different.contains("has another definition: goal.seed is "), "{different}");
 }
 
 #[test]

@@ -163,9 +163,9 @@ fn a_resumed_run_reuses_the_designs_of_a_shorter_axis() {
     assert_eq!(solved(&place), 24, "nothing is solved again");
     assert_eq!(place.read("r/designs.csv"), place.read("fresh/designs.csv"));
     // Solved designs are never dropped, and other parameters give other designs.
-    assert!(place.refused("run x.toml --out r --resume").contains("is of another definition"));
+    assert!(place.refused("run x.toml --out r --resume").contains("has another definition"));
     let other = "run list.toml --out r --resume --set scale.width_over_t=2";
-    assert!(place.refused(other).contains("is of another definition"));
+    assert!(place.refused(other).contains("has another definition"));
     assert_eq!(solved(&place), 24);
 }
 

@@ -49,7 +49,7 @@ fn shards_of_different_sweeps_are_rejected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --shard 1/2 --out 1").assert().code(0);
     place.squama("run x.toml -q --shard 2/2 --out 2 --set contact.c1=2").assert().code(0);
-    insta::assert_snapshot!(place.refused("merge 1 2 --out all"), @"error: 2/journal.jsonl: is of another definition: contact.c1 is 2 in it and 1.1 now; expected shards of one sweep by one program");
+    insta::assert_snapshot!(place.refused("merge 1 2 --out all"), @"error: 2/journal.jsonl: has another definition: contact.c1 is 2 in the journal and 1.1 now; expected shards of one sweep by one program");
     assert_eq!(place.list("."), "1 2 x.toml");
 }
 

@@ -155,7 +155,7 @@ impl VerifiedFolder {
     pub fn shortfall(&self) -> Option<String> {
         let contents = self.contents.as_ref()?;
         let Contents { done, designs, .. } = contents;
-        let behind = if self.behind { ", before the journal went on" } else { "" };
+        let behind = if self.behind { ", without the latest designs of the journal" } else { "" };
         let is_short = !contents.is_whole() || self.behind;
         is_short.then(|| format!("{done} of {designs} designs{behind}"))
     }
@@ -170,7 +170,7 @@ impl VerifiedFolder {
         let unreadable = |error| InvalidFolder::unreadable(&path, &reason(&error));
         // Reading a named pipe might never end.
         if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
-            return Err(InvalidFolder::unreadable(&path, "it is no regular file"));
+            return Err(InvalidFolder::unreadable(&path, "it is not a regular file"));
         }
         // Verify and read through one handle, so that a file replaced in between is not read.
         let mut file = File::open(&path).map_err(unreadable)?;
@@ -400,7 +400,7 @@ fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, Inv
         InvalidFolder::new(&path, problem)
     };
     if !metadata.is_file() {
-        return Err(refuse("it is no regular file"));
+        return Err(refuse("it is not a regular file"));
     }
     if metadata.len() < extent.bytes {
         return Err(refuse(&format!(
@@ -454,9 +454,12 @@ mod tests {
             let read = opened.and_then(|folder| {
                 folder.text(ResultsFolder::RUN_INFO).and_then(|_| folder.text("ranking.csv"))
             });
-            let told = read.expect_err("unreadable").to_string();
-            assert!(told.contains("cannot be read"), "{name}: {told}");
-            assert!(!told.contains("changed") && !told.contains("no record"), "{name}: {told}");
+            let message = read.expect_err("unreadable").to_string();
+            assert!(message.contains("cannot be read"), "{name}: {message}");
+            assert!(
+                !message.contains("changed") && !message.contains("no record"),
+                "{name}: {message}"
+            );
         }
     }
 
@@ -468,8 +471,8 @@ mod tests {
         let record = folder(place.path(), written).file(ResultsFolder::RUN_INFO);
         // Reading address zero is an error, even for root.
         std::os::unix::fs::symlink("/proc/self/mem", &record).expect("writable");
-        let told = verify_record(&record).expect_err("unreadable").to_string();
-        assert!(told.contains("cannot be read") && !told.contains("edited"), "{told}");
+        let message = verify_record(&record).expect_err("unreadable").to_string();
+        assert!(message.contains("cannot be read") && !message.contains("edited"), "{message}");
     }
 
     #[test]
