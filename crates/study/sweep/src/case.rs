@@ -28,13 +28,13 @@ pub struct Case {
     pub load_inset: Option<f64>,
     /// Strengths over the modulus of the substrate.
     pub strengths: Strengths,
-    /// Whether the first failure is sought even without a strength.
+    /// Whether to find the first failure even if no strength is given.
     pub judge_failure: bool,
     /// Force of the needle, over `E_s t²`, at which the pressure on the tissue is measured.
     pub needle_force: Option<f64>,
     /// Force of the needle in N, if the definition gives it in N.
     pub needle_force_n: Option<f64>,
-    /// Whether the row across is solved.
+    /// Whether the row across (perpendicular to this row) is solved, too.
     pub across: bool,
     /// Gap across the row over the thickness. `None`: the gap along the row.
     pub gap_across: Option<f64>,
@@ -104,17 +104,17 @@ pub struct Samples {
     pub seed: usize,
 }
 
-/// Largest distance of the load across from its edge, over the length of the top.
-const OFF_CENTRE: f64 = 0.5 - 1e-8;
+/// Largest inset of the load in the row across, over the length of its top.
+const MAX_INSET: f64 = 0.5 - 1e-8;
 
 impl Case {
-    /// Returns the parameters of the puncture as it is solved.
+    /// Returns the parameters of the puncture for the solver.
     ///
     /// Lengths are over the thickness.
     ///
-    /// Friction sets the friction of a guided needle, or the critical tilts of a free one. The load
-    /// is moved to the middle of a narrow top if the inset would place it beyond the middle, and to
-    /// the left corner of the next scale if it would be on that scale.
+    /// The needle friction becomes the friction of a guided needle, or the critical tilts of a free
+    /// one. The load is moved to the middle of a narrow top if the inset would place it beyond the
+    /// middle, and to the left corner of the next scale if it would be on that scale.
     pub fn punctured(&self) -> puncture::PunctureParameters {
         // Limit the position here, not in the case, because the limit depends on gap and length, which
         // may be axes.
@@ -126,7 +126,7 @@ impl Case {
             || self.strengths != Strengths::default();
         let failure = seeks_failure.then_some(self.strengths);
         let curvature = self.body().curvature;
-        // `F*` is over `E_s/(1 − ν²) L t`.
+        // `F*` is in units of `E_s/(1 − ν²) L t`.
         let plane_strain = 1.0 - self.puncture.poisson_ratio.powi(2);
         let force = self.needle_force.map(|force| force * plane_strain / self.design.length);
         let mut punctured =
@@ -202,11 +202,10 @@ impl Case {
 
     /// Returns the row across this one, if it is to be solved.
     ///
-    /// It consists of upright blocks: the width of the scales is their base, the base of the scales
-    /// their width. Needle, tissue and friction are the same, with the load at the same distance
-    /// from the edge; a needle between two scales counts as one on the edge. The slant, which shifts
-    /// the tops along the row, has no effect, and the tilt along the row is not coupled with the
-    /// one across. The body counts as flat.
+    /// Its scales are upright blocks, with base and width of this row exchanged. Needle, tissue and
+    /// friction are the same. The load has the same distance from the edge; a needle between two
+    /// scales counts as one on the edge. The slant, which shifts the tops along the row, has no
+    /// effect, and the tilts of the two rows are not coupled. The body counts as flat.
     pub fn across(&self) -> Option<Self> {
         if !self.across && self.gap_across.is_none() {
             return None;
@@ -221,21 +220,22 @@ impl Case {
         let position = self.puncture.load_position;
         let from_corner = position.min(1.0 - position).max(0.0) * design.width;
         let inset = self.load_inset.unwrap_or(from_corner);
-        // A load in the very middle is balanced, but only until the needle is off by a hair.
-        let load_inset = Some(inset.min(OFF_CENTRE * design.length));
+        // A load exactly in the middle does not tilt the scale, but this equilibrium is unstable.
+        let load_inset = Some(inset.min(MAX_INSET * design.length));
         Some(Self { design, load_inset, ..self.for_critical_force(0.0) })
     }
 
-    /// Returns the factor from `F*` of the row across to `F*` of this row, which is over another
-    /// length.
+    /// Returns the factor that converts `F*` of the row across to `F*` of this row.
+    ///
+    /// The two are normalised by different lengths.
     pub fn across_factor(&self) -> f64 {
         self.design.width / self.design.length
     }
 
-    /// Returns true if the load is on a top or has a round tip.
+    /// Returns true if the load position is valid for the needle.
     ///
-    /// A round tip may be between two scales.
-    pub fn load_can_stand(&self) -> bool {
+    /// Only a needle with a round tip may be between two scales.
+    pub fn has_valid_load_position(&self) -> bool {
         self.puncture.load_position <= 1.0 || self.puncture.needle_radius.is_some()
     }
 

@@ -152,13 +152,13 @@ pub(crate) fn range(
     }
     let numbers =
         (0..count).map(|i| Decimal::new(first + stride * i, exponent)).collect::<Vec<_>>();
-    if tells_apart(&numbers) { Ok(numbers) } else { Err(InvalidRange::TooFine { step }) }
+    if are_distinct(&numbers) { Ok(numbers) } else { Err(InvalidRange::TooFine { step }) }
 }
 
 /// Returns true if neighbours of a range differ by more than round-off.
 ///
-/// They are closest together, relative to their size, at the two ends.
-fn tells_apart(numbers: &[Decimal]) -> bool {
+/// Relative to their size, neighbours are closest at one of the two ends.
+fn are_distinct(numbers: &[Decimal]) -> bool {
     let mut pairs = numbers.windows(2);
     let ends = [pairs.clone().next(), pairs.next_back()].into_iter().flatten();
     ends.map(|pair| [pair[0], pair[1]].map(Decimal::to_f64))

@@ -331,9 +331,9 @@ pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
     })
 }
 
-/// Estimates the number of keys and sections, at most a few too high.
+/// Estimates the number of keys and sections without parsing, at most a few too high.
 ///
-/// Needs no memory.
+/// Allocates no memory.
 fn keys(text: &str) -> usize {
     text.matches('=').count()
         + text

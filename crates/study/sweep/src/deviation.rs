@@ -98,7 +98,7 @@ impl Deviation {
         let moved = self.moved(case, by)?;
         let is_made =
             Parameter::with(Role::Made).all(|parameter| parameter.contains(parameter.get(&moved)));
-        (is_made && moved.load_can_stand()).then_some(moved)
+        (is_made && moved.has_valid_load_position()).then_some(moved)
     }
 
     /// Returns one unit of the parameter in the unit of the deviation.

@@ -275,7 +275,7 @@ impl Parameter {
 
     /// Returns `case` with this parameter set to `value`.
     ///
-    /// It comes from [`Self::read`] or is a number.
+    /// `value` comes from [`Self::read`] or is a number.
     pub fn put(&self, case: &Case, value: Scalar) -> Case {
         let mut changed = *case;
         self.set(&mut changed, value);

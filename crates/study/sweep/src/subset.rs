@@ -150,14 +150,14 @@ impl SubsetDesigns {
 
     /// Returns the position of the design with grid index `index`, if it is included.
     pub fn position(&self, index: u64) -> Option<u64> {
-        let place = match &self.sample {
+        let position = match &self.sample {
             // `draw` returns an ascending sample.
             Some(sample) => sample.binary_search(&index).ok()? as u64,
             None => index,
         };
-        let dealt = place.checked_sub(self.first).filter(|rest| rest % self.step == 0)?;
+        let offset = position.checked_sub(self.first).filter(|offset| offset % self.step == 0)?;
         // Without a sample, `index` may still be beyond the grid.
-        Some(dealt / self.step).filter(|position| *position < self.len())
+        Some(offset / self.step).filter(|position| *position < self.len())
     }
 }
 

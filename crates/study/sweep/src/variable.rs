@@ -34,7 +34,7 @@ impl Variable {
         &self.values
     }
 
-    /// Returns the value at the fraction `share` (0 to 1) of the range.
+    /// Returns the value at `fraction` (0 to 1) of the range.
     ///
     /// For a list, every value has an equal part of the range.
     ///
@@ -43,18 +43,18 @@ impl Variable {
     ///
     /// let text = "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 0.5 }\nlength_over_t = [0.2, 1]";
     /// let sweep = Sweep::parse(text, "x.toml", &[])?;
-    /// let at = |share| sweep.variables().iter().map(|v| v.at(share).to_string()).collect::<Vec<_>>();
+    /// let at = |x| sweep.variables().iter().map(|v| v.at(x).to_string()).collect::<Vec<_>>();
     /// assert_eq!(at(0.25), ["0.2", "0.2"]);
     /// assert_eq!(at(1.0), ["0.5", "1"]);
     /// # Ok::<(), sweep::InvalidDefinition>(())
     /// ```
-    pub fn at(&self, share: f64) -> Scalar {
+    pub fn at(&self, fraction: f64) -> Scalar {
         match &self.values {
-            VariableValues::Between(from, to) => Scalar::Number(from + share * (to - from)),
+            VariableValues::Between(from, to) => Scalar::Number(from + fraction * (to - from)),
             VariableValues::OneOf(values) => {
-                let place = (share * values.len() as f64) as usize;
-                // The upper end, a `share` of 1, belongs to the last value.
-                values[place.min(values.len() - 1)]
+                let index = (fraction * values.len() as f64) as usize;
+                // The upper end, a `fraction` of 1, belongs to the last value.
+                values[index.min(values.len() - 1)]
             }
         }
     }

@@ -50,7 +50,7 @@ fn init_overwrites_no_file_and_refuses_missing_folders() {
     std::fs::write(place.path("squama.schema.json"), "{}").expect("writable");
     insta::assert_snapshot!(place.refused("init"), @"error: paper.toml: exists already; give the name of a new file, e.g. squama init paper mine.toml");
     insta::assert_snapshot!(place.refused("init smoke nowhere/mine.toml"), @"error: FILE nowhere/mine.toml: there is no folder nowhere");
-    insta::assert_snapshot!(place.refused("init smoke .hidden.toml"), @r#"error: .hidden.toml:7: name: ".hidden" is not accepted, expected a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"#);
+    insta::assert_snapshot!(place.refused("init smoke .hidden.toml"), @r#"error: .hidden.toml:7: name: ".hidden" is not accepted, expected a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and not a device name of Windows such as con or lpt1"#);
     insta::assert_snapshot!(place.refused("init smok"), @"error: invalid value 'smok' for '[TEMPLATE]', [possible values: paper, smoke, glove, goal, pin, fit, gaps, imperfection, paper-as-written, paper-neo-hookean], tip: a similar value exists: 'smoke'");
     assert_eq!(place.list("."), "paper.toml squama.schema.json");
     place.prints("init smoke");

@@ -27,7 +27,7 @@ pub enum InvalidDefinition {
     /// A key or a value is invalid.
     #[error("{place}: {key}: {problem}")]
     Refused {
-        /// Place of the key.
+        /// Position of the key.
         place: Place,
         /// The key, dotted.
         key: String,
@@ -87,7 +87,7 @@ pub enum Problem {
         value: String,
         /// The other key.
         other: String,
-        /// Place of the other key.
+        /// Position of the other key.
         place: Place,
     },
     /// Two parameters define the same quantity.
@@ -95,7 +95,7 @@ pub enum Problem {
     Alternative {
         /// The other key.
         other: String,
-        /// Place of the other key.
+        /// Position of the other key.
         place: Place,
     },
     /// A pitch is given in addition to a gap and a length.
@@ -105,7 +105,7 @@ pub enum Problem {
     Pitch {
         /// One of the other keys.
         other: String,
-        /// Place of the other key.
+        /// Position of the other key.
         place: Place,
     },
     /// A length in mm or the scale modulus gives an invalid ratio.
@@ -138,7 +138,7 @@ pub enum Problem {
     TooManyDesigns(#[from] TooManyDesigns),
 }
 
-/// Creates the error of a key at its place.
+/// Creates the error of the key at `place`.
 pub fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
     let (place, key) = (place.clone(), key.to_owned());
     InvalidDefinition::Refused { place, key, problem: Box::new(problem.into()) }

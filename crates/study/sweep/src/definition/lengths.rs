@@ -15,7 +15,7 @@ use text::number;
 /// other parameters pass.
 pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
     if given.key == key::LOAD_POSITION {
-        return check_place(given, grid, variables);
+        return check_load_position(given, grid, variables);
     }
     if given.is_or_determines(key::RADIUS) || given.is_or_determines(key::RADIUS_TO) {
         check_radius(given, grid, variables)?;
@@ -26,21 +26,26 @@ pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> R
 }
 
 /// Refuses a load position between two scales unless the needle has a round tip.
-fn check_place(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
+fn check_load_position(
+    given: &Parameter,
+    grid: &Grid,
+    variables: &[Variable],
+) -> Result<(), Problem> {
     let axis = grid.axes().iter().find(|axis| axis.parameter() == given);
-    let places = axis.map_or_else(|| vec![given.get(grid.base())], |axis| ends(axis, variables));
-    match places.iter().find(|place| !given.put(&grid.case(0), **place).load_can_stand()) {
-        Some(place) => Err(Problem::Value(WrongValue::OutOfRange {
-            found: place.to_string(),
+    let positions = axis.map_or_else(|| vec![given.get(grid.base())], |axis| ends(axis, variables));
+    let case = grid.case(0);
+    match positions.iter().find(|x| !given.put(&case, **x).has_valid_load_position()) {
+        Some(position) => Err(Problem::Value(WrongValue::OutOfRange {
+            found: position.to_string(),
             expected: "a number of at least 0 and at most 1; beyond, between two scales, only with puncture.needle_radius_over_t".to_owned(),
         })),
         None => Ok(()),
     }
 }
 
-/// Least radius of a body, over the thickness or in mm.
+/// Minimum radius of a body, over the thickness and in mm.
 ///
-/// The thickness is the largest curvature of a body; a radius in mm may belong to a thin scale.
+/// The radius is at least the thickness of the scales, which may be small in mm.
 const LEAST_RADIUS: [f64; 2] = [1.0, 1e-3];
 
 /// Refuses a radius near zero, and a variable with a range that contains zero.
@@ -71,9 +76,10 @@ fn check_radius(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Resul
     Err(Problem::Value(WrongValue::OutOfRange { found, expected }))
 }
 
-/// Checks the parameter `of` that follows from `given` and the parameter `unit`.
+/// Checks the parameter `of`, which is computed from `given` and the parameter `unit`.
 ///
-/// It is monotonic in each of its parameters, so it is enough to check the corners of their ranges.
+/// It is monotonic in both, and in the gap, length and base for a pitch, so checking the corners of
+/// their ranges suffices.
 fn check_one(
     given: &Parameter,
     (of, unit): (&'static Parameter, &str),
@@ -86,7 +92,7 @@ fn check_one(
         p == given || p.key == unit || (is_pitch && makes_pitch)
     });
     let axes: Vec<_> = axes.map(|axis| (axis.parameter(), ends(axis, variables))).collect();
-    // Start from any design: all parameters that matter are overwritten.
+    // Start from any design: the loop overwrites all parameters that affect `of`.
     let mut corners = vec![grid.case(0)];
     for (parameter, ends) in &axes {
         corners = corners

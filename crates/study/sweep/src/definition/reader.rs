@@ -103,8 +103,8 @@ impl Reader {
         for (named, place) in std::mem::take(&mut self.named) {
             for (key, value) in named.values {
                 let Some(parameter) = Parameter::named(key) else { continue };
-                let is_given = self.says(key)
-                    || parameter.others_in(&self.case).any(|other| self.says(other.key));
+                let is_given = self.gives(key)
+                    || parameter.others_in(&self.case).any(|other| self.gives(other.key));
                 if is_given {
                     continue;
                 }
@@ -189,7 +189,7 @@ impl Reader {
     pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
         self.supply_named();
         // In addition to a gap, the pitch determines the length of a scale.
-        self.case.in_mm.pitch_determines_length = self.says(key::PITCH) && self.says(key::GAP);
+        self.case.in_mm.pitch_determines_length = self.gives(key::PITCH) && self.gives(key::GAP);
         let wrong_together = self.wrong_together(file);
         self.refused.extend(wrong_together);
         // The following checks need designs, which exist only for keys without contradictions.
@@ -261,7 +261,7 @@ impl Reader {
     /// Returns an error for every deviation without the required material or thickness.
     fn deviations_without_unit(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.deviations.iter().filter_map(|(deviation, place)| {
-            let needed = deviation.needs().find(|needed| !self.says(needed))?;
+            let needed = deviation.needs().find(|needed| !self.gives(needed))?;
             let problem = Problem::Needs(Parameter::named(needed)?.path());
             let key = format!("{}.{}", suggestion::TOLERANCE, deviation.key());
             Some(refuse(place, &key, problem))
@@ -383,7 +383,7 @@ impl Reader {
 
     /// Returns an error for every length in mm without a scale thickness.
     fn lengths_without_thickness(&self) -> impl Iterator<Item = InvalidDefinition> {
-        let unknown = !self.says(key::THICKNESS);
+        let unknown = !self.gives(key::THICKNESS);
         let in_mm = self.written().filter(move |(_, parameter, _)| unknown && parameter.is_in_mm());
         in_mm.map(|(key, _, place)| {
             let other = format!("material.{}", key::THICKNESS);
@@ -400,19 +400,21 @@ impl Reader {
             let mut needed = parameter.ratios().filter(|(ratio, _)| {
                 measures.iter().any(|measure| measure.sections().contains(&ratio.section))
             });
-            let (_, below) = needed.find(|(_, below)| !self.says(below))?;
+            let (_, below) = needed.find(|(_, below)| !self.gives(below))?;
             Some(refuse(place, &key, Problem::Needs(format!("material.{below}"))))
         })
     }
 
     /// Returns an error for a needle force in N without a thickness.
     fn force_without_thickness(&self) -> Option<InvalidDefinition> {
-        let mut written = self.written().filter(|_| !self.says(key::THICKNESS));
+        let mut written = self.written().filter(|_| !self.gives(key::THICKNESS));
         let (key, _, place) = written.find(|(_, p, _)| p.key == key::NEEDLE_FORCE_N)?;
         Some(refuse(place, &key, Problem::Needs(format!("material.{}", key::THICKNESS))))
     }
 
-    /// Refuses a parameter with a value (`gives`) if an alternative has one too.
+    /// Refuses a parameter at `place` if an alternative has a value, too.
+    ///
+    /// `gives` is false if the value of the parameter is a word that leaves it to the alternative.
     fn check_alternative(
         &self,
         parameter: &Parameter,
@@ -477,8 +479,8 @@ impl Reader {
         shared.chain(axes).chain(variables)
     }
 
-    /// Returns true if the definition sets a parameter, directly or in mm.
-    fn says(&self, key: &str) -> bool {
+    /// Returns true if the definition gives a parameter, directly or in mm.
+    fn gives(&self, key: &str) -> bool {
         self.written().any(|(_, parameter, _)| parameter.is_or_determines(key))
     }
 
@@ -546,7 +548,7 @@ fn name_of(value: &Value) -> Result<String, WrongValue> {
         }
         value => Err(WrongValue::not_accepted(
             value,
-            "a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1",
+            "a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and not a device name of Windows such as con or lpt1",
         )),
     }
 }

@@ -36,16 +36,16 @@ impl Parameter {
 
     /// Returns true if it is the parameter `key`, or the same length in mm.
     pub(crate) fn is_or_determines(&self, key: &str) -> bool {
-        // Exclude the pitch: counted as a gap, it would itself make `says(GAP)` true, and so always
-        // determine a length.
-        let is_other_way = self.key != key::PITCH;
-        self.key == key || self.over_t().is_some_and(|of| is_other_way && of.key == key)
+        // Exclude the pitch: if it counted as a gap, a definition with a pitch would also give a gap,
+        // so every pitch would determine the length.
+        let is_pitch = self.key == key::PITCH;
+        self.key == key || self.over_t().is_some_and(|of| !is_pitch && of.key == key)
     }
 
     /// Returns the parameter that this length in mm determines in `case`.
     pub(crate) fn determines(&self, case: &Case) -> Option<&'static Self> {
-        let says_length = self.key == key::PITCH && case.in_mm.pitch_determines_length;
-        if says_length { Self::named(key::LENGTH) } else { self.over_t() }
+        let determines_length = self.key == key::PITCH && case.in_mm.pitch_determines_length;
+        if determines_length { Self::named(key::LENGTH) } else { self.over_t() }
     }
 
     /// Returns true if it follows from a length in mm or from a modulus.
@@ -106,9 +106,9 @@ pub(super) fn settle(case: &mut Case) {
     }
 }
 
-/// Returns the length over the thickness that is meant by a length in mm.
+/// Divides a length in mm by the thickness, and removes the round-off of the quotient.
 fn quotient(length: f64, thickness: f64) -> f64 {
-    // `0.3/3` means 0.1, and is a digit less. Otherwise the same skin in mm and in units of the
+    // Unrounded, 0.3/3 is slightly less than 0.1, so the same skin in mm and in units of the
     // thickness would be two designs.
     number::short_decimal(length / thickness, length / thickness)
 }
@@ -125,7 +125,7 @@ fn product(length: f64, thickness: f64) -> f64 {
 pub(super) fn keep_in_step(case: &mut Case, changed: &Parameter) {
     if changed.is_in_mm() || changed.key == key::THICKNESS {
         settle(case);
-        // A force in N is over the square of the thickness.
+        // The unit of a force given in N, `E_s t²`, depends on the thickness.
         modulus::settle(case);
     } else if changed.is_modulus() {
         modulus::settle(case);
@@ -166,7 +166,7 @@ pub(crate) fn with_thickness(case: &Case, thickness: f64) -> Option<Case> {
         }
     }
     moved.material.thickness_mm = Some(thickness);
-    // A force is over the square of the thickness.
+    // The force in N remains the same, and its unit `E_s t²` changes.
     moved.needle_force = case.needle_force.map(|force| force * factor.powi(2));
     settle(&mut moved);
     modulus::settle(&mut moved);

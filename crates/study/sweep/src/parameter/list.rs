@@ -201,7 +201,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
                 },
                 |c, count| c.puncture.scales = count.map_or(RowLength::Auto, RowLength::Scales)),
             "number of scales in the row";
-        // The largest position beyond 1 depends on gap and tip: `load_can_stand` checks the tip,
+        // The largest position beyond 1 depends on gap and tip: `has_valid_load_position` checks the tip,
         // and `punctured` limits the position to the next scale.
         key::LOAD_POSITION, "-", [Continuous, Made],
             number(Range::closed(0.0, 1e6), |c| &mut c.puncture.load_position),

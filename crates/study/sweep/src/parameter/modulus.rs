@@ -18,7 +18,7 @@ const RATIOS: [[&str; 3]; 5] = [
 ];
 
 impl Parameter {
-    /// Returns true for a pair of a ratio and its numerator.
+    /// Returns true if one of the two parameters is a ratio and the other its numerator.
     pub(super) fn excludes(&self, other: &Self) -> bool {
         let keys = [self.key, other.key];
         RATIOS.iter().any(|&[ratio, above, _]| keys == [ratio, above] || keys == [above, ratio])
