@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use results::columns::{name, parameter_of, tells_apart};
+use results::columns::{distinguishes_designs, name, parameter_of};
 use results::{Results, Table};
 use text::number::{self, DistinctNumbers};
 
@@ -76,7 +76,7 @@ impl Designs {
     /// Returns the column names of the varied parameters.
     pub(crate) fn varied(&self) -> Vec<&str> {
         let headers = self.headers().iter().map(String::as_str);
-        let parameters = headers.filter(|name| tells_apart(name, self.headers()));
+        let parameters = headers.filter(|name| distinguishes_designs(name, self.headers()));
         parameters.filter(|name| self.texts(name).len() > 1).collect()
     }
 

@@ -1,7 +1,7 @@
 //! Judges samples: their margins to the bounds, and statistics over them.
 
 use ranking::{Relation, Requirement};
-use results::{DesignRow, QUANTILES, quantile_places};
+use results::{DesignRow, QUANTILES, quantile_positions};
 use serde::{Deserialize, Serialize};
 
 use crate::column::NumberColumn;
@@ -225,7 +225,7 @@ impl SampleJudge {
             (Statistic::Yield, None) => Vec::new(),
             (Statistic::Yield, Some(requirement)) => vec![(needed(requirement, sorted.len()), 1.0)],
             (Statistic::Quantile { share, .. }, _) => {
-                let places = quantile_places(sorted.len(), *share);
+                let places = quantile_positions(sorted.len(), *share);
                 let both =
                     places.map(|([below, above], part)| [(below, 1.0 - part), (above, part)]);
                 both.into_iter().flatten().filter(|(_, part)| *part > 0.0).collect()

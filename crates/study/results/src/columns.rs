@@ -28,7 +28,7 @@ use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
 pub use cell::Cell;
-pub use column::{Column, measures_among, number, parameter_of, tells_apart};
+pub use column::{Column, distinguishes_designs, measures_among, number, parameter_of};
 pub use derived_columns::ValueColumn;
 pub use failures::failure_detail_columns;
 pub use measured_value::{Goal, MeasuredValue, Shown};
@@ -98,7 +98,7 @@ pub fn needs_parameter(name: &str, key: &str) -> bool {
 
 /// Returns the column that names the failure mode of a force, if the force is a failure force.
 ///
-/// Every answer shows the two together, also for quantiles and in physical units.
+/// All outputs show the two together, also for quantiles and in physical units.
 pub fn mode_column(name: &str) -> Option<&'static str> {
     let (value, _) = about(name)?;
     (value.name == name::FAILURE_FORCE).then_some(name::FIRST_FAILURE)

@@ -74,7 +74,7 @@ pub use design::parameter_derivative::ParameterDerivative;
 pub use design::rerun_change::RerunChange;
 pub use design::row::{DerivativeRow, DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{
-    QUANTILES, SampleStatistics, Statistics, quantile, quantile_places,
+    QUANTILES, SampleStatistics, Statistics, quantile, quantile_positions,
 };
 pub use folder::{FILES, FileEntry, MEASURE_TABLES, Maker, ResultsFolder, Role};
 pub use journal::{

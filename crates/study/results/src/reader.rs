@@ -8,7 +8,7 @@ use std::io::{self, BufRead as _, BufReader, Read, Seek as _};
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::columns::{parameter_of, physical_source, tells_apart};
+use crate::columns::{distinguishes_designs, parameter_of, physical_source};
 use sweep::{Parameter, Sweep};
 use text::{has_part, nearest, number, reason};
 
@@ -158,7 +158,7 @@ impl Results {
         }
         let parameters = header.iter().enumerate();
         // A gap in mm beside `gap_over_t` is the same parameter, not a second one.
-        let parameters = parameters.filter(|(_, name)| tells_apart(name, header));
+        let parameters = parameters.filter(|(_, name)| distinguishes_designs(name, header));
         let parameters =
             parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column))).collect();
         Ok(Self {
@@ -362,13 +362,13 @@ fn plain(format: CsvFormat, cell: &str) -> String {
 pub fn words(error: csv::Error) -> String {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => reason(&error),
-        csv::ErrorKind::Utf8 { .. } => "it is no text".to_owned(),
+        csv::ErrorKind::Utf8 { .. } => "it is not UTF-8 text".to_owned(),
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
             // No cell contains a line end, and the reader counts a line that ends with CR LF late.
             // So the record number gives the line.
             let line = pos.map_or(0, |position| position.record() + 1);
             format!("line {line} has {len} cells, the first one {expected_len}")
         }
-        _ => "it is no table".to_owned(),
+        _ => "it is not a table in CSV format".to_owned(),
     }
 }

@@ -221,7 +221,7 @@ fn invalid_workbook_names_and_missing_tables_are_rejected() {
         .expect("writable");
     insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R/designs.csv: cannot be read (line 2 has 3 cells, the first one 2), expected a table that squama writes");
     fs::write(place.path().join("designs.csv"), b"design,\xff\r\n").expect("writable");
-    insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R/designs.csv: cannot be read (it is no text), expected a table that squama writes");
+    insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R/designs.csv: cannot be read (it is not UTF-8 text), expected a table that squama writes");
     insta::assert_snapshot!(refused(place.path(), "designs.csv"), @"R/designs.csv: a workbook needs a name that ends in .xlsx");
     insta::assert_snapshot!(refused(place.path(), "designs.csv/x.xlsx"), @"R/designs.csv: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
     assert_eq!(fs::read_dir(place.path()).expect("a folder").count(), 1, "nothing is left");

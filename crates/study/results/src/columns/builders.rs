@@ -5,7 +5,7 @@ use skin::puncture::{PunctureMeasures, TiltMeasures};
 
 use super::cell::Cell;
 use super::measured_value::{
-    Goal, MeasuredValue, Physical, Place, SampledValue, Shown, TiltValue, Value,
+    Goal, MeasuredValue, PathPoint, Physical, SampledValue, Shown, TiltValue, Value,
 };
 use super::name;
 use crate::design::design_result::DesignResult;
@@ -26,7 +26,7 @@ const BLANK: MeasuredValue = MeasuredValue {
     unit: "-",
     meaning: "",
     tables: NONE,
-    place: Place::Nowhere,
+    point: PathPoint::Nowhere,
     value: Value::SamplesAlone,
     physical: &[],
     good: None,
@@ -46,7 +46,8 @@ pub(super) const fn same(quantity: Quantity) -> Physical {
     Physical { quantity, other: None }
 }
 
-pub(super) const fn other_thing(
+/// Builds a conversion to a quantity with another name, such as a rigidity from a compliance.
+pub(super) const fn renamed(
     quantity: Quantity,
     name: &'static str,
     meaning: &'static str,
@@ -75,39 +76,47 @@ pub(super) const fn other(
 /// Builds an entry for a number of a puncture.
 pub(super) const fn number(
     name: &'static str,
-    place: Place,
+    point: PathPoint,
     field: PunctureField,
 ) -> MeasuredValue {
-    value(name, FORCE, Value::Puncture(field)).at(place)
+    value(name, FORCE, Value::Puncture(field)).at(point)
 }
 
-pub(super) const fn force(name: &'static str, place: Place, field: PunctureField) -> MeasuredValue {
+pub(super) const fn force(
+    name: &'static str,
+    point: PathPoint,
+    field: PunctureField,
+) -> MeasuredValue {
     // A named constant: a slice borrowed from a call result would not live beyond this function.
     const IN_NEWTON: &[Physical] = &[same(Quantity::Force)];
-    number(name, place, field).in_unit("E_s L t/(1-nu^2)").physical(IN_NEWTON)
+    number(name, point, field).in_unit("E_s L t/(1-nu^2)").physical(IN_NEWTON)
 }
 
-pub(super) const fn depth(name: &'static str, place: Place, field: PunctureField) -> MeasuredValue {
+pub(super) const fn depth(
+    name: &'static str,
+    point: PathPoint,
+    field: PunctureField,
+) -> MeasuredValue {
     const IN_MM: &[Physical] = &[same(Quantity::Length)];
-    number(name, place, field).in_unit("t").physical(IN_MM)
+    number(name, point, field).in_unit("t").physical(IN_MM)
 }
 
 pub(super) const fn stiffness(
     name: &'static str,
-    place: Place,
+    point: PathPoint,
     field: PunctureField,
 ) -> MeasuredValue {
     const PER_MM: &[Physical] = &[same(Quantity::Stiffness)];
-    number(name, place, field).in_unit("E_s t").physical(PER_MM)
+    number(name, point, field).in_unit("E_s t").physical(PER_MM)
 }
 
 /// Builds an entry for a number of bending.
 pub(super) const fn bending(
     name: &'static str,
-    place: Place,
+    point: PathPoint,
     field: FlexureField,
 ) -> MeasuredValue {
-    value(name, COMPLIANCE, Value::Flexure(field)).at(place)
+    value(name, COMPLIANCE, Value::Flexure(field)).at(point)
 }
 
 impl MeasuredValue {
@@ -147,8 +156,8 @@ impl MeasuredValue {
     }
 
     /// Sets the point of the path at which the value is measured.
-    pub(super) const fn at(self, place: Place) -> Self {
-        Self { place, ..self }
+    pub(super) const fn at(self, point: PathPoint) -> Self {
+        Self { point, ..self }
     }
 
     /// Sets the conversions to physical units.

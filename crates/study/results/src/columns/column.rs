@@ -96,7 +96,7 @@ fn header(parameter: &Parameter) -> &'static str {
 /// Returns true if a column is a parameter that distinguishes designs.
 ///
 /// A length in mm does not count if the same length over the thickness is a column too.
-pub fn tells_apart(name: &str, headers: &[String]) -> bool {
+pub fn distinguishes_designs(name: &str, headers: &[String]) -> bool {
     let over_t = parameter_of(name).map(Parameter::over_t);
     over_t.is_some_and(|over_t| {
         !over_t.is_some_and(|of| headers.iter().any(|header| header == of.key))

@@ -75,7 +75,7 @@ fn in_physical_units() -> impl Iterator<Item = ValueColumn> {
     let mut values: Vec<_> = VALUES.iter().collect();
     // Stable sort: each of the three groups keeps the order of `designs.csv`.
     values.sort_by_key(|value| {
-        if value.names_a_table() { 0 } else { 2 - usize::from(value.place.is_limit()) }
+        if value.names_a_table() { 0 } else { 2 - usize::from(value.point.is_limit()) }
     });
     let nominal = |value: &&'static MeasuredValue| -> Vec<_> {
         value.physical.iter().map(|physical| physical_column(value, physical)).collect()

@@ -24,7 +24,7 @@ pub struct MeasuredValue {
     /// Tables that contain the value in addition to `designs.csv`.
     pub(super) tables: &'static [&'static str],
     /// Point of the path at which the value is measured.
-    pub(super) place: Place,
+    pub(super) point: PathPoint,
     /// Accessor of the value in a result.
     pub(super) value: Value,
     /// Conversions to physical units.
@@ -71,7 +71,7 @@ pub(super) enum Value {
 ///
 /// Determines whether the value depends on the end of the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum PathPoint {
     /// On no path, or on the whole path without a physical meaning.
     Nowhere,
     Rest,
@@ -91,7 +91,7 @@ pub(super) enum Place {
     End,
 }
 
-impl Place {
+impl PathPoint {
     /// Returns true if the value depends on the end of the path.
     pub(super) fn depends_on_end(self) -> bool {
         matches!(self, Self::FoldOrEnd | Self::Peak | Self::Anywhere | Self::End)
@@ -242,8 +242,10 @@ impl MeasuredValue {
 
     /// Returns true if [`skin::PathDetail::Critical`] omits the value.
     pub(super) fn is_along_path(&self) -> bool {
-        let is_before_end =
-            matches!(self.place, Place::Rest | Place::Contact | Place::Instability | Place::Peak);
+        let is_before_end = matches!(
+            self.point,
+            PathPoint::Rest | PathPoint::Contact | PathPoint::Instability | PathPoint::Peak
+        );
         self.measure() == Some(Measure::Puncture) && (is_before_end || self.needs_path)
     }
 
@@ -263,7 +265,7 @@ impl MeasuredValue {
         // Properties of the product stay comparable: designs with and without friction may compete.
         let marks = self.needs.contains(&parameter.key) && !parameter.has(Role::Made);
         marks
-            || (ends && self.place.depends_on_end())
+            || (ends && self.point.depends_on_end())
             || (is_unit && parameter.has(Role::UnitOfBending))
     }
 

@@ -20,7 +20,7 @@ fn tilt_values() -> Vec<(&'static MeasuredValue, &'static TiltValue)> {
 ///
 /// They belong to one measure table or, for `None`, to all.
 pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
-    let places = places(sweep);
+    let places = tilt_suffixes(sweep);
     let columns = tilt_values()
         .into_iter()
         .filter(|(value, _)| table.is_none_or(|table| value.tables.contains(&table)));
@@ -37,7 +37,7 @@ pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<Des
 }
 
 /// Returns the tilts of `sweep` as parts of column names: `5deg` or `friction_0.1`.
-fn places(sweep: &Sweep) -> Vec<String> {
+fn tilt_suffixes(sweep: &Sweep) -> Vec<String> {
     let list = |key: &str| match Parameter::named(key)?.get(sweep.grid().base()) {
         // The base value of a parameter that is an axis is meaningless.
         Scalar::List(list) if sweep.grid().axis(key).is_none() => Some(list),

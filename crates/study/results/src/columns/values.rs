@@ -21,12 +21,12 @@ use skin::puncture::{CriticalEvent, FailureMode, PunctureMeasures};
 use sweep::key;
 
 use super::builders::{
-    BOTH, COMPLIANCE, COVERAGE, DEPTH, FORCE, NONE, bending, depth, force, number, other,
-    other_thing, same, stiffness, value,
+    BOTH, COMPLIANCE, COVERAGE, DEPTH, FORCE, NONE, bending, depth, force, number, other, renamed,
+    same, stiffness, value,
 };
 use super::cell::Cell;
 use super::measured_value::MeasuredValue;
-use super::measured_value::Place::{
+use super::measured_value::PathPoint::{
     Anywhere, Contact, End, Fold, FoldOrEnd, Instability, Nowhere, Peak, Rest,
 };
 use super::measured_value::Value::{ArealMass, Coverage, Samples, SamplesAlone};
@@ -74,7 +74,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     value(name::COVERAGE, COVERAGE, Coverage).large().first():
         "fraction of the scale layer that a vertical line through the top right corner of a scale crosses as solid scale; 0 for upright scales";
     force(name::CRITICAL_FORCE, End, |m| &mut m.critical_force)
-        .physical(&[same(Quantity::Force), other_thing(Quantity::ForcePerWidth, "critical_force_per_width", "puncture force at the critical tilt per width of the scales")])
+        .physical(&[same(Quantity::Force), renamed(Quantity::ForcePerWidth, "critical_force_per_width", "puncture force at the critical tilt per width of the scales")])
         .large().sampled("critical force", |s| s.critical_force)
         .at_tilts("puncture force where the path first reaches the tilt, or the friction, in the name", |m| m.force)
         .first():
@@ -134,14 +134,14 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "estimated relative error of the substrate stiffness, including terms that full coupling neglects";
     bending(name::COMPLIANCE, Anywhere, |m| &mut m.compliance)
         .in_unit("1/(E_m I_m)")
-        .physical(&[other_thing(Quantity::Rigidity, "flexural_rigidity", "flexural rigidity: largest slope of the moment against the curvature")])
+        .physical(&[renamed(Quantity::Rigidity, "flexural_rigidity", "flexural rigidity: largest slope of the moment against the curvature")])
         .large().sampled("flexural compliance", |s| s.compliance).first():
         "flexural compliance: 1 over the largest slope of the moment against the curvature";
     other("flexure_status", COMPLIANCE, |r| r.flexure.map(|f| f.outcome.text()).into()).last():
         "complete, or why the bending has no values";
     bending(name::INITIAL_COMPLIANCE, Rest, |m| &mut m.initial_compliance)
         .in_unit("1/(E_m I_m)")
-        .physical(&[other_thing(Quantity::Rigidity, "initial_flexural_rigidity", "flexural rigidity at rest")])
+        .physical(&[renamed(Quantity::Rigidity, "initial_flexural_rigidity", "flexural rigidity at rest")])
         .large():
         "flexural compliance at rest";
     other(name::FLEXURE_CONTACT, COMPLIANCE, |r| bent(r, |m| m.contact.map(yes_or_no))).then():
@@ -275,7 +275,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "curvature above which the scales stick to each other and lock the strip; empty if it does not lock";
     bending(name::CONTACT_CURVATURE, Contact, |m| &mut m.contact_curvature)
         .in_unit("1/t")
-        .physical(&[other_thing(Quantity::Radius, "bend_radius", "smallest radius to which the skin bends before scales touch; 0 for a gap that cannot close")])
+        .physical(&[renamed(Quantity::Radius, "bend_radius", "smallest radius to which the skin bends before scales touch; 0 for a gap that cannot close")])
         .large().then():
         "curvature at which scales touch, even if bending ends before; empty for a gap that cannot close";
     // In a perfect strip all gaps close at the same curvature, so only imperfect samples have a

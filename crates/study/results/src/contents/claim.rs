@@ -151,7 +151,7 @@ mod tests {
             folder.remove(file.name);
             for text in ["first", "second"] {
                 let claim = Claim::take(&folder, file.maker).expect(file.name);
-                assert!(!folder.holds(file.name), "that of before is gone");
+                assert!(!folder.holds(file.name), "the file of the earlier run is removed");
                 write(text);
                 claim.state(&[file.name]).expect("written");
             }

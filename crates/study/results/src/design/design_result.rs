@@ -64,7 +64,7 @@ impl DesignResult {
 pub struct PunctureResult {
     /// Outcome: complete, or why the path stopped.
     pub outcome: Outcome,
-    /// Measures; without values at the end of an incomplete path.
+    /// Measures. Those at the end of an incomplete path have no values.
     pub measures: puncture::PunctureMeasures,
     /// Number of equilibria of the path.
     pub points: usize,
@@ -142,7 +142,7 @@ impl PunctureResult {
 pub struct FlexureResult {
     /// Outcome: complete, or why the path stopped.
     pub outcome: Outcome,
-    /// Measures; without values at the end of an incomplete path.
+    /// Measures. Those at the end of an incomplete path have no values.
     pub measures: flexure::FlexureMeasures,
     /// Number of equilibria of the path.
     pub points: usize,

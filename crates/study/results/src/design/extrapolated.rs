@@ -1,6 +1,5 @@
 //! Linear extrapolation of a row to a neighbouring design.
 //!
-//!
 //! The derivative of any column follows from extrapolated rows, without a rule per column. For
 //! example, `critical_force_N` is `F* E t²`. If `F*` is 0.4 and falls by 2 per unit of the gap, the
 //! row for a gap larger by 0.001 has `F*` = 0.398, and every column can be computed from that row:
@@ -54,7 +53,7 @@ impl DesignRow {
 
     /// Returns the parameters that a change of one `parameter` changes, itself included.
     ///
-    /// [`Self::extrapolated_by`] needs derivatives by these alone.
+    /// [`Self::extrapolated_by`] needs derivatives with respect to these parameters only.
     pub fn changed_by(case: &Case, parameter: &'static Parameter) -> Vec<&'static Parameter> {
         if parameter.has(Role::Continuous) {
             return vec![parameter];

@@ -12,7 +12,7 @@ pub struct Statistics {
     pub mean: f64,
     /// Quantiles at 5 %, 50 % and 95 %.
     ///
-    /// They are interpolated between the two nearest values ([`quantile_places`]).
+    /// They are interpolated between the two nearest values ([`quantile_positions`]).
     pub quantiles: [f64; 3],
 }
 
@@ -23,16 +23,16 @@ pub const QUANTILES: [(&str, f64); 3] = [("p05", 0.05), ("p50", 0.5), ("p95", 0.
 ///
 /// The result holds the 0-based positions of the two nearest values, and the weight of the second
 /// (type 7 of Hyndman and Fan 1996, doi 10.1080/00031305.1996.10473566). `None` without values.
-pub fn quantile_places(count: usize, share: f64) -> Option<([usize; 2], f64)> {
-    let place = share * count.checked_sub(1)? as f64;
-    Some(([place.floor() as usize, place.ceil() as usize], place - place.floor()))
+pub fn quantile_positions(count: usize, probability: f64) -> Option<([usize; 2], f64)> {
+    let position = probability * count.checked_sub(1)? as f64;
+    Some(([position.floor() as usize, position.ceil() as usize], position - position.floor()))
 }
 
-/// Returns a quantile of sorted values.
+/// Returns the quantile of sorted values at a probability.
 ///
 /// `None` if there are no values, or the result is not finite.
-pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
-    let ([below, above], part) = quantile_places(sorted.len(), share)?;
+pub fn quantile(sorted: &[f64], probability: f64) -> Option<f64> {
+    let ([below, above], part) = quantile_positions(sorted.len(), probability)?;
     finite(sorted[below] + part * (sorted[above] - sorted[below]))
 }
 
@@ -42,7 +42,7 @@ impl Statistics {
     /// `None` if there are no values, or a result is not finite.
     pub fn from_values(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
-        let [low, middle, high] = QUANTILES.map(|(_, share)| quantile(&values, share));
+        let [low, middle, high] = QUANTILES.map(|(_, probability)| quantile(&values, probability));
         // Without values this is 0/0, which `finite` turns into `None`.
         let mean = finite(values.iter().sum::<f64>() / values.len() as f64)?;
         Some(Self { mean, quantiles: [low?, middle?, high?] })

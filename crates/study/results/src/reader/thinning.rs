@@ -7,8 +7,9 @@ use crate::folder::MEASURE_TABLES;
 /// The kept rows of a table, with their positions.
 #[derive(Debug)]
 pub(super) struct Thinning {
+    /// Distance of the equidistant rows.
     every: usize,
-    places: Vec<usize>,
+    positions: Vec<usize>,
     table: Table,
     best: Vec<BestRow>,
 }
@@ -24,7 +25,7 @@ struct BestRow {
 impl Thinning {
     /// Creates a thinning of a table with `rows` rows to about `most` rows.
     ///
-    /// `table` is empty.
+    /// `table` is empty and receives the kept rows.
     pub fn new(table: Table, rows: usize, most: usize) -> Self {
         let best = MEASURE_TABLES.iter().filter_map(|(name, _)| {
             let column = table.column(name)?;
@@ -34,16 +35,16 @@ impl Thinning {
         let best = if rows > most { best.collect() } else { Vec::new() };
         // Without a limit `rows` is 0, and every row is kept.
         let every = rows.div_ceil(most.max(1)).max(1);
-        Self { every, places: Vec::new(), table, best }
+        Self { every, positions: Vec::new(), table, best }
     }
 
-    /// Processes the row at position `place`.
-    pub fn visit(&mut self, place: usize, row: &csv::StringRecord) {
+    /// Keeps the row at `position` if it is due, or the best by a column so far.
+    pub fn visit(&mut self, position: usize, row: &csv::StringRecord) {
         for best in &mut self.best {
-            best.visit(place, row);
+            best.visit(position, row);
         }
-        if place.is_multiple_of(self.every) {
-            self.places.push(place);
+        if position.is_multiple_of(self.every) {
+            self.positions.push(position);
             self.table.push(row);
         }
     }
@@ -53,26 +54,26 @@ impl Thinning {
         if self.best.is_empty() {
             return self.table;
         }
-        for (_, place, row) in self.best.into_iter().filter_map(|best| best.row) {
-            self.places.push(place);
+        for (_, position, row) in self.best.into_iter().filter_map(|best| best.row) {
+            self.positions.push(position);
             self.table.push(&row);
         }
         // A row may be kept more than once: as the best by several columns, or at a regular
         // distance.
-        let mut order: Vec<usize> = (0..self.places.len()).collect();
-        order.sort_by_key(|k| self.places[*k]);
-        order.dedup_by_key(|k| self.places[*k]);
+        let mut order: Vec<usize> = (0..self.positions.len()).collect();
+        order.sort_by_key(|k| self.positions[*k]);
+        order.dedup_by_key(|k| self.positions[*k]);
         self.table.only(&order)
     }
 }
 
 impl BestRow {
-    fn visit(&mut self, place: usize, row: &csv::StringRecord) {
+    fn visit(&mut self, position: usize, row: &csv::StringRecord) {
         // A failed design has an empty cell and cannot be the best.
         let cell = row.get(self.column).and_then(|cell| cell.parse::<f64>().ok());
         let Some(value) = cell else { return };
         if self.row.as_ref().is_none_or(|(best, ..)| self.goal.prefers(value, *best)) {
-            self.row = Some((value, place, row.clone()));
+            self.row = Some((value, position, row.clone()));
         }
     }
 }
@@ -85,10 +86,10 @@ mod tests {
         let header = ["design", "penetration"].map(str::to_owned);
         let table = Table::new(header.to_vec(), |_| true);
         let mut thinning = Thinning::new(table, rows, most);
-        for place in 0..rows {
-            let penetration = (place as f64 - 7.0).abs();
-            let row = [place.to_string(), penetration.to_string()];
-            thinning.visit(place, &csv::StringRecord::from(row.to_vec()));
+        for position in 0..rows {
+            let penetration = (position as f64 - 7.0).abs();
+            let row = [position.to_string(), penetration.to_string()];
+            thinning.visit(position, &csv::StringRecord::from(row.to_vec()));
         }
         let table = thinning.finish();
         (0..table.length()).map(|row| table.name(row).to_owned()).collect()

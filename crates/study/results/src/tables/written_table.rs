@@ -45,7 +45,7 @@ impl WrittenTable {
 
     /// Returns the first cells of the rows that differ from the table.
     ///
-    /// `row` computes a row anew, and returns nothing for a row that is not to be compared.
+    /// `row` recomputes a row, and returns `None` for a row that is not compared.
     ///
     /// # Errors
     ///

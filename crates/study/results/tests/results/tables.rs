@@ -161,8 +161,8 @@ fn a_thickness_adds_the_columns_of_lengths_in_mm() {
             assert_eq!(headers.iter().filter(|header| *header == name).count(), 1, "{with}");
         }
         let apart = ["gap_over_t", "length_over_t", "width_over_t"];
-        assert!(apart.iter().all(|name| results::columns::tells_apart(name, &headers)));
-        assert!(!results::columns::tells_apart("gap_mm", &headers));
+        assert!(apart.iter().all(|name| results::columns::distinguishes_designs(name, &headers)));
+        assert!(!results::columns::distinguishes_designs("gap_mm", &headers));
     }
 }
 
