@@ -48,7 +48,7 @@ pub struct LargestDifference {
     /// Column of `designs.csv`.
     pub column: String,
     /// Second method.
-    pub way: SecondMethod,
+    pub method: SecondMethod,
     /// Difference relative to the larger value.
     pub relative: f64,
     /// Design with this difference.
@@ -79,20 +79,18 @@ struct Audited {
 }
 
 impl Audit {
-    /// Solves a fraction of the designs of the run in `folder` again, and compares.
-    ///
-    /// `share` is the fraction, from 0 to 1.
+    /// Solves a `fraction` (0 to 1) of the designs of the run in `folder` again, and compares.
     ///
     /// # Errors
     ///
     /// If the journal cannot be read, or the threads cannot be started.
-    pub fn solve(folder: &Path, share: f64, options: &Options<'_>) -> Result<Self, RunError> {
+    pub fn solve(folder: &Path, fraction: f64, options: &Options<'_>) -> Result<Self, RunError> {
         let archive = Archive::open(&ResultsFolder::new(folder))?;
         let sweep = archive.sweep();
         let columns = design_columns(sweep);
         // Select all designs first, because selected designs are far apart in the grid, and groups
         // compare neighbours.
-        let chosen: Vec<_> = every(share, archive.held()).collect();
+        let chosen: Vec<_> = every(fraction, archive.finished()).collect();
         let mut entries = archive.entries()?;
         let mut audit = Self::default();
         let groups = Groups::new(sweep.grid(), chosen.into_iter());
@@ -125,7 +123,12 @@ impl Audit {
     }
 
     /// Adds the differences between two rows of one design.
-    fn compare(&mut self, columns: &[Column<DesignRow>], rows: [&DesignRow; 2], way: SecondMethod) {
+    fn compare(
+        &mut self,
+        columns: &[Column<DesignRow>],
+        rows: [&DesignRow; 2],
+        method: SecondMethod,
+    ) {
         for column in columns.iter().filter(|column| is_physical(&column.name)) {
             let design = rows[0].number;
             match rows.map(|row| column.cell(row)) {
@@ -133,7 +136,7 @@ impl Audit {
                     // Both are numbers, so their relative difference is recorded.
                     let relative = relative(first, second);
                     let (column, values) = (column.name.to_string(), [first, second]);
-                    self.note(LargestDifference { column, way, relative, design, values });
+                    self.note(LargestDifference { column, method, relative, design, values });
                 }
                 // Different texts, such as statuses, have no size, so both are recorded.
                 cells if cells[0] != cells[1] => {
@@ -148,7 +151,10 @@ impl Audit {
     /// Stores a difference if it is the largest of its column and method.
     fn note(&mut self, new: LargestDifference) {
         // With some twenty columns and two methods, a list is faster than a map.
-        match self.differences.iter_mut().find(|old| old.column == new.column && old.way == new.way)
+        match self
+            .differences
+            .iter_mut()
+            .find(|old| old.column == new.column && old.method == new.method)
         {
             Some(old) if new.relative > old.relative => *old = new,
             Some(_) => {}
@@ -205,21 +211,21 @@ fn whole(mut case: Case) -> Option<[Case; 2]> {
     })
 }
 
-/// Selects a `share` of `designs`, spread evenly at every period of the grid.
+/// Selects a `fraction` of `designs`, spread evenly at every period of the grid.
 ///
 /// The multiples of the golden ratio modulo one have this property.
-fn every(share: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item = u64> {
+fn every(fraction: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item = u64> {
     designs
         .enumerate()
-        .filter(move |(place, _)| (*place as f64 * GOLDEN).fract() < share)
+        .filter(move |(ordinal, _)| (*ordinal as f64 * GOLDEN).fract() < fraction)
         .map(|(_, design)| design)
 }
 
 /// Returns true if a column does not depend on the solution method.
 fn is_physical(column: &str) -> bool {
     // The second method changes the numbers of steps and iterations.
-    let of_the_way = ["_points", "_iterations", "_error"];
-    !of_the_way.iter().any(|end| column.ends_with(end)) && column != "scales"
+    let of_the_path = ["_points", "_iterations", "_error"];
+    !of_the_path.iter().any(|end| column.ends_with(end)) && column != "scales"
 }
 
 /// Returns the difference of two numbers relative to the larger; 0 if both vanish.

@@ -12,12 +12,12 @@ use crate::solve::evaluator::Evaluator;
 
 /// Number of positions in the grid, and of neighbouring designs at each.
 // Several positions, because the cost varies over the grid; neighbours, because they share springs.
-const PLACES: u64 = 8;
+const POSITIONS: u64 = 8;
 const NEIGHBOURS: u64 = 6;
 
 /// Order of the positions; every prefix of it is spread over the grid.
 // The middle first, because the first designs of a grid are often the costliest.
-const ORDER: [u64; PLACES as usize] = [4, 1, 6, 3, 0, 5, 2, 7];
+const ORDER: [u64; POSITIONS as usize] = [4, 1, 6, 3, 0, 5, 2, 7];
 
 /// Maximum time of an estimate, plus the design in progress.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -55,7 +55,7 @@ impl Estimate {
 
 /// Selects neighbouring designs at a few positions of a grid.
 fn spread(designs: u64) -> impl Iterator<Item = u64> {
-    let first = move |place: u64| (2 * place + 1) * (designs / (2 * PLACES));
+    let first = move |place: u64| (2 * place + 1) * (designs / (2 * POSITIONS));
     // All positions before any neighbours, because slow designs leave time for only a few.
     let all = (0..NEIGHBOURS).flat_map(move |next| ORDER.map(|place| first(place) + next));
     all.filter(move |index| *index < designs)

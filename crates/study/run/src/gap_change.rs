@@ -11,7 +11,7 @@ use crate::solve::work::work_of;
 
 /// Factors on the gap of a design.
 // Both directions, because a cliff may be on either side.
-const PARTS: [f64; 2] = [0.9, 1.1];
+const FACTORS: [f64; 2] = [0.9, 1.1];
 
 /// Ratio of a measure that counts as a cliff if the gap changes by 10 %.
 ///
@@ -104,7 +104,7 @@ impl GapChange {
         let (own, case) = case_to_solve(sweep, number, patience)?;
         let columns: Vec<&str> = measured.iter().map(|(column, _)| *column).collect();
         let evaluator = evaluator_of(sweep, &columns);
-        let rows = PARTS.map(|part| {
+        let rows = FACTORS.map(|part| {
             let mut case = case;
             case.design.gap *= part;
             evaluator.row(own, &case)

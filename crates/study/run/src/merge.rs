@@ -179,7 +179,7 @@ fn gather(
     // A second handle reads entries at their offsets, which stay valid while the journal grows.
     let mut there = before.entries()?;
     let mut added = 0;
-    for (design, holders) in Held::by(sources.iter().map(|source| source.archive.held())) {
+    for (design, holders) in Held::by(sources.iter().map(|source| source.archive.finished())) {
         // A shard may contain designs that a sample of the grid excludes.
         let Some(position) = designs.position(design) else { continue };
         let known = there.last(position)?;
@@ -209,15 +209,15 @@ struct Held<I> {
 impl<I: Iterator<Item = u64>> Held<I> {
     fn by(sources: impl Iterator<Item = I>) -> Self {
         let mut held = Self { sources: sources.collect(), next: BinaryHeap::new() };
-        for place in 0..held.sources.len() {
-            held.advance(place);
+        for source in 0..held.sources.len() {
+            held.advance(source);
         }
         held
     }
 
-    fn advance(&mut self, place: usize) {
-        let next = self.sources[place].next();
-        self.next.extend(next.map(|design| Reverse((design, place))));
+    fn advance(&mut self, source: usize) {
+        let next = self.sources[source].next();
+        self.next.extend(next.map(|design| Reverse((design, source))));
     }
 }
 
@@ -227,12 +227,12 @@ impl<I: Iterator<Item = u64>> Iterator for Held<I> {
     fn next(&mut self) -> Option<Self::Item> {
         let Reverse((design, _)) = *self.next.peek()?;
         let mut holders = Vec::new();
-        while let Some(&Reverse((other, place))) = self.next.peek()
+        while let Some(&Reverse((other, source))) = self.next.peek()
             && other == design
         {
             self.next.pop();
-            holders.push(place);
-            self.advance(place);
+            holders.push(source);
+            self.advance(source);
         }
         holders.sort_unstable();
         Some((design, holders))

@@ -65,7 +65,8 @@ pub fn run(
 /// Returns the message about removed files that were derived from earlier results.
 fn removal(files: &[String]) -> Option<String> {
     let files = files.join(" ");
-    (!files.is_empty()).then(|| format!("removed, because made from the earlier results: {files}"))
+    (!files.is_empty())
+        .then(|| format!("removed, because they were made from the earlier results: {files}"))
 }
 
 /// A run of the designs of one journal.

@@ -96,7 +96,7 @@ fn weakest(
     let mut weakest: Option<(f64, &DesignRow)> = None;
     let mut ended: Option<(f64, &DesignRow)> = None;
     for row in positions {
-        // With full coupling only, the surface folds and the force is not valid.
+        // The surface folds with full coupling only, so the force is not valid.
         let is_folded = is_invalid_after_fold(column) && folds(row) && !folds(requested);
         match force.cell(row).number().filter(|_| !is_folded) {
             Some(force) => keep_smaller(&mut weakest, force, row),

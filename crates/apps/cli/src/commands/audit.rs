@@ -39,7 +39,7 @@ pub fn report(audit: &Audit) -> String {
 }
 
 fn row(found: &LargestDifference) -> [String; 5] {
-    let way = match found.way {
+    let way = match found.method {
         SecondMethod::SmallerSteps => "steps a tenth as large",
         SecondMethod::Chain => "chain against unit cell",
     };

@@ -331,7 +331,10 @@ fn a_fresh_run_removes_products_of_the_earlier_run() {
     fs::write(place.path("r/figures/coverage-maps-by-slant.svg"), &own).expect("writable");
     let run = place.squama("run x.toml -q --fresh --out r --set contact.c1=2").assert().code(0);
     let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
-    assert!(said.starts_with("note: removed, because made from the earlier results: "), "{said}");
+    assert!(
+        said.starts_with("note: removed, because they were made from the earlier results: "),
+        "{said}"
+    );
     for file in ["ranking.csv", "report.html", "a.xlsx"] {
         assert!(said.contains(file) && !place.path("r").join(file).exists(), "{file}: {said}");
     }

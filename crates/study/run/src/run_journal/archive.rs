@@ -162,7 +162,7 @@ impl Archive {
     }
 
     /// Returns true if the valid line of a design is in the first `bytes` bytes.
-    pub(crate) fn stands_before(&self, position: u64, bytes: u64) -> bool {
+    pub(crate) fn is_before(&self, position: u64, bytes: u64) -> bool {
         self.index.offset(position).is_some_and(|offset| offset < bytes)
     }
 
@@ -188,8 +188,8 @@ impl Archive {
     }
 
     /// Returns the finished designs in order, as indices of the grid.
-    pub(crate) fn held(&self) -> impl Iterator<Item = u64> {
-        self.index.lines_that_count().map(|(position, _)| self.designs.design(position))
+    pub(crate) fn finished(&self) -> impl Iterator<Item = u64> {
+        self.index.valid_lines().map(|(position, _)| self.designs.design(position))
     }
 
     /// Returns the positions of designs that are not finished.
@@ -246,7 +246,7 @@ pub(crate) struct Entries<'a> {
 impl Entries<'_> {
     /// Returns the latest entry of each finished design, in order.
     pub fn in_order(mut self) -> impl Iterator<Item = Result<JournalEntry, JournalError>> {
-        let offsets = self.archive.index.lines_that_count();
+        let offsets = self.archive.index.valid_lines();
         offsets.map(move |(_, offset)| self.at(offset))
     }
 

@@ -27,7 +27,7 @@ pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), Jo
         let index = record.get(0).and_then(|number| grid.parse_number(number).ok());
         let position = index.and_then(|index| archive.designs().position(index));
         // Lines after the stated extent may be reruns that the tables do not contain.
-        let old = position.filter(|position| archive.stands_before(*position, stated.bytes));
+        let old = position.filter(|position| archive.is_before(*position, stated.bytes));
         let entry = old.map(|position| entries.last(position)).transpose()?.flatten();
         let row = entry.map(|entry| archive.row(entry));
         // If a rerun was lost with the end of the journal, the earlier result remains. Its settings

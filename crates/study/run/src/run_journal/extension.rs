@@ -1,7 +1,7 @@
 //! Continues a run with a definition that has more designs than before.
 //!
-//! A longer axis, or a list in place of an equal range, gives other numbers to the designs that are
-//! solved. Their parameters decide whether they are designs of the new definition.
+//! A longer axis, or a list in place of an equal range, renumbers the solved designs. They are
+//! therefore matched to the new definition by their parameters.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -32,7 +32,7 @@ pub(super) fn adopt(
     if !path.is_file() {
         return Ok(None);
     }
-    // Damaged journals are reported where the run continues.
+    // The caller reports a damaged journal when it continues the run.
     let Ok(found) = Archive::open(folder) else { return Ok(None) };
     if found.header().definition() == header.definition() || !is_extended(&found, header) {
         return Ok(None);
@@ -76,13 +76,13 @@ fn axis_keys(sweep: &Sweep) -> BTreeSet<&'static str> {
 /// grid lacks one.
 fn numbers(archive: &Archive, sweep: &Sweep) -> Option<Vec<(u64, u64)>> {
     let (old, new) = (archive.sweep().grid(), sweep.grid());
-    let held = archive.held().map(|index| {
+    let numbers = archive.finished().map(|index| {
         let case = old.case(index);
         // Exactly equal, so that a fresh run would give the same tables.
         let found = new.find(&case).filter(|found| new.case(*found) == case)?;
         Some((index, found))
     });
-    held.collect()
+    numbers.collect()
 }
 
 /// Writes the journal with the new numbers to `path`.

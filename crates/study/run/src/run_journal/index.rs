@@ -63,7 +63,7 @@ impl Index {
     }
 
     /// Returns the positions of finished designs with the offset of the valid line.
-    pub fn lines_that_count(&self) -> impl Iterator<Item = (u64, u64)> {
+    pub fn valid_lines(&self) -> impl Iterator<Item = (u64, u64)> {
         self.pages.iter().flat_map(|(page, places)| {
             let positions = page * PAGE..;
             positions
@@ -95,7 +95,7 @@ impl Index {
     pub fn missing(&self, count: u64) -> Vec<Range<u64>> {
         let mut missing = Vec::new();
         let mut next = 0;
-        for (position, _) in self.lines_that_count() {
+        for (position, _) in self.valid_lines() {
             missing.extend((next < position).then_some(next..position));
             next = position + 1;
         }
@@ -117,7 +117,7 @@ mod tests {
         }
         assert_eq!(index.missing(7), [0..1, 3..4, 5..7]);
         assert_eq!(index.missing(5), [0..1, 3..4]);
-        assert_eq!(index.lines_that_count().collect::<Vec<_>>(), [(1, 40), (2, 30), (4, 10)]);
+        assert_eq!(index.valid_lines().collect::<Vec<_>>(), [(1, 40), (2, 30), (4, 10)]);
         assert_eq!(index.done(), 3);
         assert_eq!(index.replaced(), [Replaced { old: 20, new: 40 }]);
         assert_eq!((index.history(1), index.history(2)), (vec![20, 40], vec![30]));

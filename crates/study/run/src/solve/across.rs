@@ -11,11 +11,11 @@ use sweep::Case;
 use super::evaluator::{Evaluator, guarded, recorded, solved};
 use super::sensitivity::{self, Wanted};
 
-/// Number of rows across that an evaluator remembers.
+/// Maximum number of cached rows across.
 ///
-/// Designs of a sweep follow each other by slant, which a row across does not have. Several threads
-/// solve several groups of designs.
-const KNOWN_ACROSS: usize = 64;
+/// Consecutive designs of a sweep usually differ only in their slant, on which the row across does
+/// not depend. Each thread solves its own group of designs, so one cached row would not suffice.
+const MAX_CACHED: usize = 64;
 
 /// Forces of a row across, in units that contain the length of the scales in that row.
 #[derive(Clone, Copy, Debug)]
@@ -63,10 +63,10 @@ impl Evaluator {
         }
     }
 
-    /// Solves a row across, unless it is one of the last ones.
+    /// Returns the forces of a row across. Solves it unless it is cached.
     fn across_forces(&self, across: &Case) -> AcrossForces {
-        let known = self.known_across().iter().find(|(case, _)| case == across).copied();
-        if let Some((_, forces)) = known {
+        let cached = self.cached_across().iter().find(|(case, _)| case == across).copied();
+        if let Some((_, forces)) = cached {
             return forces;
         }
         let Case { design, common, .. } = across;
@@ -77,14 +77,14 @@ impl Evaluator {
         let forces = AcrossForces::new(&punctured);
         // An interrupted path has no critical force and must not be used again.
         if forces.critical.is_some() {
-            let mut known = self.known_across();
-            known.truncate(KNOWN_ACROSS - 1);
-            known.push_front((*across, forces));
+            let mut cached = self.cached_across();
+            cached.truncate(MAX_CACHED - 1);
+            cached.push_front((*across, forces));
         }
         forces
     }
 
-    fn known_across(&self) -> MutexGuard<'_, VecDeque<(Case, AcrossForces)>> {
+    fn cached_across(&self) -> MutexGuard<'_, VecDeque<(Case, AcrossForces)>> {
         self.across.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

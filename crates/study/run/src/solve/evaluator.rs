@@ -32,12 +32,12 @@ const LONGEST_CHAIN: usize = 100_000;
 #[derive(Debug)]
 pub struct Evaluator {
     measures: Vec<Measure>,
-    /// Extent of the record of the paths of rows of tables.
+    /// Detail of the recorded paths, for rows of tables.
     detail: PathDetail,
-    /// Parts of the designs to solve; `None`: every part with its whole record.
+    /// Parts of the designs to solve. `None`: every part, with full detail.
     parts: Option<Parts>,
     calibrations: Calibrations,
-    /// The last rows across that were solved.
+    /// Cache of the rows across that were solved last.
     pub(super) across: Mutex<VecDeque<(Case, AcrossForces)>>,
 }
 
@@ -108,7 +108,7 @@ impl Evaluator {
             && case.punctured().depend_on_end_only()
     }
 
-    /// Follows the path of a puncture to its end, a start for similar designs.
+    /// Follows the path of a puncture and returns its end, where similar designs can start.
     ///
     /// `None` if no other design can start from it ([`PunctureEnd`]).
     pub fn puncture_end(&self, case: &Case) -> Option<PunctureEnd> {
@@ -134,7 +134,7 @@ impl Evaluator {
     /// Solves a design like [`Self::row_and_end`], with the puncture from the `end` of a similar
     /// design.
     ///
-    /// `None` if the path has to be followed.
+    /// `None` if the path must be followed from rest.
     pub fn row_near(
         &self,
         number: DesignNumber,
@@ -322,7 +322,7 @@ impl Evaluator {
 
     /// Punctures the design of `case` from the `end` of a similar design.
     ///
-    /// `None` if the path has to be followed.
+    /// `None` if the path must be followed from rest.
     fn puncture_near(
         &self,
         case: &Case,
@@ -444,7 +444,7 @@ impl Evaluator {
     }
 }
 
-/// Returns the case with another extent of the record of its path.
+/// Returns the case with another detail of its recorded path.
 pub(super) fn recorded(case: &Case, detail: PathDetail) -> Case {
     let common = Common { detail, ..case.common };
     Case { common, ..*case }

@@ -41,8 +41,8 @@ pub(crate) fn interleaved(ranges: Vec<Range<u64>>) -> impl Iterator<Item = u64> 
 /// The first one is in the middle, because the first designs of a grid are often the costliest.
 fn nth_block(k: u64, stride: u64, blocks: u64) -> u64 {
     // Products of large runs exceed 64 bits.
-    let place = u128::from(k) * u128::from(stride) + u128::from(blocks / 2);
-    (place % u128::from(blocks)) as u64
+    let multiple = u128::from(k) * u128::from(stride) + u128::from(blocks / 2);
+    (multiple % u128::from(blocks)) as u64
 }
 
 /// Returns the number nearest to the golden section of `blocks` without a common divisor.

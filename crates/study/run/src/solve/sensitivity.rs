@@ -52,7 +52,7 @@ const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_ov
 ///
 /// The prefactor of the contact law is omitted: forces depend on its product with the modulus only,
 /// so [`with_prefactor`] computes its derivatives from the derivatives for the modulus. If the
-/// first failure is sought, it is included, because the modulus also bends the scales.
+/// first failure is requested, it is included, because the modulus also bends the scales.
 fn variations<P>(
     case: &Case,
     wanted: Wanted<'_>,

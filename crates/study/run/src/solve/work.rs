@@ -210,12 +210,12 @@ mod tests {
         let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
         let (case, number) = (sweep.grid().case(0), sweep.grid().number(0));
         let evaluator = crate::Evaluator::new(&[Measure::Puncture]);
-        let (told, heard) = (Arc::<Mutex<Vec<String>>>::default(), Duration::ZERO);
-        let tell = Arc::clone(&told);
-        let tell = move |text| tell.lock().expect("a lock").push(text);
-        report_after(heard, "design 0417", tell, || evaluator.solve(number, &case));
-        let told = told.lock().expect("a lock").join("\n");
-        assert!(told.starts_with("design 0417: 0 s so far, 1 points, at 0.0 %"), "{told}");
+        let messages = Arc::<Mutex<Vec<String>>>::default();
+        let collected = Arc::clone(&messages);
+        let report = move |text| collected.lock().expect("a lock").push(text);
+        report_after(Duration::ZERO, "design 0417", report, || evaluator.solve(number, &case));
+        let messages = messages.lock().expect("a lock").join("\n");
+        assert!(messages.starts_with("design 0417: 0 s so far, 1 points, at 0.0 %"), "{messages}");
     }
 
     #[test]

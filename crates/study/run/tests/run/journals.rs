@@ -100,7 +100,7 @@ fn damaged_journals_are_refused_or_give_the_same_tables() {
                     .any(|what| error.contains(what));
                 assert!(error.lines().count() == 1 && tells, "{error}");
                 let left = fs::read(place.path().join(JOURNAL)).expect("a journal");
-                assert!(left == damaged, "{what}: what is refused is not touched");
+                assert!(left == damaged, "{what}: a refused journal was changed");
                 refused += 1;
             }
         }

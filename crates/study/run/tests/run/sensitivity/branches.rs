@@ -37,7 +37,7 @@ fn ends(
         let on_edge = if edge.ends_with("edge") { "edge" } else { "tip" };
         let before = ends.get(&(pair, is_upper)).copied();
         let after = match change {
-            ContactChange::Slips | ContactChange::Sticks => panic!("nothing rubs"),
+            ContactChange::Slips | ContactChange::Sticks => panic!("no contact has friction"),
             ContactChange::Closed if before.is_some() => Some("flush"),
             ContactChange::Closed | ContactChange::LeftCorner | ContactChange::HandedOver => {
                 Some(on_edge)

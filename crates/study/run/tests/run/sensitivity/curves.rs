@@ -128,7 +128,7 @@ fn a_parameter_without_derivatives_has_no_rate() {
     let points = forces(&Evaluator::new(&[]), &case, &parameters, &[0.01, 1e3]);
     let rates = &points[0].as_ref().expect("a point").rates;
     assert_eq!([0, 1, 2].map(|k| rates[k].is_some()), [true, false, true]);
-    assert!(points[1].is_none(), "no path comes so far");
+    assert!(points[1].is_none(), "no path reaches this depth");
 }
 
 /// A length in mm changes the springs, too.
