@@ -26,44 +26,54 @@ fn headers_follow_the_axes_and_measures_of_a_sweep() {
     insta::assert_snapshot!(headers("name = 'x'\nmeasures = ['coverage']\ndesigns.c2 = [1, 1.5]"));
 }
 
-#[test]
-fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
-    let value = |p: &sweep::Parameter| match p.section {
+/// Returns a valid value of a parameter as an axis, in TOML.
+fn axis_value(parameter: &sweep::Parameter) -> String {
+    match parameter.section {
         // No material parameter is given by default.
         "material" => "1".to_owned(),
-        _ if !p.is_given(&sweep::Case::default()) => "1".to_owned(),
-        _ => p.default().to_toml(),
-    };
-    // These parameters exclude each other: length and number of gaps, critical tilt and friction,
-    // the two units of a depth, radius and curvature. A round tip needs a guided needle without
-    // friction.
-    let names_without = |needle: &str, others: [&str; 5], in_mm: bool| {
-        // A length is given in one unit. None in mm can be combined with parameters that define the
-        // same length in other ways.
-        let is_other = |p: &sweep::Parameter| {
-            let unit = p.is_in_mm() != in_mm && (p.is_in_mm() || p.in_mm().next().is_some());
-            let numerators =
-                ["scale_modulus_MPa", "scale_strength_MPa", "bond_strength_MPa", "force_N"];
-            let is_modulus = numerators.contains(&p.key) && !in_mm;
-            let ratios = ["modulus_over_", "strength_over_", "force_over_"];
-            let is_ratio = in_mm && ratios.iter().any(|ratio| p.key.contains(ratio));
-            unit || is_modulus || is_ratio || p.key == "pitch_mm" || others.contains(&p.key)
-        };
-        let chosen = sweep::PARAMETERS.iter().filter(|p| !is_other(p));
-        let axes: Vec<_> = chosen.map(|p| format!("{} = {}\n", p.key, value(p))).collect();
-        let sweep = sweep(&format!("name = 'x'\n{needle}[designs]\n{}", axes.concat()));
-        results::columns::design_columns(&sweep)
-            .into_iter()
-            .map(|c| c.name.into_owned())
-            .collect::<Vec<_>>()
-    };
-    let mut names = names_without(
+        _ if !parameter.is_given(&sweep::Case::default()) => "1".to_owned(),
+        _ => parameter.default().to_toml(),
+    }
+}
+
+/// Returns true if a length is in the other unit, or a ratio or modulus excludes its alternative.
+///
+/// A length is given in one unit. None in mm can be combined with parameters that define the same
+/// length in other ways.
+fn is_in_other_unit(parameter: &sweep::Parameter, in_mm: bool) -> bool {
+    let has_other_unit = parameter.is_in_mm() || parameter.in_mm().next().is_some();
+    let numerators = ["scale_modulus_MPa", "scale_strength_MPa", "bond_strength_MPa", "force_N"];
+    let ratios = ["modulus_over_", "strength_over_", "force_over_"];
+    let is_ratio = ratios.iter().any(|ratio| parameter.key.contains(ratio));
+    parameter.key == "pitch_mm"
+        || (parameter.is_in_mm() != in_mm && has_other_unit)
+        || if in_mm { is_ratio } else { numerators.contains(&parameter.key) }
+}
+
+/// Returns the columns of a sweep with an axis for every parameter except `excluded`.
+fn columns_without(needle: &str, excluded: [&str; 5], in_mm: bool) -> Vec<String> {
+    let chosen = sweep::PARAMETERS
+        .iter()
+        .filter(|p| !is_in_other_unit(p, in_mm) && !excluded.contains(&p.key));
+    let axes: Vec<_> = chosen.map(|p| format!("{} = {}\n", p.key, axis_value(p))).collect();
+    let sweep = sweep(&format!("name = 'x'\n{needle}[designs]\n{}", axes.concat()));
+    let columns = results::columns::design_columns(&sweep).into_iter();
+    columns.map(|column| column.name.into_owned()).collect()
+}
+
+/// Three sweeps together have every parameter as an axis.
+///
+/// These parameters exclude each other: length and number of gaps, critical tilt and friction, the
+/// two units of a depth, radius and curvature. A round tip needs a guided needle without friction.
+#[test]
+fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
+    let mut names = columns_without(
         "",
         ["gaps", "needle_friction", "load_inset_over_t", "needle_radius_over_t", "radius_over_t"],
         false,
     );
     assert!(names.iter().any(|name| name == "membrane_length_over_t"));
-    let others = names_without(
+    let others = columns_without(
         "",
         [
             "membrane_length_mm",
@@ -74,7 +84,7 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
         ],
         true,
     );
-    let guided = names_without(
+    let guided = columns_without(
         "puncture.needle = 'guided'\n",
         ["gaps", "needle_friction", "load_inset_over_t", "needle", "curvature_times_t"],
         false,
