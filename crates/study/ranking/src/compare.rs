@@ -28,7 +28,7 @@ pub struct Comparison<'r> {
     second: &'r Results,
     tolerance: f64,
     matching: Matching,
-    places: Vec<ComparedColumn>,
+    indices: Vec<ComparedColumn>,
     /// Differences in each column of both runs.
     pub columns: Vec<ColumnDifference>,
 }
@@ -37,7 +37,7 @@ pub struct Comparison<'r> {
 #[derive(Clone, Copy, Debug)]
 struct ComparedColumn {
     /// Indices of the column in the first and second run.
-    places: [usize; 2],
+    indices: [usize; 2],
     /// Largest difference of two values that count as zero because of round-off.
     noise: f64,
 }
@@ -190,7 +190,7 @@ pub fn compare<'r>(
     tolerance: f64,
 ) -> Result<Comparison<'r>, InvalidComparison> {
     let matching = Matching::new(first, second)?;
-    let places: Vec<_> = first
+    let indices: Vec<_> = first
         .header()
         .iter()
         .enumerate()
@@ -202,11 +202,11 @@ pub fn compare<'r>(
         })
         .collect();
     let mut comparison =
-        Comparison { first, second, tolerance, matching, places: Vec::new(), columns: Vec::new() };
+        Comparison { first, second, tolerance, matching, indices: Vec::new(), columns: Vec::new() };
     // Needs the matching: sizes of columns are computed from matched designs.
-    comparison.places = places.iter().map(|&places| comparison.compared(places)).collect();
-    let places = comparison.places.par_iter();
-    comparison.columns = places.map(|&column| comparison.column(column)).collect();
+    comparison.indices = indices.iter().map(|&indices| comparison.compared(indices)).collect();
+    let indices = comparison.indices.par_iter();
+    comparison.columns = indices.map(|&column| comparison.column(column)).collect();
     Ok(comparison)
 }
 
@@ -245,16 +245,16 @@ impl Comparison<'_> {
         Difference { first: self.first, second: self.second, rows, columns }
     }
 
-    fn compared(&self, places: [usize; 2]) -> ComparedColumn {
-        let cells = self.matching.pairs.iter().map(|&rows| self.cell(rows, places));
+    fn compared(&self, indices: [usize; 2]) -> ComparedColumn {
+        let cells = self.matching.pairs.iter().map(|&rows| self.cell(rows, indices));
         let sizes = cells.filter_map(|cell| cell.numbers()).flatten().map(f64::abs);
         // A tolerance of 0 requests exact equality, also of zeros.
         let largest = if self.tolerance > 0.0 { sizes.fold(0.0, f64::max) } else { 0.0 };
-        ComparedColumn { places, noise: ROUND_OFF * largest }
+        ComparedColumn { indices, noise: ROUND_OFF * largest }
     }
 
     fn column(&self, compared: ComparedColumn) -> ColumnDifference {
-        let columns = compared.places;
+        let columns = compared.indices;
         let name = self.first.header()[columns[0]].clone();
         let mut column = ColumnDifference { name, ..ColumnDifference::default() };
         let mut numbers = Vec::new();
@@ -282,8 +282,8 @@ impl Comparison<'_> {
     fn differences(&self) -> impl Iterator<Item = Difference<'_>> {
         // Lazy, because two long runs may differ in every cell.
         let cells = move |rows: [usize; 2]| {
-            self.places.iter().filter_map(move |column| {
-                let cell = self.cell(rows, column.places);
+            self.indices.iter().filter_map(move |column| {
+                let cell = self.cell(rows, column.indices);
                 (!cell.is_within(self.tolerance, column.noise)).then_some(cell)
             })
         };

@@ -100,8 +100,8 @@ impl RescaledCriterion {
         // Callers never differentiate at `rescaled` = 0, where the fitness is constant.
         let rescaled = self.of(value)?;
         // Minimised criteria are inverses (R1).
-        let made = if self.goal == Goal::Maximize { 1.0 } else { -value.powi(-2) };
-        Some(if best > worst { self.weight * made / ((best - worst) * rescaled) } else { 0.0 })
+        let slope = if self.goal == Goal::Maximize { 1.0 } else { -value.powi(-2) };
+        Some(if best > worst { self.weight * slope / ((best - worst) * rescaled) } else { 0.0 })
     }
 }
 

@@ -135,24 +135,24 @@ struct PrefixMaxima {
 }
 
 impl PrefixMaxima {
-    fn raise(&mut self, place: usize, value: f64) {
-        let mut node = place + 1;
+    fn raise(&mut self, index: usize, value: f64) {
+        let mut node = index + 1;
         while node < self.values.len() {
             self.values[node] = self.values[node].max(value);
             node += node & node.wrapping_neg();
         }
     }
 
-    fn clear(&mut self, place: usize) {
-        let mut node = place + 1;
+    fn clear(&mut self, index: usize) {
+        let mut node = index + 1;
         while node < self.values.len() {
             self.values[node] = f64::NEG_INFINITY;
             node += node & node.wrapping_neg();
         }
     }
 
-    fn up_to(&self, place: usize) -> f64 {
-        let mut node = place + 1;
+    fn up_to(&self, index: usize) -> f64 {
+        let mut node = index + 1;
         let mut maximum = f64::NEG_INFINITY;
         while node > 0 {
             maximum = maximum.max(self.values[node]);

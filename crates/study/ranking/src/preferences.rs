@@ -180,7 +180,7 @@ impl Preferences {
         let requirements = self.requirements.iter().map(|one| quoted(&one.to_string()));
         let criteria = self.criteria.iter().map(|one| quoted(&one.to_string()));
         let [requirements, criteria]: [Vec<_>; 2] = [requirements.collect(), criteria.collect()];
-        let mut text = "# What the designs are ranked by: written by squama rank.\n".to_owned();
+        let mut text = "# Preferences of the ranking, written by squama rank.\n".to_owned();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "requirements = [{}]", requirements.join(", "));
         let _ = writeln!(text, "criteria = [{}]", criteria.join(", "));

@@ -130,7 +130,7 @@ impl<'a> RankedDesign<'a> {
 impl<'r> Ranking<'r> {
     /// Ranks the designs of `results` by the criteria of the paper.
     ///
-    /// The best design for all weights is found on `grid`.
+    /// The best design is determined at every node of `grid`, a grid of weights.
     ///
     /// # Errors
     ///
@@ -142,7 +142,7 @@ impl<'r> Ranking<'r> {
     /// Ranks the designs of `results` by `preferences`.
     ///
     /// Designs are excluded if they miss a requirement or lack a criterion. With four criteria, the
-    /// best design for all weights is found on `grid`.
+    /// best design is determined at every node of `grid`, a grid of weights.
     ///
     /// # Errors
     ///

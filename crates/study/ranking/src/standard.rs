@@ -30,8 +30,8 @@ pub const STANDARDS: [Standard; 2] = [
 ];
 
 /// Warning: meeting the force of a level here does not prove the level.
-pub const TILTING_ONLY: &str = "the model tells at which force a scale tilts under a point, not whether a needle or probe goes \
-    through: the tip's own radius, the strength of the scales and the way between them are left out; only a test gives the level";
+pub const TILTING_ONLY: &str = "the model predicts the force at which a scale tilts under a point load, not whether a needle or probe \
+    penetrates: it neglects the radius of the tip, the strength of the scales and the path between them; only a test gives the level";
 
 impl Standard {
     /// Returns the standard and the requirement of a level such as `needle 2`.

@@ -16,7 +16,7 @@ pub static COMPARISON_COLUMNS: &[Column<ColumnDifference>] = &columns! { ColumnD
     "largest_relative", "-", |c| c.relative.as_ref().map(|e| e.difference),
         "largest difference, over the larger of the two values";
     "relative_design", "-", |c| c.relative.as_ref().map(|e| e.design.clone()),
-        "design that has it, as the first run numbers it";
+        "design with this difference, by its number in the first run";
     "relative_first", "-", |c| c.relative.as_ref().map(|e| e.first),
         "its value in the first run";
     "relative_second", "-", |c| c.relative.as_ref().map(|e| e.second),
@@ -24,7 +24,7 @@ pub static COMPARISON_COLUMNS: &[Column<ColumnDifference>] = &columns! { ColumnD
     "largest_absolute", "-", |c| c.absolute.as_ref().map(|e| e.difference),
         "largest difference, in the unit of the column";
     "absolute_design", "-", |c| c.absolute.as_ref().map(|e| e.design.clone()),
-        "design that has it, as the first run numbers it";
+        "design with this difference, by its number in the first run";
     "absolute_first", "-", |c| c.absolute.as_ref().map(|e| e.first),
         "its value in the first run";
     "absolute_second", "-", |c| c.absolute.as_ref().map(|e| e.second),
@@ -38,7 +38,7 @@ pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<D
     let mut columns = vec![number(|d: &Difference<'a>| d.designs()[0].to_owned().into())];
     columns.extend(columns! { Difference<'a>:
         "other_design", "-", |d| d.designs()[1].to_owned(),
-            "the same design as the second run numbers it";
+            "number of the same design in the second run";
     });
     columns.extend(parameters.iter().map(|parameter| {
         Column::parameter(parameter, |d: &Difference<'a>| {
@@ -50,7 +50,7 @@ pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<D
         "first", "-", |d| d.texts()[0].to_string(), "value in the first run";
         "second", "-", |d| d.texts()[1].to_string(), "value in the second run";
         "absolute", "-", |d| d.numbers().map(absolute), "their difference";
-        "relative", "-", |d| d.numbers().map(relative), "the same over the larger of the two";
+        "relative", "-", |d| d.numbers().map(relative), "their difference over the larger of the two";
     });
     columns
 }

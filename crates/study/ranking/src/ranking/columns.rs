@@ -17,7 +17,7 @@ pub fn ranking_columns<'a>(
     let rank = Column::new(
         "rank",
         "-",
-        "place by fitness, 1 is the best; equal designs share their place",
+        "rank by fitness, 1 is the best; equal designs share their rank",
         |s: &RankedDesign<'a>| s.rank.into(),
     );
     let mut columns = vec![rank];
@@ -43,7 +43,7 @@ pub fn pareto_columns<'a>(
     columns.extend(criteria(preferences));
     // Only four criteria have a tetrahedron of weights, and hence shares.
     if preferences.criteria.len() == FOUR {
-        columns.push(share("part of all weights for which it is the best design"));
+        columns.push(share("fraction of all weights for which it is the best design"));
     }
     columns
 }
@@ -54,7 +54,7 @@ pub fn winner_columns<'a>(
     preferences: &Preferences,
 ) -> RankedColumns<'a> {
     let mut columns = design(parameters);
-    columns.push(share("part of all weights for which it is the best design"));
+    columns.push(share("fraction of all weights for which it is the best design"));
     columns.push(Column::new("nodes", "-", "nodes of the grid of weights that it wins", |s| {
         s.wins().nodes.into()
     }));
@@ -84,7 +84,7 @@ pub fn quaternary_columns<'a>(
         .collect();
     columns.extend(design(parameters));
     columns.push(fitness("fitness of the best design by these weights"));
-    columns.push(share("part of all weights for which the same design is the best"));
+    columns.push(share("fraction of all weights for which the same design is the best"));
     columns
 }
 

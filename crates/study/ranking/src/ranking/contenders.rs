@@ -57,7 +57,7 @@ impl LeftOut {
     /// Describes the reason, for messages.
     pub fn in_words(self, preferences: &Preferences) -> String {
         match self {
-            Self::Unmet(place) => format!("not {}", preferences.requirements[place]),
+            Self::Unmet(index) => format!("not {}", preferences.requirements[index]),
             Self::Exposed => "coverage is 0".to_owned(),
             Self::Missing(c) => format!("no {}", preferences.criteria[c].column),
             Self::NotPositive(c) => format!("{} is not above 0", preferences.criteria[c].column),

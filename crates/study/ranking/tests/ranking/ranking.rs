@@ -318,7 +318,10 @@ fn preferences_are_written_beside_the_tables() {
     assert!(refused.contains("another squama process is writing there"), "{refused}");
     drop(lock);
     assert_eq!(files, ["ranking.csv", "pareto.csv", "ranking.toml"]);
-    assert!(!folder.path().join("quaternary.csv").exists(), "that of other criteria is gone");
+    assert!(
+        !folder.path().join("quaternary.csv").exists(),
+        "the table of four criteria was removed"
+    );
     let verified = VerifiedFolder::open(folder.path(), Completeness::Whole).expect("a folder");
     let read = Preferences::read(&verified).expect("readable");
     assert_eq!(read.as_ref(), Some(ranking.preferences()));
