@@ -55,7 +55,7 @@ pub(crate) fn scatter(case: &mut Case, deviations: &[Deviation]) {
 }
 
 /// Draws a number from 0 to 1. It is the same for all cases with equal seeds.
-pub(crate) fn share(case: &Case, number: u64, key: &str) -> f64 {
+pub(crate) fn uniform(case: &Case, number: u64, key: &str) -> f64 {
     StandardUniform.sample(&mut random(case, number, key))
 }
 

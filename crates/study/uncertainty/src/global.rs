@@ -117,7 +117,7 @@ impl GlobalAnalysis<'_> {
             let from =
                 if point == "B" || point.strip_prefix("A ") == Some(key) { "B" } else { "A" };
             // Seeded by point and key: adding a variable does not change the values of the others.
-            let share = draw::share(base, sample, &format!("{from} {key}"));
+            let share = draw::uniform(base, sample, &format!("{from} {key}"));
             variable.set(&mut case, variable.at(share));
         }
         case

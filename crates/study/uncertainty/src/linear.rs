@@ -14,14 +14,14 @@ const STEP: f64 = 1e-5;
 pub enum DeviationLevel {
     /// All scales of a batch.
     Batch,
-    /// Each scale has its own.
+    /// A single scale; each scale has its own deviation.
     Scale,
 }
 
 /// A source of deviations, and its contribution to the spread of a measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceShare {
-    /// Each scale has a separate deviation.
+    /// Key of the deviating parameter.
     pub source: String,
     /// Scales that share a deviation.
     pub level: DeviationLevel,

@@ -18,46 +18,53 @@ pub struct SampledQuantile {
 const MISS: f64 = 0.025;
 
 impl SampledQuantile {
-    /// Computes the quantile for the fraction `share`, and its confidence interval.
+    /// Computes the quantile at `probability`, and its confidence interval.
     ///
     /// The interval assumes no distribution, because the number of values below the true quantile
     /// is binomial (T8; David & Nagaraja 2003, *Order Statistics*, section 7.1).
-    pub fn of(mut values: Vec<f64>, share: f64) -> Self {
+    pub fn of(mut values: Vec<f64>, probability: f64) -> Self {
         values.sort_by(f64::total_cmp);
-        let value = quantile(&values, share);
-        let interval = places(values.len(), share)
-            .map(|place| values.get(place?).copied().filter(|value| value.is_finite()));
+        let value = quantile(&values, probability);
+        let interval = interval_indices(values.len(), probability)
+            .map(|index| values.get(index?).copied().filter(|value| value.is_finite()));
         Self { value, interval }
     }
 }
 
 /// Returns the indices of the interval ends in the sorted values.
-fn places(count: usize, share: f64) -> [Option<usize>; 2] {
-    let Ok(below) = Binomial::new(share, count as u64) else { return [None; 2] };
+fn interval_indices(count: usize, probability: f64) -> [Option<usize>; 2] {
+    let Ok(below) = Binomial::new(probability, count as u64) else { return [None; 2] };
     // Value `l`, from 1, is too high if fewer than `l` values lie below the quantile. Value `u` is
     // too low if `u` or more do.
     let low = (1..=count).take_while(|&l| below.cdf(l as u64 - 1) <= MISS).last();
     let high = (1..=count).find(|&u| below.sf(u as u64 - 1) <= MISS);
-    [low, high].map(|place| place.map(|from_one| from_one - 1))
+    [low, high].map(|index| index.map(|from_one| from_one - 1))
 }
 
 #[cfg(test)]
 mod tests {
     use statrs::distribution::{Binomial, Discrete as _};
 
-    use super::{SampledQuantile, places};
+    use super::{SampledQuantile, interval_indices};
 
     #[test]
     fn intervals_cover_the_quantile_95_percent_of_the_time() {
-        for (count, share) in [(200, 0.05), (1000, 0.05), (1000, 0.5), (1000, 0.95), (73, 0.5)] {
-            let [low, high] = places(count, share).map(|place| place.expect("an end") as u64 + 1);
-            let below = Binomial::new(share, count as u64).expect("a probability");
+        for (count, probability) in
+            [(200, 0.05), (1000, 0.05), (1000, 0.5), (1000, 0.95), (73, 0.5)]
+        {
+            let [low, high] =
+                interval_indices(count, probability).map(|index| index.expect("an end") as u64 + 1);
+            let below = Binomial::new(probability, count as u64).expect("a probability");
             // The interval contains the quantile if at least `low` and fewer than `high` values lie
             // below it.
             let covered: f64 = (low..high).map(|k| below.pmf(k)).sum();
-            assert!((0.95..0.98).contains(&covered), "{count} {share}: {covered}");
+            assert!((0.95..0.98).contains(&covered), "{count} {probability}: {covered}");
         }
-        assert_eq!(places(20, 0.05)[0], None, "all of 20 values lie above the 5 % quantile often");
+        assert_eq!(
+            interval_indices(20, 0.05)[0],
+            None,
+            "all of 20 values lie above the 5 % quantile often"
+        );
     }
 
     #[test]

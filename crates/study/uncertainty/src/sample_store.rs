@@ -5,11 +5,11 @@ use std::convert::Infallible;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use journal::{Journal, Records};
 use rayon::prelude::*;
-use results::{Cell, Column, ResultsFolder, WrittenTable, write_rows};
+use results::{Cell, Column, OutputError, ResultsFolder, WrittenTable, write_rows};
 use run::{JournalError, JournalHeader, Start, WorkMeter, uninterrupted};
 use serde::{Deserialize, Serialize};
 use sweep::Subset;
@@ -109,48 +109,17 @@ impl SampleStore {
         // user returns to an earlier definition, and no table is overwritten by another definition.
         let name = format!("{label}-{}", &header.digest()[..DIGITS]);
         let path = self.folder.file(&format!("{name}.jsonl"));
-        let journal = Mutex::new(Journal::<KeptSamples>::begin(&path, header, Start::Resume)?);
-        let lock = || journal.lock().unwrap_or_else(PoisonError::into_inner);
+        let journal = Mutex::new(Journal::begin(&path, header, Start::Resume)?);
+        let samples = Samples { label, journal, stop, solve };
         let columns = columns(names);
         let table = format!("{name}.csv");
-        // A separate statement, because the loop acquires the lock again.
-        let differing = self.differing(&table, &columns, &lock().records().values);
-        for number in differing {
-            // Samples are reproducible, so solving again shows whether the journal or the table was
-            // edited.
-            let kept = lock().records().values[&number].clone();
-            if stop.load(Ordering::Relaxed) {
-                break;
-            }
-            if uninterrupted(|| solve(number)).is_some_and(|again| again != kept) {
-                let (line, again) = (format!("sample {number}"), "by removing the journal");
-                return Err(JournalError::Edited { path, line, table, again }.into());
-            }
+        let differing = self.differing(&table, &columns, &samples.lock().records().values);
+        if let Some(number) = samples.first_edited(differing) {
+            let (line, again) = (format!("sample {number}"), "by removing the journal");
+            return Err(JournalError::Edited { path, line, table, again }.into());
         }
-        let mut missing: Vec<u64> = (1..=count as u64).collect();
-        missing.retain(|number| !lock().records().values.contains_key(number));
-        self.work.leave_out((count - missing.len()) as u64);
-        missing.into_par_iter().try_for_each(|number| {
-            // Return no error here: completed samples are stored first, and missing ones counted
-            // below.
-            if stop.load(Ordering::Relaxed) {
-                return Ok(());
-            }
-            let sample = format!("{label}, sample {number}");
-            match uninterrupted(|| self.work.track(&sample, || solve(number))) {
-                Some(values) => {
-                    self.work.count(1);
-                    lock().append(SolvedSample { number, values })
-                }
-                None => Ok(()),
-            }
-        })?;
-        let mut journal = lock();
-        journal.sync()?;
-        // Ignore further samples of an earlier analysis with a larger count.
-        let kept = journal.records().values.range(..=count as u64);
-        let samples = kept.map(|(&number, values)| SolvedSample { number, values: values.clone() });
-        let samples: Vec<SolvedSample> = samples.collect();
+        samples.solve_missing(count, &self.work)?;
+        let samples = samples.stored(count)?;
         if samples.len() < count {
             return Err(AnalysisError::Stopped { done: samples.len(), of: count });
         }
@@ -174,6 +143,66 @@ impl SampleStore {
             Ok::<_, Infallible>(sample)
         });
         changed.into_iter().flatten().filter_map(|cell| cell.parse().ok()).collect()
+    }
+}
+
+/// The samples of one label and definition, shared by the threads that solve them.
+struct Samples<'a, S> {
+    label: &'a str,
+    journal: Mutex<Journal<KeptSamples>>,
+    stop: &'a AtomicBool,
+    /// Computes the values of a sample from its number.
+    solve: S,
+}
+
+impl<S: Fn(u64) -> Vec<Option<f64>> + Sync> Samples<'_, S> {
+    fn lock(&self) -> MutexGuard<'_, Journal<KeptSamples>> {
+        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Solves stored samples again; returns the first with other values than in the journal.
+    ///
+    /// Samples are reproducible, so solving again shows whether the journal or the table was
+    /// edited. Checks no further samples after `stop`.
+    fn first_edited(&self, numbers: Vec<u64>) -> Option<u64> {
+        numbers.into_iter().take_while(|_| !self.stop.load(Ordering::Relaxed)).find(|&number| {
+            let stored = self.lock().records().values[&number].clone();
+            uninterrupted(|| (self.solve)(number)).is_some_and(|again| again != stored)
+        })
+    }
+
+    /// Solves the samples up to `count` that the journal lacks, until `stop` is set.
+    fn solve_missing(&self, count: usize, work: &WorkMeter) -> Result<(), OutputError> {
+        let mut missing: Vec<u64> = (1..=count as u64).collect();
+        missing.retain(|number| !self.lock().records().values.contains_key(number));
+        work.leave_out((count - missing.len()) as u64);
+        missing.into_par_iter().try_for_each(|number| {
+            // Return no error here: completed samples are stored first, and missing ones counted
+            // by the caller.
+            if self.stop.load(Ordering::Relaxed) {
+                return Ok(());
+            }
+            let sample = format!("{}, sample {number}", self.label);
+            match uninterrupted(|| work.track(&sample, || (self.solve)(number))) {
+                Some(values) => {
+                    work.count(1);
+                    self.lock().append(SolvedSample { number, values })
+                }
+                None => Ok(()),
+            }
+        })
+    }
+
+    /// Synchronises the journal and returns its samples up to `count`.
+    ///
+    /// Further samples belong to an earlier analysis with a larger count.
+    fn stored(&self, count: usize) -> Result<Vec<SolvedSample>, OutputError> {
+        let mut journal = self.lock();
+        journal.sync()?;
+        let stored = journal.records().values.range(..=count as u64);
+        let samples =
+            stored.map(|(&number, values)| SolvedSample { number, values: values.clone() });
+        Ok(samples.collect())
     }
 }
 

@@ -58,7 +58,7 @@ pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &col
     "linear_spread", SAME, |(_, m)| m.linear.as_ref().map(|linear| linear.spread),
         "standard deviation that the derivatives predict, empty at a kink without one of its sides";
     "sources", "-", |(_, m)| m.linear.as_ref().map(LinearSpread::in_words),
-        "sources of the linear spread, the largest share first";
+        "sources of the linear spread, the largest contribution first";
     "samples", "-", |(_, m)| m.sampled.as_ref().map(|sampled| sampled.count),
         "solved samples that have a value";
     "failed", "-", |(_, m)| m.failed, "samples without a value";
@@ -88,7 +88,7 @@ pub static SOURCE_COLUMNS: &[Column<(DesignNumber, String, SourceShare)>] = &col
     "deviation", "as the source", |(.., s)| s.deviation, "standard deviation of the source";
     "linear_spread", SAME, |(.., s)| s.spread,
         "standard deviation of the measure, were this the only source";
-    "share", "-", |(.., s)| s.share, "part of the variance of the measure";
+    "share", "-", |(.., s)| s.share, "fraction of the variance of the measure";
 };
 
 /// Columns of `yield.csv`.
@@ -99,9 +99,9 @@ pub static YIELD_COLUMNS: &[Column<(DesignNumber, RequirementYield)>] = &columns
         |(_, of)| of.requirement.as_ref().map_or("all".to_owned(), ToString::to_string),
         "the requirement, or all of them together";
     "samples", "-", |(_, of)| of.proportion.map(|p| p.of), "solved samples";
-    "failed", "-", |(_, of)| of.failed, "samples without a value, which do not meet";
-    "met", "-", |(_, of)| of.proportion.map(|p| p.met), "samples that meet";
-    "yield", "-", |(_, of)| of.proportion.map(Proportion::share), "share of the samples that meet";
+    "failed", "-", |(_, of)| of.failed, "samples without a value, which count as not meeting the requirement";
+    "met", "-", |(_, of)| of.proportion.map(|p| p.met), "samples that meet the requirement";
+    "yield", "-", |(_, of)| of.proportion.map(Proportion::share), "fraction of the samples that meet the requirement";
     "yield_low", "-", |(_, of)| of.proportion.map(|p| p.interval()[0]),
         "lower end of the 95 % interval of the yield";
     "yield_high", "-", |(_, of)| of.proportion.map(|p| p.interval()[1]), "upper end of that interval";
@@ -114,11 +114,11 @@ pub static INDEX_COLUMNS: &[Column<(MeasureIndices, &'static str, SobolIndices)>
     "measure", "-", |(m, ..)| m.name.clone(), MEASURE;
     "variable", "-", |(_, key, _)| *key, "the variable, by its key";
     "first", "-", |(.., of)| of.first.value,
-        "first-order index: part of the variance that the variable has alone";
+        "first-order index: fraction of the variance caused by the variable alone";
     "first_low", "-", |(.., of)| of.first.interval()[0], "lower end of its 95 % interval";
     "first_high", "-", |(.., of)| of.first.interval()[1], "upper end of that interval";
     "total", "-", |(.., of)| of.total.value,
-        "total index: part of the variance that the variable has, alone and together with others";
+        "total index: fraction of the variance caused by the variable, alone and in interactions";
     "total_low", "-", |(.., of)| of.total.interval()[0], "lower end of its 95 % interval";
     "total_high", "-", |(.., of)| of.total.interval()[1], "upper end of that interval";
     "spread", SAME, |(m, ..)| m.spread, "standard deviation of the measure over the box";

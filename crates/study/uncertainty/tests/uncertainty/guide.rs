@@ -21,6 +21,6 @@ fn every_column_is_explained() {
         table(YIELD_COLUMNS),
         table(INDEX_COLUMNS),
     ] {
-        assert!(guide.contains(&table), "the guide has not\n{table}");
+        assert!(guide.contains(&table), "the guide lacks\n{table}");
     }
 }
