@@ -38,6 +38,11 @@ pub struct Unknown {
 }
 
 impl Unknown {
+    /// Returns the value of a scaled unknown: 0 at the lower bound, 1 at the upper.
+    pub(crate) fn value(&self, scaled: f64) -> f64 {
+        self.from + scaled * (self.to - self.from)
+    }
+
     /// Returns how the definition states the range of this unknown, for messages.
     pub fn key(&self) -> String {
         match self.source {

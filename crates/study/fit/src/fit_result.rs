@@ -156,7 +156,7 @@ pub struct FittedCurve {
 #[derive(Debug, thiserror::Error)]
 pub enum FitError {
     /// The fit was stopped.
-    #[error("stopped before an answer was found")]
+    #[error("stopped before the fit converged")]
     Stopped,
     /// There are not more points than unknowns.
     #[error(
@@ -200,7 +200,7 @@ const BEYOND_CHANCE: f64 = 2.0;
 /// Threshold for a rise of the fitted curve above the measured force before contact, in standard
 /// errors.
 const ABOVE_NOISE: f64 = 4.0;
-/// Least such rise that counts, as a fraction of the largest force.
+/// Minimum of such a rise, as a fraction of the largest force.
 const ABOVE_TOE: f64 = 0.01;
 /// Noise below this fraction of the size of a curve is not examined for correlation.
 const NEGLIGIBLE: f64 = 1e-4;
@@ -250,11 +250,11 @@ impl Directions {
     fn covariance(&self) -> DMatrix<f64> {
         let least = (ROUND_OFF * self.largest()).max(ROUND_OFF);
         let spread = self.values.iter().map(|size| size.max(least).recip());
-        let mut scaled = self.unknowns.clone();
-        for (mut column, spread) in scaled.column_iter_mut().zip(spread) {
+        let mut root = self.unknowns.clone();
+        for (mut column, spread) in root.column_iter_mut().zip(spread) {
             column *= spread;
         }
-        &scaled * scaled.transpose()
+        &root * root.transpose()
     }
 }
 
@@ -265,7 +265,7 @@ impl Residuals<'_> {
             minimum = self.weight(minimum, sizes)?;
             match self.intervals(&minimum) {
                 Ok((intervals, covariance)) => {
-                    let fitted = self.fitted(&minimum.shares, intervals, &covariance)?;
+                    let fitted = self.fitted(&minimum.scaled, intervals, &covariance)?;
                     return Ok(Fitted { restarts, ..fitted });
                 }
                 Err(Aborted::Better(start)) => minimum = self.improve(start)?,
@@ -278,7 +278,7 @@ impl Residuals<'_> {
     /// Alternates between weights from the noise and unknowns, which change the noise.
     fn weight(&mut self, mut minimum: Minimum, sizes: &[f64]) -> Result<Minimum, FitError> {
         for _ in 0..ROUNDS {
-            let noise = self.noise_at(&minimum.shares, sizes)?;
+            let noise = self.noise_at(&minimum.scaled, sizes)?;
             let pairs = noise.iter().zip(&self.noise);
             let changes = pairs.map(|(new, old)| (new.scale() / old.scale() - 1.0).abs());
             let has_changed = changes.fold(0.0, f64::max) > SETTLED;
@@ -288,27 +288,27 @@ impl Residuals<'_> {
             if !has_changed || self.noise.len() == 1 {
                 break;
             }
-            minimum = self.improve(minimum.shares)?;
+            minimum = self.improve(minimum.scaled)?;
         }
-        Ok(Minimum { cost: self.cost(&minimum.shares)?, ..minimum })
+        Ok(Minimum { cost: self.cost(&minimum.scaled)?, ..minimum })
     }
 
     /// Computes the confidence intervals of all unknowns at a minimum, and their covariance.
     fn intervals(&self, minimum: &Minimum) -> Result<(Vec<Interval>, DMatrix<f64>), Aborted> {
-        let covariance = self.directions(&minimum.shares)?.covariance();
+        let covariance = self.directions(&minimum.scaled)?.covariance();
         let curves = self.definition.curves.iter().zip(&self.noise);
         let independent = curves.map(|(c, noise)| c.measured.points.len() as f64 / noise.widening);
-        let count = minimum.shares.len();
+        let count = minimum.scaled.len();
         let freedom = (independent.sum::<f64>() - count as f64).max(1.0);
         let t = student_quantile(freedom);
         let profiles = Profiles { residuals: self, minimum, covariance: &covariance, t };
         Ok((profiles.intervals()?, covariance))
     }
 
-    fn directions(&self, shares: &[f64]) -> Result<Directions, FitError> {
-        let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
-        let columns: Vec<f64> = (0..shares.len()).flat_map(|j| self.column(&model, j)).collect();
-        let jacobian = DMatrix::from_vec(columns.len() / shares.len(), shares.len(), columns);
+    fn directions(&self, scaled: &[f64]) -> Result<Directions, FitError> {
+        let model = self.solved(scaled)?.ok_or(FitError::Unsolvable)?;
+        let columns: Vec<f64> = (0..scaled.len()).flat_map(|j| self.column(&model, j)).collect();
+        let jacobian = DMatrix::from_vec(columns.len() / scaled.len(), scaled.len(), columns);
         let svd = jacobian.svd(true, true);
         let (points, unknowns) = svd.u.zip(svd.v_t).ok_or(FitError::Unsolvable)?;
         Ok(Directions {
@@ -322,9 +322,9 @@ impl Residuals<'_> {
     ///
     /// The sum of squares is divided by the number of points minus the degrees of freedom that the
     /// unknowns take from this curve.
-    fn noise_at(&self, shares: &[f64], sizes: &[f64]) -> Result<Vec<Noise>, FitError> {
-        let directions = self.directions(shares)?;
-        let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
+    fn noise_at(&self, scaled: &[f64], sizes: &[f64]) -> Result<Vec<Noise>, FitError> {
+        let directions = self.directions(scaled)?;
+        let model = self.solved(scaled)?.ok_or(FitError::Unsolvable)?;
         let least = ROUND_OFF * directions.largest();
         let mut first = 0;
         let noise = self.of_curves(&model).into_iter().zip(sizes).map(|(residuals, size)| {
@@ -350,33 +350,31 @@ impl Residuals<'_> {
 
     fn fitted(
         &self,
-        shares: &[f64],
+        scaled: &[f64],
         intervals: Vec<Interval>,
         covariance: &DMatrix<f64>,
     ) -> Result<Fitted, FitError> {
         let definition = self.definition;
         let unknowns = definition.unknowns.iter();
-        let scaled =
-            |unknown: &Unknown, share: f64| unknown.from + share * (unknown.to - unknown.from);
         let estimates: Vec<_> = unknowns
-            .zip(shares)
+            .zip(scaled)
             .zip(intervals)
-            .map(|((unknown, &share), interval)| Estimate {
-                value: scaled(unknown, share),
-                interval: interval.ends.map(|end| end.map(|end| scaled(unknown, end))),
-                at_end: is_at_end(share),
+            .map(|((unknown, &scaled), interval)| Estimate {
+                value: unknown.value(scaled),
+                interval: interval.ends.map(|end| end.map(|end| unknown.value(end))),
+                at_end: is_at_end(scaled),
                 rests_on: interval.rests_on,
                 unknown: unknown.clone(),
             })
             .collect();
-        let count = shares.len();
+        let count = scaled.len();
         let correlations = (0..count).map(|i| {
             (0..count)
                 .map(|j| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt())
                 .collect()
         });
         let correlations: Vec<Vec<f64>> = correlations.collect();
-        let values = self.values(shares);
+        let values = self.values(scaled);
         let errors: Vec<_> = definition
             .unknowns
             .iter()
@@ -391,7 +389,7 @@ impl Residuals<'_> {
             estimates,
             correlations,
             scatter: scatter.collect(),
-            curves: self.curves(shares)?,
+            curves: self.curves(scaled)?,
             means: means(&definition.curves),
             solutions: self.solutions(),
             restarts: 0,
@@ -399,8 +397,8 @@ impl Residuals<'_> {
         })
     }
 
-    fn curves(&self, shares: &[f64]) -> Result<Vec<FittedCurve>, FitError> {
-        let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
+    fn curves(&self, scaled: &[f64]) -> Result<Vec<FittedCurve>, FitError> {
+        let model = self.solved(scaled)?.ok_or(FitError::Unsolvable)?;
         let curves = self.definition.curves.iter().enumerate().zip(&*model).zip(&self.noise);
         let curve =
             |(((number, curve), model), noise): (((usize, &TestCurve), &ModelCurve), &Noise)| {
@@ -417,7 +415,7 @@ impl Residuals<'_> {
                     is_physical: measured.is_physical,
                     left_out: measured.left_out.clone(),
                     reversed: measured.reversed,
-                    events: self.events((number, curve), model, shares),
+                    events: self.events((number, curve), model, scaled),
                     is_turned: model.before == points.len() || points.iter().all(|p| p[1] <= 0.0),
                     points,
                     noise: noise.deviation,
@@ -438,11 +436,11 @@ impl Residuals<'_> {
         &self,
         (number, curve): (usize, &TestCurve),
         model: &ModelCurve,
-        shares: &[f64],
+        scaled: &[f64],
     ) -> Vec<CurveEvent> {
         let offset = Source::Offset(number, 0);
         let offset = self.definition.unknowns.iter().position(|unknown| unknown.source == offset);
-        let offset = offset.map(|j| self.values(shares)[j]);
+        let offset = offset.map(|j| self.values(scaled)[j]);
         let mut events = curve.events.clone();
         events.retain(|event| match (event.kind, offset, curve.loading()) {
             (CurveEventKind::Touches, Some(offset), [first, ..]) => {
@@ -484,8 +482,8 @@ fn means(curves: &[TestCurve]) -> Vec<MeanCurve> {
 
 /// Groups undetermined unknowns that the curves determine only in combination.
 ///
-/// A group contains an undetermined unknown, and those that are strongly correlated with it and
-/// have no interval either, or one that rests on its range.
+/// A group contains an undetermined unknown and its strongly correlated unknowns, if these are
+/// undetermined, too, or their intervals end where the first unknown reaches its bounds.
 fn undetermined(estimates: &[Estimate], correlations: &[Vec<f64>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for j in (0..estimates.len()).filter(|j| estimates[*j].is_undetermined()) {
@@ -547,8 +545,8 @@ mod tests {
         let mut residuals = Residuals::new(&definition, &evaluator, (&stop, &work));
         let sizes: Vec<_> = residuals.noise.iter().map(|noise| noise.deviation).collect();
         // This point is no minimum: any profile finds better ones.
-        let shares = vec![0.9, 0.9];
-        let poor = Minimum { cost: residuals.cost(&shares).expect("a cost"), shares };
+        let scaled = vec![0.9, 0.9];
+        let poor = Minimum { cost: residuals.cost(&scaled).expect("a cost"), scaled };
         let settled = residuals.settle(poor, &sizes).expect("a fit");
         assert!(settled.restarts > 0);
         for (estimate, best) in settled.estimates.iter().zip(&best.estimates) {

@@ -321,13 +321,13 @@ fn read_text(path: &Path) -> Result<String, String> {
     let bytes = read_input_bytes(path, MAX_BYTES)
         .map_err(|error| format!("cannot be read ({}), expected a CSV file", reason(&error)))?;
     decoded(&bytes).ok_or_else(|| {
-        "is no text in UTF-8, UTF-16 or Windows-1252, expected a CSV file".to_owned()
+        "is not text in UTF-8, UTF-16 or Windows-1252, expected a CSV file".to_owned()
     })
 }
 
 /// Decodes UTF-8, UTF-16, or otherwise Windows-1252.
 ///
-/// `None` for bytes that are no text.
+/// `None` for bytes that are not text.
 fn decoded(bytes: &[u8]) -> Option<String> {
     if let Some((encoding, mark)) = encoding_rs::Encoding::for_bom(bytes) {
         let text = encoding.decode_without_bom_handling_and_without_replacement(&bytes[mark..])?;
@@ -397,7 +397,7 @@ mod tests {
     fn an_open_quote_is_refused_at_its_line() {
         let message = refused("displacement_mm,force_N\n0,0\n\"1,2\n3,4\n5,6\n");
         assert_eq!(message, "a.csv:3: a quote (\") is not closed, expected it in pairs");
-        // Quoted line ends in a header, and inch marks in a preamble, are no mistakes.
+        // Quoted line ends in a header, and inch marks in a preamble, are not mistakes.
         let curve = parsed("3\" needle\n\"Displacement\n[mm]\",\"Force\n[N]\"\n0,0\n1,2\n");
         assert_eq!(curve.points, [[0.0, 0.0], [1.0, 2.0]]);
     }
@@ -416,7 +416,7 @@ mod tests {
         let curve = parsed("Displacement,Force\n(in),(lbf)\n1,1\n");
         assert_eq!((curve.is_physical, curve.points[0]), (true, [25.4, 4.448_221_615_260_5]));
         assert_eq!(parsed("Displacement,Force\n(mm),(cN)\n1,50\n").points, [[1.0, 0.5]]);
-        // The units may stand below a row of remarks.
+        // The units may be below a row of remarks.
         assert_eq!(parsed("Displacement,Force\nActuator,Cell\nmm,cN\n1,50\n").points, [[1.0, 0.5]]);
         let message = refused("Displacement,Force\nActuator,Cell\nft,oz\n1,50\n");
         assert!(message.contains("displacement_Actuator has no known unit"), "{message}");
@@ -463,7 +463,7 @@ mod tests {
         assert_eq!(curves[0].points, [[1.0, 2.0], [5.0, 6.0]]);
         // The second specimen is shorter.
         assert_eq!((&*curves[1].points, &*curves[1].left_out), (&[[3.0, 4.0]][..], &[][..]));
-        // A single row of numbers is no specimen.
+        // A single row of numbers is not a specimen.
         assert_eq!(parsed(below).left_out, [5, 6, 7]);
         let below = format!("{below}7;8\n");
         let curves = MeasuredCurve::parse(&below, "a.csv", None).expect("curves");
@@ -495,7 +495,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_specimens_stand_above_their_first_column() {
+    fn specimen_names_above_their_first_column_are_read() {
         let rows = "Zeit;Weg;Kraft;Zeit;Weg;Kraft\ns;mm;N;s;mm;N\n0;1;2;0;3;4\n1;5;6;1;7;8\n";
         let text = format!("Probe 7;;;Probe 9;;\n{rows}");
         let curves = MeasuredCurve::parse(&text, "a.csv", None).expect("curves");

@@ -23,8 +23,8 @@ pub(crate) struct ModelCurve {
     pub(crate) differenced: usize,
 }
 
-/// Position of a measured point on the model curve.
-enum Place {
+/// Position of a measured point relative to the solved path.
+enum Position {
     /// Before the needle touches, where the force is zero.
     Before,
     /// Displacement or curvature in model units, and the point of the model there.
@@ -86,84 +86,125 @@ impl FitDefinition {
         specimens
     }
 
+    /// Computes the model curve of curve `number`, with derivatives for all unknowns.
     fn model_curve(
         &self,
         evaluator: &Evaluator,
         (number, curve): (usize, &TestCurve),
         values: &[f64],
     ) -> Result<ModelCurve, Outcome> {
-        let case = self.case(Some((number, curve)), values);
-        let units = curve.units(&case);
-        let zero = [0, 1].map(|axis| {
-            let of = Source::Offset(number, axis);
-            let found = self.unknowns.iter().zip(values).find(|(u, _)| u.source == of);
-            found.map_or(0.0, |(_, &value)| value)
-        });
-        let sought: Vec<_> =
-            self.unknowns.iter().filter_map(|u| u.of(Some((number, curve)))).collect();
-        let measured = curve.measured.points.iter();
-        let wanted: Vec<f64> = measured.map(|point| (point[0] - zero[0]) / units[0]).collect();
-        let (loading, unloading) = wanted.split_at(wanted.len() - curve.unloading);
-        let turn = (curve.turn - zero[0]) / units[0];
-        let path = Path { evaluator, test: curve.measured.test, turn };
-        let [touching, back] = [loading, unloading].map(touching);
-        let found = path.solve(&case, &sought, [&touching, &back])?;
-        let last = last(&touching, &found);
-        let places = places(&wanted, found, touching.len());
-        let modelled = places.iter().map(|place| match place {
-            Place::Before => zero[1],
-            Place::On(_, point) => zero[1] + units[1] * point.value,
-            // Compare with the last value. The report counts these points and advises to exclude
-            // them.
-            Place::Beyond => zero[1] + units[1] * last,
-        });
+        let solved = self.solve_curve(evaluator, (number, curve), values)?;
+        let positions = solved.positions.iter();
         let mut model = ModelCurve {
-            values: modelled.collect(),
+            values: solved.values(),
             rates: Vec::new(),
-            before: places.iter().filter(|place| matches!(place, Place::Before)).count(),
-            beyond: places.iter().filter(|place| matches!(place, Place::Beyond)).count(),
+            before: positions.clone().filter(|p| matches!(p, Position::Before)).count(),
+            beyond: positions.filter(|p| matches!(p, Position::Beyond)).count(),
             differenced: 0,
         };
-        let mut known = 0;
+        // `point.rates` holds only the unknowns that change this curve, in the order of unknowns.
+        let mut index = 0;
         for (unknown, &value) in self.unknowns.iter().zip(values) {
-            let rates = match unknown.source {
-                Source::Offset(of, 1) if of == number => vec![1.0; places.len()],
-                Source::Offset(of, _) if of == number => {
-                    on_curve(&places, |_, point| -units[1] * point.slope / units[0])
+            let rates = match unknown.of(Some((number, curve))) {
+                Some(parameter) => {
+                    let by = By { solved: &solved, unknown, parameter, value };
+                    let own = by.own_rates(index, &mut model.differenced)?;
+                    index += 1;
+                    by.with_units(&own)
                 }
-                _ => match unknown.of(Some((number, curve))) {
-                    Some(parameter) => {
-                        // `point.rates` holds only the unknowns that change this curve, in the
-                        // order of unknowns.
-                        known += 1;
-                        let by = By { curve, case: &case, unknown, parameter, value };
-                        let own =
-                            by.own_rates(&path, &places, known - 1, &mut model.differenced)?;
-                        by.with_units(units, &places, &own)
-                    }
-                    // Offsets and specimens of other curves, and parameters that this specimen sets
-                    // itself.
-                    None => vec![0.0; places.len()],
-                },
+                None => solved.offset_rates(unknown.source),
             };
             model.rates.push(rates);
         }
         Ok(model)
     }
+
+    /// Solves for the points of curve `number`.
+    fn solve_curve<'a>(
+        &self,
+        evaluator: &'a Evaluator,
+        (number, curve): (usize, &'a TestCurve),
+        values: &[f64],
+    ) -> Result<SolvedCurve<'a>, Outcome> {
+        let case = self.case(Some((number, curve)), values);
+        let units = curve.units(&case);
+        let offsets = [0, 1].map(|axis| {
+            let of = Source::Offset(number, axis);
+            let found = self.unknowns.iter().zip(values).find(|(u, _)| u.source == of);
+            found.map_or(0.0, |(_, &value)| value)
+        });
+        let parameters: Vec<_> =
+            self.unknowns.iter().filter_map(|u| u.of(Some((number, curve)))).collect();
+        let measured = curve.measured.points.iter();
+        let wanted: Vec<f64> = measured.map(|point| (point[0] - offsets[0]) / units[0]).collect();
+        let (loading, unloading) = wanted.split_at(wanted.len() - curve.unloading);
+        let turn = (curve.turn - offsets[0]) / units[0];
+        let path = Path { evaluator, test: curve.measured.test, turn };
+        let [touching, back] = [loading, unloading].map(touching);
+        let found = path.solve(&case, &parameters, [&touching, &back])?;
+        let last = last(&touching, &found);
+        let positions = positions(&wanted, found, touching.len());
+        Ok(SolvedCurve { number, curve, case, units, offsets, path, positions, last })
+    }
 }
 
-/// Evaluates `f` at points on the curve, and returns 0 elsewhere.
-fn on_curve(places: &[Place], f: impl Fn(f64, &CurvePoint) -> f64) -> Vec<f64> {
-    places
-        .iter()
-        .map(|place| if let Place::On(at, point) = place { f(*at, point) } else { 0.0 })
-        .collect()
+/// A measured curve with the solved points of the model.
+struct SolvedCurve<'a> {
+    /// Index of the curve.
+    number: usize,
+    curve: &'a TestCurve,
+    case: Case,
+    /// One model unit on each axis, in the units of the curve.
+    units: [f64; 2],
+    /// Offset of each axis, in the units of the curve.
+    offsets: [f64; 2],
+    path: Path<'a>,
+    /// Position of each measured point.
+    positions: Vec<Position>,
+    /// Value at the farthest point that the path reaches, in model units.
+    last: f64,
+}
+
+impl SolvedCurve<'_> {
+    /// Returns the model values at the measured points, in the units of the curve.
+    fn values(&self) -> Vec<f64> {
+        let Self { units, offsets, .. } = self;
+        let values = self.positions.iter().map(|position| match position {
+            Position::Before => offsets[1],
+            Position::On(_, point) => offsets[1] + units[1] * point.value,
+            // Compare with the last value. The report counts these points and advises to exclude
+            // them.
+            Position::Beyond => offsets[1] + units[1] * self.last,
+        });
+        values.collect()
+    }
+
+    /// Returns the derivatives with respect to an unknown that is no parameter of this curve.
+    ///
+    /// They are nonzero for the offsets of this curve only.
+    fn offset_rates(&self, source: Source) -> Vec<f64> {
+        match source {
+            Source::Offset(of, 1) if of == self.number => vec![1.0; self.positions.len()],
+            Source::Offset(of, _) if of == self.number => {
+                self.on_curve(|_, point| -self.units[1] * point.slope / self.units[0])
+            }
+            _ => vec![0.0; self.positions.len()],
+        }
+    }
+
+    /// Evaluates `f` at points on the curve, and returns 0 elsewhere.
+    fn on_curve(&self, f: impl Fn(f64, &CurvePoint) -> f64) -> Vec<f64> {
+        let values = self.positions.iter().map(|position| match position {
+            Position::On(at, point) => f(*at, point),
+            Position::Before | Position::Beyond => 0.0,
+        });
+        values.collect()
+    }
 }
 
 /// Derivative of a curve with respect to a parameter.
 struct By<'a> {
-    curve: &'a TestCurve,
-    case: &'a Case,
+    solved: &'a SolvedCurve<'a>,
     unknown: &'a Unknown,
     parameter: &'static Parameter,
     value: f64,
@@ -173,21 +214,16 @@ impl By<'_> {
     /// Returns the derivatives in model units, with index `k` in `point.rates`.
     ///
     /// Missing derivatives are replaced with differences of two solutions.
-    fn own_rates(
-        &self,
-        path: &Path,
-        places: &[Place],
-        k: usize,
-        differenced: &mut usize,
-    ) -> Result<Vec<f64>, Outcome> {
-        let mut rates = on_curve(places, |_, point| point.rates[k].unwrap_or(f64::NAN));
+    fn own_rates(&self, k: usize, differenced: &mut usize) -> Result<Vec<f64>, Outcome> {
+        let SolvedCurve { curve, case, path, positions, .. } = self.solved;
+        let mut rates = self.solved.on_curve(|_, point| point.rates[k].unwrap_or(f64::NAN));
         let unknown: Vec<_> = (0..rates.len()).filter(|&i| rates[i].is_nan()).collect();
         if unknown.is_empty() {
             return Ok(rates);
         }
         *differenced += unknown.len();
-        let at = on_curve(places, |at, _| at);
-        let loading = places.len() - self.curve.unloading;
+        let at = self.solved.on_curve(|at, _| at);
+        let loading = positions.len() - curve.unloading;
         let (on, back): (Vec<usize>, Vec<usize>) = unknown.iter().partition(|i| **i < loading);
         let [on, back] = [on, back].map(|of| of.into_iter().map(|i| at[i]).collect::<Vec<_>>());
         let step = SOLVED_STEP * (self.unknown.to - self.unknown.from);
@@ -195,7 +231,7 @@ impl By<'_> {
         // One-sided at an end of the range, because values beyond it may be invalid (friction < 0).
         let ends = ends.map(|end| end.clamp(self.unknown.from, self.unknown.to));
         let [below, above] = ends.map(|end| {
-            let moved = self.parameter.put(self.case, Scalar::Number(end));
+            let moved = self.parameter.put(case, Scalar::Number(end));
             path.solve(&moved, &[], [&on, &back])
         });
         for ((i, below), above) in unknown.into_iter().zip(below?).zip(above?) {
@@ -209,15 +245,15 @@ impl By<'_> {
     /// Converts derivatives to the units of the curve.
     ///
     /// The units may depend on the parameter, too. The point then also moves along the curve.
-    fn with_units(&self, units: [f64; 2], places: &[Place], own: &[f64]) -> Vec<f64> {
+    fn with_units(&self, own: &[f64]) -> Vec<f64> {
+        let SolvedCurve { curve, case, units, .. } = self.solved;
         let step = STEP * (self.unknown.to - self.unknown.from);
-        let sides =
-            [-step, step].map(|by| Some(self.curve.units(&self.parameter.moved(self.case, by)?)));
+        let sides = [-step, step].map(|by| Some(curve.units(&self.parameter.moved(case, by)?)));
         let rises = match sides {
             [Some(low), Some(high)] => [0, 1].map(|k| (high[k] - low[k]) / (2.0 * step)),
             _ => [0.0; 2],
         };
-        let moved = on_curve(places, |at, point| {
+        let moved = self.solved.on_curve(|at, point| {
             rises[1] * point.value - units[1] * point.slope * at * rises[0] / units[0]
         });
         moved.into_iter().zip(own).map(|(moved, own)| moved + units[1] * own).collect()
@@ -275,29 +311,29 @@ impl Path<'_> {
 
 /// Returns the positive displacements or curvatures, which lie on the path.
 fn touching(wanted: &[f64]) -> Vec<f64> {
-    wanted.iter().copied().filter(|place| *place > 0.0).collect()
+    wanted.iter().copied().filter(|at| *at > 0.0).collect()
 }
 
 /// Returns the positions of measured points, from the points found on the path.
 ///
 /// The first `loading` points found are on the loading branch.
-fn places(wanted: &[f64], found: CurvePoints, loading: usize) -> Vec<Place> {
+fn positions(wanted: &[f64], found: CurvePoints, loading: usize) -> Vec<Position> {
     let mut found = found.into_iter().enumerate();
-    let mut places = Vec::new();
+    let mut positions = Vec::new();
     for &at in wanted {
         let found = if at > 0.0 { found.next() } else { None };
-        places.push(match found {
-            Some((_, Some(point))) => Place::On(at, point),
-            Some((k, None)) if k < loading => Place::Beyond,
+        positions.push(match found {
+            Some((_, Some(point))) => Position::On(at, point),
+            Some((k, None)) if k < loading => Position::Beyond,
             // The needle does not touch yet, or no longer below the residual displacement.
-            None | Some(_) => Place::Before,
+            None | Some(_) => Position::Before,
         });
     }
-    places
+    positions
 }
 
 /// Returns the value at the farthest point that the path reaches.
-fn last(places: &[f64], points: &CurvePoints) -> f64 {
-    let reached = places.iter().zip(points).filter_map(|(place, p)| Some((place, p.as_ref()?)));
+fn last(wanted: &[f64], points: &CurvePoints) -> f64 {
+    let reached = wanted.iter().zip(points).filter_map(|(at, point)| Some((at, point.as_ref()?)));
     reached.max_by(|a, b| a.0.total_cmp(b.0)).map_or(0.0, |(_, point)| point.value)
 }

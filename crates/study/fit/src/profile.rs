@@ -67,14 +67,14 @@ impl From<FitError> for Aborted {
 #[derive(Clone, Debug)]
 struct ProfilePoint {
     at: f64,
-    shares: Vec<f64>,
+    scaled: Vec<f64>,
     rise: f64,
 }
 
 impl Profiles<'_, '_> {
     /// Computes the intervals of all unknowns.
     pub(crate) fn intervals(&self) -> Result<Vec<Interval>, Aborted> {
-        let count = self.minimum.shares.len();
+        let count = self.minimum.scaled.len();
         let mut ends: Vec<[Option<ProfilePoint>; 2]> = Vec::new();
         for j in 0..count {
             let minimum = self.minimum_point(j);
@@ -104,9 +104,9 @@ impl Profiles<'_, '_> {
     fn interval(&self, j: usize, ends: &[Option<ProfilePoint>; 2]) -> Interval {
         let mut rests_on = Vec::new();
         for end in ends.iter().flatten() {
-            let others = (0..end.shares.len()).filter(|i| *i != j);
+            let others = (0..end.scaled.len()).filter(|i| *i != j);
             rests_on.extend(
-                others.filter(|&i| is_at_end(end.shares[i]) && !is_at_end(self.minimum.shares[i])),
+                others.filter(|&i| is_at_end(end.scaled[i]) && !is_at_end(self.minimum.scaled[i])),
             );
         }
         rests_on.sort_unstable();
@@ -116,21 +116,21 @@ impl Profiles<'_, '_> {
 
     /// Returns the minimum as a point of the profile of unknown `j`.
     fn minimum_point(&self, j: usize) -> ProfilePoint {
-        let shares = self.minimum.shares.clone();
-        ProfilePoint { at: shares[j], shares, rise: 0.0 }
+        let scaled = self.minimum.scaled.clone();
+        ProfilePoint { at: scaled[j], scaled, rise: 0.0 }
     }
 
     /// Returns the farthest point beyond an end that was evaluated and belongs to the interval.
     fn visited_beyond(&self, j: usize, side: usize, end: f64) -> Option<ProfilePoint> {
         let direction = if side == 0 { -1.0 } else { 1.0 };
-        let tolerance = NEAR * (end - self.minimum.shares[j]).abs();
+        let tolerance = NEAR * (end - self.minimum.scaled[j]).abs();
         let limit = self.minimum.cost + self.t.powi(2);
         let mut farthest: Option<ProfilePoint> = None;
-        for Minimum { cost, shares } in self.residuals.visited_below(limit) {
-            let at = shares[j];
+        for Minimum { cost, scaled } in self.residuals.visited_below(limit) {
+            let at = scaled[j];
             let is_farther = farthest.as_ref().is_none_or(|last| direction * (at - last.at) > 0.0);
             if is_farther && direction * (at - end) > tolerance {
-                farthest = Some(ProfilePoint { at, shares, rise: cost - self.minimum.cost });
+                farthest = Some(ProfilePoint { at, scaled, rise: cost - self.minimum.cost });
             }
         }
         farthest
@@ -181,7 +181,7 @@ impl Profiles<'_, '_> {
             if is_accurate {
                 return Ok(Some(found));
             }
-            if (outer.at - inner.at).abs() < NEAR * (outer.at - self.minimum.shares[j]).abs() {
+            if (outer.at - inner.at).abs() < NEAR * (outer.at - self.minimum.scaled[j]).abs() {
                 break;
             }
         }
@@ -190,24 +190,24 @@ impl Profiles<'_, '_> {
 
     /// Fits the other unknowns with unknown `j` fixed, starting from a point of the profile.
     fn at(&self, j: usize, at: f64, from: &ProfilePoint) -> Result<ProfilePoint, Aborted> {
-        let mut start = from.shares.clone();
+        let mut start = from.scaled.clone();
         let moved = (at - from.at) / self.covariance[(j, j)];
-        for (i, share) in start.iter_mut().enumerate() {
+        for (i, scaled) in start.iter_mut().enumerate() {
             // Far from the minimum, the prediction is unreliable.
             let step = (moved * self.covariance[(i, j)]).clamp(-0.25, 0.25);
-            *share = (*share + step).clamp(AT_END, 1.0 - AT_END);
+            *scaled = (*scaled + step).clamp(AT_END, 1.0 - AT_END);
         }
         start[j] = at;
         let found = self.residuals.minimise(start, Some(j))?;
         let rise = found.cost - self.minimum.cost;
         if rise < -BETTER {
-            return Err(Aborted::Better(found.shares));
+            return Err(Aborted::Better(found.scaled));
         }
-        Ok(ProfilePoint { at, shares: found.shares, rise })
+        Ok(ProfilePoint { at, scaled: found.scaled, rise })
     }
 }
 
 /// Returns true for a scaled value at a bound.
-pub(crate) fn is_at_end(share: f64) -> bool {
-    !(AT_END..=1.0 - AT_END).contains(&share)
+pub(crate) fn is_at_end(scaled: f64) -> bool {
+    !(AT_END..=1.0 - AT_END).contains(&scaled)
 }

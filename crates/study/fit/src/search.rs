@@ -127,17 +127,15 @@ impl<'a> Residuals<'a> {
     }
 
     /// Returns the values of scaled unknowns.
-    pub(crate) fn values(&self, shares: &[f64]) -> Vec<f64> {
-        let unknowns = self.definition.unknowns.iter().zip(shares);
-        unknowns
-            .map(|(unknown, share)| unknown.from + share * (unknown.to - unknown.from))
-            .collect()
+    pub(crate) fn values(&self, scaled: &[f64]) -> Vec<f64> {
+        let unknowns = self.definition.unknowns.iter().zip(scaled);
+        unknowns.map(|(unknown, &scaled)| unknown.value(scaled)).collect()
     }
 
     /// Computes the model curves at scaled unknowns.
-    pub(crate) fn solved(&self, shares: &[f64]) -> Result<Solved, FitError> {
+    pub(crate) fn solved(&self, scaled: &[f64]) -> Result<Solved, FitError> {
         if let Some((at, solved)) = &*self.last.borrow()
-            && at == shares
+            && at == scaled
         {
             return Ok(solved.clone());
         }
@@ -149,14 +147,14 @@ impl<'a> Residuals<'a> {
             Some(piece) => piece.count(1),
             None => self.work.count(1),
         }
-        let model = uninterrupted(|| self.definition.model(self.evaluator, &self.values(shares)));
+        let model = uninterrupted(|| self.definition.model(self.evaluator, &self.values(scaled)));
         let solved = model.ok_or(FitError::Stopped)?.ok().map(Rc::new);
         if let Some(model) = &solved {
             let curves = self.of_curves(model).into_iter();
             let squares = curves.map(|of| of.iter().map(|r| r * r).sum()).collect();
-            self.visited.borrow_mut().push((shares.to_vec(), squares));
+            self.visited.borrow_mut().push((scaled.to_vec(), squares));
         }
-        *self.last.borrow_mut() = Some((shares.to_vec(), solved.clone()));
+        *self.last.borrow_mut() = Some((scaled.to_vec(), solved.clone()));
         Ok(solved)
     }
 
@@ -171,9 +169,9 @@ impl<'a> Residuals<'a> {
     }
 
     /// Returns all residuals, divided by the noise of their curves.
-    fn weighted(&self, shares: &[f64]) -> Result<Vec<f64>, FitError> {
+    fn weighted(&self, scaled: &[f64]) -> Result<Vec<f64>, FitError> {
         // If one curve has no solution, the whole set of unknowns is rejected.
-        let Some(model) = self.solved(shares)? else {
+        let Some(model) = self.solved(scaled)? else {
             let points = self.definition.curves.iter().map(|curve| curve.measured.points.len());
             return Ok(vec![UNSOLVABLE; points.sum()]);
         };
@@ -192,18 +190,18 @@ impl<'a> Residuals<'a> {
     }
 
     /// Returns the sum of the weighted squares.
-    pub(crate) fn cost(&self, shares: &[f64]) -> Result<f64, FitError> {
-        Ok(self.weighted(shares)?.iter().map(|r| r * r).sum())
+    pub(crate) fn cost(&self, scaled: &[f64]) -> Result<f64, FitError> {
+        Ok(self.weighted(scaled)?.iter().map(|r| r * r).sum())
     }
 
     /// Lists the evaluated unknowns with at most this sum of the weighted squares.
     pub(crate) fn visited_below(&self, limit: f64) -> Vec<Minimum> {
         let mut below = Vec::new();
-        for (shares, squares) in &*self.visited.borrow() {
+        for (scaled, squares) in &*self.visited.borrow() {
             let curves = squares.iter().zip(&self.noise);
             let cost = curves.map(|(squares, noise)| squares / noise.scale().powi(2)).sum();
             if cost <= limit {
-                below.push(Minimum { cost, shares: shares.clone() });
+                below.push(Minimum { cost, scaled: scaled.clone() });
             }
         }
         below
@@ -214,7 +212,7 @@ impl<'a> Residuals<'a> {
         self.with_progress(EXPECTED, || self.minimise(start, None))
     }
 
-    /// Runs a part of the work with its progress.
+    /// Runs `work`, the computation of a profile, and reports its progress.
     pub(crate) fn profile<T>(&self, work: impl FnOnce() -> T) -> T {
         self.with_progress(EXPECTED_PROFILE, work)
     }
@@ -236,7 +234,7 @@ impl<'a> Residuals<'a> {
         let mut free = start.clone();
         let fixed = fixed.map(|j| (j, free.remove(j)));
         if free.is_empty() {
-            return Ok(Minimum { cost: self.cost(&start)?, shares: start });
+            return Ok(Minimum { cost: self.cost(&start)?, scaled: start });
         }
         let (lower, upper) = (vec![0.0; free.len()], vec![1.0; free.len()]);
         let slice = Slice { residuals: self, fixed, lower, upper };
@@ -246,8 +244,8 @@ impl<'a> Residuals<'a> {
             .with_relative_cost_change_tolerance(changed);
         match Executor::new(&slice, solver, PointState::new(free)).max_iter(MOST_STEPS).run() {
             Ok(found) => {
-                let shares = slice.all(found.param());
-                Ok(Minimum { cost: self.cost(&shares)?, shares })
+                let scaled = slice.all(found.param());
+                Ok(Minimum { cost: self.cost(&scaled)?, scaled })
             }
             Err(ConstraintSolveError::Evaluation(stopped)) => Err(stopped),
             // The bounds are always 0 and 1.
@@ -263,7 +261,7 @@ impl<'a> Residuals<'a> {
         let count = self.definition.unknowns.len();
         let mut starts = (0..=STARTS * count)
             .map(|k| filling(k, count))
-            .map(|shares| Ok((self.cost(&shares)?, shares)))
+            .map(|scaled| Ok((self.cost(&scaled)?, scaled)))
             .collect::<Result<Vec<_>, FitError>>()?;
         starts.sort_by(|a, b| a.0.total_cmp(&b.0));
         starts.truncate(IMPROVED);
@@ -280,7 +278,7 @@ pub(crate) struct Minimum {
     /// Sum of the weighted squares.
     pub(crate) cost: f64,
     /// Scaled unknowns.
-    pub(crate) shares: Vec<f64>,
+    pub(crate) scaled: Vec<f64>,
 }
 
 /// Residuals over all unknowns, or all but one that is fixed.

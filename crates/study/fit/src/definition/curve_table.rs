@@ -86,7 +86,7 @@ pub(super) fn tables<'e>(
 pub(super) struct CurveTable<'e>(&'e [KeyValue]);
 
 impl CurveTable<'_> {
-    /// Returns the place of the first key.
+    /// Returns the position of the first key.
     pub fn place(&self) -> &Place {
         &self.0[0].place
     }
@@ -163,8 +163,8 @@ impl CurveTable<'_> {
         let mut curves = MeasuredCurve::read(&folder.join(file), columns.as_deref())?;
         if kind != curves[0].test.name() {
             let expected = match curves[0].test {
-                Test::Puncture => "\"puncture\", as the columns of the file say",
-                Test::Bending => "\"bending\", as the columns of the file say",
+                Test::Puncture => "\"puncture\", as the columns of the file state",
+                Test::Bending => "\"bending\", as the columns of the file state",
             };
             return Err(self.wrong("kind", expected));
         }

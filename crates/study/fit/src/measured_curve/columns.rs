@@ -322,7 +322,7 @@ mod tests {
         assert_eq!(found, [[0, 1], [2, 3]]);
         let names = ["force_N", "displacement_mm", "force_N.1", "displacement_mm.1"].map(spelled);
         assert_eq!(curves(&names).expect("curves").len(), 2);
-        // A second force sensor is no specimen.
+        // A second force sensor is not a specimen.
         let names = ["force_N", "force_2_N", "displacement_mm"].map(spelled);
         assert_eq!(curves(&names).expect("a curve").len(), 1);
         let names = ["Extension (mm)", "Stroke (mm)", "Load (N)"].map(spelled);

@@ -121,7 +121,7 @@ impl Rows {
         self.count_numbers(row) == 0
     }
 
-    /// Returns true if two rows belong to one table: no empty line between them, and equal width.
+    /// Returns true if `row` has the width of the row above, without an empty line between them.
     fn continues(&self, row: usize) -> bool {
         let (before, row) = (&self.all[row - 1], &self.all[row]);
         !row.is_after_blank && row.cells.len() == before.cells.len()
@@ -149,7 +149,7 @@ impl Rows {
     ///
     /// The longest run of rows is a table. Runs of the same width continue it if only empty lines
     /// and remarks lie between them. Further tables begin at a row for which `is_header` holds. All
-    /// other runs are sizes or results, not readings, and are left out, as single rows of numbers.
+    /// other runs, such as sizes or results, are left out, like single rows of numbers.
     pub(super) fn tables(&self, is_header: impl Fn(usize) -> bool) -> Vec<NumberTable> {
         let mut runs = self.runs(2);
         let mut longest = longest(&runs);

@@ -36,7 +36,7 @@ const PARTS: [&str; 24] = [
     "µ",
 ];
 
-/// Reads the bytes as a file, and checks that the answer is not larger than the file.
+/// Reads the bytes as a file, and checks that the result is not larger than the file.
 fn read(bytes: &[u8]) {
     let place = tempfile::tempdir().expect("a folder");
     let path = place.path().join("a.csv");

@@ -325,53 +325,53 @@ fn check_coverage(kind: usize) {
 }
 
 #[test]
-fn intervals_hold_for_a_modulus() {
+fn intervals_cover_a_modulus() {
     check_coverage(0);
 }
 
 #[test]
-fn intervals_hold_for_a_modulus_and_a_gap() {
+fn intervals_cover_a_modulus_and_a_gap() {
     check_coverage(1);
 }
 
 #[test]
-fn intervals_hold_for_a_modulus_and_a_needle_radius() {
+fn intervals_cover_a_modulus_and_a_needle_radius() {
     check_coverage(2);
 }
 
 #[test]
-fn intervals_hold_for_a_modulus_and_a_needle_friction() {
+fn intervals_cover_a_modulus_and_a_needle_friction() {
     check_coverage(3);
 }
 
 #[test]
-fn intervals_hold_for_a_modulus_and_a_tissue_thickness() {
+fn intervals_cover_a_modulus_and_a_tissue_thickness() {
     check_coverage(4);
 }
 
 #[test]
-fn intervals_hold_for_a_modulus_and_a_membrane_thickness() {
+fn intervals_cover_a_modulus_and_a_membrane_thickness() {
     check_coverage(5);
 }
 
 #[test]
-fn intervals_hold_for_two_moduli_and_an_offset() {
+fn intervals_cover_two_moduli_and_an_offset() {
     check_coverage(6);
 }
 
 #[test]
-fn intervals_hold_for_a_modulus_and_a_load_position() {
+fn intervals_cover_a_modulus_and_a_load_position() {
     check_coverage(7);
 }
 
 #[test]
-fn intervals_hold_for_a_gap_a_friction_and_an_offset() {
+fn intervals_cover_a_gap_a_friction_and_an_offset() {
     check_coverage(8);
 }
 
-/// Noise with a memory counts as fewer independent points.
+/// Correlated noise counts as fewer independent points.
 #[test]
-fn intervals_hold_under_correlated_noise() {
+fn intervals_cover_the_truth_under_correlated_noise() {
     let trials = 10 + campaign()[1] / 2;
     for correlation in [0.5, 0.8] {
         let counts = (0..trials).into_par_iter().map(|k| counted(0, k, [0.03, correlation]));

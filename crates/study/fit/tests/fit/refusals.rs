@@ -25,7 +25,7 @@ fn keys_of_curves_are_checked() {
     insta::assert_snapshot!(refused("curve = 3\n"), @"test.toml:5: curve: missing, expected at least one [[curve]] with a file and its kind");
     insta::assert_snapshot!(wrong("kind = 'puncture'\n"), @"test.toml:8: curve.file: missing, expected the name of a CSV file");
     insta::assert_snapshot!(wrong("file = 'a.csv'\n"), @r#"test.toml:8: curve.kind: missing, expected "puncture" or "bending""#);
-    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'bending'\n"), @r#"test.toml:9: curve.kind: "bending" is not accepted, expected "puncture", as the columns of the file say"#);
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'bending'\n"), @r#"test.toml:9: curve.kind: "bending" is not accepted, expected "puncture", as the columns of the file state"#);
     insta::assert_snapshot!(wrong("file = 'b.csv'\nkind = 'puncture'\n"), @r#"b.csv:2: force_N: "one" is not accepted, expected a number"#);
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\nto = 'end'\n"), @r#"test.toml:10: curve.to: "end" is not accepted, expected a number, in the unit of the first column"#);
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\nto = 0.01\n"), @"test.toml:10: curve.to: 0.01 is not accepted, expected a range with points of the file in it");
@@ -49,13 +49,13 @@ fn constant_loads_are_refused() {
     let curve = format!("{SKIN}{units}[[curve]]\nfile = 'z.csv'\nkind = 'puncture'\n");
     for (force, keys) in [("0", ""), ("0.013", ""), ("-0", "from = 0.1\n")] {
         place.write("z.csv", &format!("displacement_mm,force_N\n0.1,{force}\n0.2,{force}\n"));
-        let told = place.refused(&format!("{curve}{keys}"));
-        assert!(told.starts_with("test.toml:8: curve.file: z.csv is not accepted"), "{told}");
-        assert!(told.contains(&format!("it is {force} at all 2 points")), "{told}");
+        let message = place.refused(&format!("{curve}{keys}"));
+        assert!(message.starts_with("test.toml:8: curve.file: z.csv is not accepted"), "{message}");
+        assert!(message.contains(&format!("it is {force} at all 2 points")), "{message}");
     }
     place.write("z.csv", "displacement_mm,force_N\n0.1,0\n0.2,0\n0.3,1\n");
-    let told = place.refused(&format!("{curve}to = 0.25\n"));
-    assert!(told.contains("it is 0 at all 2 points"), "{told}");
+    let message = place.refused(&format!("{curve}to = 0.25\n"));
+    assert!(message.contains("it is 0 at all 2 points"), "{message}");
 }
 
 #[test]
