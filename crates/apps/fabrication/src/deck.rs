@@ -104,6 +104,48 @@ fn growing(first: f64, total: f64) -> Vec<f64> {
     lengths.iter().map(|length| length * total / sum).collect()
 }
 
+/// Lines of the grid along the row, across it and upwards, mm.
+struct Grid {
+    xs: Vec<f64>,
+    ys: Vec<f64>,
+    zs: Vec<f64>,
+    /// Lines of a base along the row, from 0 to 1.
+    base: [f64; ALONG + 1],
+    /// Number of elements to the left of the first base.
+    before: usize,
+}
+
+impl Grid {
+    /// Creates the grid of the first row of `patch`; `tissue` is the depth of the substrate, mm.
+    fn new(patch: &Patch, load_position: f64, tissue: Option<f64>) -> Self {
+        let (base, width, gap, count) =
+            (patch.base(), patch.width(), patch.gaps()[0], patch.scales()[0]);
+        let margin = MARGIN * base.max(width);
+        let depth = tissue.unwrap_or(margin);
+        let lines = base_lines(load_position);
+        let first = base * (lines[1] - lines[0]);
+        let xs = lines_along(&lines, base, gap, count, &growing(first, margin));
+        let half = width / 2.0;
+        let mut ys: Vec<f64> = (0..=ACROSS).map(|j| half * edge_spaced(j)).collect();
+        let last = half - ys[ACROSS - 1];
+        ys.extend(running(half, &growing(last, margin)));
+        let downwards = running(0.0, &growing(first.min(last), depth));
+        let zs = downwards.iter().rev().map(|z| -z).chain([0.0]).collect();
+        let before = (xs.len() - 1 - (count * ALONG + (count - 1) * GAP)) / 2;
+        Self { xs, ys, zs, base: lines, before }
+    }
+
+    /// Returns the numbers of elements along, across and in depth.
+    fn sizes(&self) -> [usize; 3] {
+        [&self.xs, &self.ys, &self.zs].map(|lines| lines.len() - 1)
+    }
+
+    /// Returns the index along the row of the left end of a base, in half elements.
+    fn start(&self, scale: usize) -> usize {
+        2 * (self.before + scale * (ALONG + GAP))
+    }
+}
+
 impl Mesh {
     /// Returns the number of a node, which is created at its first use.
     fn node(&mut self, place: NodeIndex, coordinates: [f64; 3]) -> usize {
@@ -134,6 +176,55 @@ impl Mesh {
         }
         first..self.elements.len()
     }
+
+    /// Adds the block of substrate, and returns the range of its elements.
+    fn add_substrate(&mut self, Grid { xs, ys, zs, .. }: &Grid) -> Range<usize> {
+        let sizes = [xs, ys, zs].map(|lines| lines.len() - 1);
+        self.block(sizes, |[i, j, k]| ([0, i, j, k], [at(xs, i), at(ys, j), at(zs, k)]))
+    }
+
+    /// Adds the scales, and returns the numbers of the elements at their left and right sides.
+    fn add_scales(&mut self, grid: &Grid, patch: &Patch) -> [Vec<Vec<usize>>; 2] {
+        let (t, shift) = (patch.thickness(), patch.shift());
+        let up: Vec<f64> = (0..=HEIGHT).map(|k| t * k as f64 / HEIGHT as f64).collect();
+        let surface = 2 * grid.sizes()[2];
+        let (mut left, mut right) = (Vec::new(), Vec::new());
+        for scale in 0..patch.scales()[0] {
+            let start = grid.start(scale);
+            let elements = self.block([ALONG, ACROSS, HEIGHT], |[i, j, k]| {
+                let (i, z) = (start + i, at(&up, k));
+                // The base shares its nodes with the substrate.
+                let index = if k == 0 { [0, i, j, surface] } else { [scale + 1, i, j, k] };
+                (index, [at(&grid.xs, i) + shift * z / t, at(&grid.ys, j), z])
+            });
+            let numbers: Vec<usize> = elements.map(|element| element + 1).collect();
+            left.push(numbers.iter().copied().step_by(ALONG).collect());
+            right.push(numbers.iter().copied().skip(ALONG - 1).step_by(ALONG).collect());
+        }
+        [left, right]
+    }
+
+    /// Returns the nodes on the line of the load across the top of a scale.
+    fn loaded(&self, grid: &Grid, scale: usize, load_position: f64) -> Vec<usize> {
+        let column = grid.start(scale) + 2 * load_column(&grid.base, load_position);
+        let line = (0..=2 * ACROSS).map(|j| [scale + 1, column, j, 2 * HEIGHT]);
+        line.filter_map(|index| self.nodes.get(&index).copied()).collect()
+    }
+
+    /// Returns the nodes on the outer faces of the substrate, except its surface.
+    fn outer(&self, grid: &Grid) -> Vec<usize> {
+        let [nx, ny, _] = grid.sizes();
+        let outer = self.nodes.iter().filter(|([block, i, j, k], _)| {
+            *block == 0 && (*k == 0 || *j == 2 * ny || *i == 0 || *i == 2 * nx)
+        });
+        outer.map(|(_, number)| *number).collect()
+    }
+
+    /// Returns the nodes in the plane of symmetry, `y = 0`.
+    fn in_symmetry_plane(&self) -> Vec<usize> {
+        let plane = self.nodes.iter().filter(|([_, _, j, _], _)| *j == 0);
+        plane.map(|(_, number)| *number).collect()
+    }
 }
 
 /// Returns the deck of the first row of `patch`.
@@ -146,54 +237,17 @@ pub fn deck(patch: &Patch, puncture: &Puncture, title: &str) -> Result<String, N
     if count > MOST_SCALES {
         return Err(NoDeck(count));
     }
-    let (base, width, t, shift) = (patch.base(), patch.width(), patch.thickness(), patch.shift());
-    let gap = patch.gaps()[0];
-    let margin = MARGIN * base.max(width);
-    let depth = puncture.tissue.unwrap_or(margin);
-    let lines = base_lines(puncture.load_position);
-    let first = base * (lines[1] - lines[0]);
-    let xs = lines_along(&lines, base, gap, count, &growing(first, margin));
-    let half = width / 2.0;
-    let mut ys: Vec<f64> = (0..=ACROSS).map(|j| half * edge_spaced(j)).collect();
-    let last = half - ys[ACROSS - 1];
-    ys.extend(running(half, &growing(last, margin)));
-    let downwards = running(0.0, &growing(first.min(last), depth));
-    let zs: Vec<f64> = downwards.iter().rev().map(|z| -z).chain([0.0]).collect();
-    let before = (xs.len() - 1 - (count * ALONG + (count - 1) * GAP)) / 2;
-
+    let grid = Grid::new(patch, puncture.load_position, puncture.tissue);
     let mut mesh = Mesh::default();
-    let [nx, ny, nz] = [&xs, &ys, &zs].map(|lines| lines.len() - 1);
-    let substrate =
-        mesh.block([nx, ny, nz], |[i, j, k]| ([0, i, j, k], [at(&xs, i), at(&ys, j), at(&zs, k)]));
-    let up: Vec<f64> = (0..=HEIGHT).map(|k| t * k as f64 / HEIGHT as f64).collect();
-    let (mut left, mut right) = (Vec::new(), Vec::new());
-    for scale in 0..count {
-        let start = 2 * (before + scale * (ALONG + GAP));
-        let elements = mesh.block([ALONG, ACROSS, HEIGHT], |[i, j, k]| {
-            let (i, z) = (start + i, at(&up, k));
-            // The base shares its nodes with the substrate.
-            let place = if k == 0 { [0, i, j, 2 * nz] } else { [scale + 1, i, j, k] };
-            (place, [at(&xs, i) + shift * z / t, at(&ys, j), z])
-        });
-        let numbers: Vec<usize> = elements.map(|element| element + 1).collect();
-        left.push(numbers.iter().copied().step_by(ALONG).collect());
-        right.push(numbers.iter().copied().skip(ALONG - 1).step_by(ALONG).collect());
-    }
-    let middle = count / 2;
-    let column =
-        2 * (before + middle * (ALONG + GAP) + load_column(&lines, puncture.load_position));
-    let loaded = (0..=2 * ACROSS).map(|j| [middle + 1, column, j, 2 * HEIGHT]);
-    let loaded: Vec<_> = loaded.filter_map(|place| mesh.nodes.get(&place).copied()).collect();
-    let (mut outer, mut plane) = (Vec::new(), Vec::new());
-    for (&[block, i, j, k], &number) in &mesh.nodes {
-        if block == 0 && (k == 0 || j == 2 * ny || i == 0 || i == 2 * nx) {
-            outer.push(number);
-        }
-        if j == 0 {
-            plane.push(number);
-        }
-    }
+    let substrate = mesh.add_substrate(&grid);
+    let [left, right] = mesh.add_scales(&grid, patch);
+    let sets = [
+        ("LOADED", mesh.loaded(&grid, count / 2, puncture.load_position)),
+        ("OUTER", mesh.outer(&grid)),
+        ("SYMMETRY", mesh.in_symmetry_plane()),
+    ];
 
+    let t = patch.thickness();
     let mut text = heading(title, puncture, t);
     text.push_str("*NODE, NSET=ALL\n");
     for (number, [x, y, z]) in mesh.coordinates.iter().enumerate() {
@@ -202,7 +256,7 @@ pub fn deck(patch: &Patch, puncture: &Puncture, title: &str) -> Result<String, N
     let scales = substrate.end..mesh.elements.len();
     elements(&mut text, "SUBSTRATE", &mesh.elements, substrate);
     elements(&mut text, "SCALES", &mesh.elements, scales);
-    for (name, nodes) in [("LOADED", &loaded), ("OUTER", &outer), ("SYMMETRY", &plane)] {
+    for (name, nodes) in &sets {
         let _ = writeln!(text, "*NSET, NSET={name}");
         list(&mut text, nodes);
     }

@@ -6,7 +6,7 @@ use results::{DesignRow, SolvedDesign};
 use run::{Evaluator, GapChange, Patience, validity_warnings};
 use skin::Imperfection;
 use skin::flexure::{self, Flexure};
-use skin::puncture::{self, PunctureParameters};
+use skin::puncture::{self, Puncture, PunctureParameters};
 use sweep::{Case, Measure, Sweep};
 
 use crate::answer::{Answer, Required, Slope, Units, Value, definition};
@@ -71,38 +71,21 @@ impl Solver {
         if request.fine {
             smooth.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
         }
-        let puncture = solved.puncture.as_ref().and_then(|path| {
-            let substrate = evaluator.substrate(&case).ok()?;
-            let parameters = PunctureParameters { unload: false, ..smooth.punctured() };
-            PuncturedRow::new(&case, path, drawn[0], |at| {
-                puncture::snapshots_to_end(
-                    &smooth.design,
-                    &*substrate,
-                    &smooth.common,
-                    &parameters,
-                    at,
-                )
-            })
-        });
+        let puncture = solved.puncture.as_ref();
+        let puncture =
+            puncture.and_then(|path| punctured(evaluator, &case, &smooth, path, drawn[0]));
         let flexure =
             solved.flexure.as_ref().map(|path| bent(&smooth, request.fine, path, drawn[1]));
         let row = &solved.row;
         let values = values(&own, row);
-        let change = request.fine.then(|| {
-            GapChange::solve(
-                &own,
-                &row.number.to_string(),
-                &[name::CRITICAL_FORCE, name::COMPLIANCE],
-                Patience::Milliseconds,
-            )
-        });
+        let change = request.fine.then(|| gap_change(&own, row)).flatten();
         let walk =
             request.follow.as_ref().map(|walk| follow(&own, &case, walk, &requirements, evaluator));
         Ok(Answer {
             id: request.id,
             fine: request.fine,
             requirements: Required::all(&requirements, &values),
-            warnings: validity_warnings(&case, row, None, change.flatten().as_ref()),
+            warnings: validity_warnings(&case, row, None, change.as_ref()),
             values,
             units: Units::of(&case),
             puncture,
@@ -139,6 +122,30 @@ impl Solver {
         });
         &self.evaluators[place].1
     }
+}
+
+/// Punctures the row of a case along its `path`, with the steps of `smooth`.
+///
+/// `drawn` is the fraction of the path at which the row is drawn. Unloading is omitted.
+fn punctured(
+    evaluator: &Evaluator,
+    case: &Case,
+    smooth: &Case,
+    path: &Puncture,
+    drawn: f64,
+) -> Option<PuncturedRow> {
+    let substrate = evaluator.substrate(case).ok()?;
+    let parameters = PunctureParameters { unload: false, ..smooth.punctured() };
+    let Case { design, common, .. } = smooth;
+    PuncturedRow::new(case, path, drawn, |at| {
+        puncture::snapshots_to_end(design, &*substrate, common, &parameters, at)
+    })
+}
+
+/// Returns the changes of critical force and compliance for a smaller and a larger gap.
+fn gap_change(sweep: &Sweep, row: &DesignRow) -> Option<GapChange> {
+    let columns = [name::CRITICAL_FORCE, name::COMPLIANCE];
+    GapChange::solve(sweep, &row.number.to_string(), &columns, Patience::Milliseconds)
 }
 
 /// Bends the strip of a case, with small steps if `is_fine`.

@@ -154,8 +154,21 @@ fn the_page_on_failure_quotes_values_of_its_commands() {
     std::fs::create_dir(place.path("sweeps")).expect("a folder");
     let name = "sweeps/first-failure.toml";
     std::fs::copy(Path::new(ROOT).join(name), place.path(name)).expect("a copy");
-    let mut printed = String::new();
     let blocks: Vec<&str> = page.split("```").collect();
+    let printed = output_of_commands(&place, &blocks);
+    let quoted = blocks.iter().filter_map(|block| block.strip_prefix("text\n"));
+    let quoted: Vec<&str> = quoted.flat_map(str::lines).filter(|line| !line.is_empty()).collect();
+    assert!(quoted.len() > 5, "{quoted:?}");
+    for line in quoted {
+        assert!(printed.contains(line), "{line}\n{printed}");
+    }
+    assert_strongest_skins(&place, &page);
+    assert_first_failures_by_slant(&place, &page);
+}
+
+/// Runs the commands in the blocks of a page, and returns their output.
+fn output_of_commands(place: &Place, blocks: &[&str]) -> String {
+    let mut printed = String::new();
     for line in blocks.iter().filter_map(|block| block.strip_prefix("sh\n")).flat_map(str::lines) {
         let Some(arguments) = line.strip_prefix("squama ") else { continue };
         let arguments: Vec<String> =
@@ -165,13 +178,11 @@ fn the_page_on_failure_quotes_values_of_its_commands() {
         let output = place.squama_with(&arguments).assert().code(code).get_output().stdout.clone();
         printed.push_str(&String::from_utf8_lossy(&output));
     }
-    let quoted = blocks.iter().filter_map(|block| block.strip_prefix("text\n"));
-    let quoted: Vec<&str> = quoted.flat_map(str::lines).filter(|line| !line.is_empty()).collect();
-    assert!(quoted.len() > 5, "{quoted:?}");
-    for line in quoted {
-        assert!(printed.contains(line), "{line}\n{printed}");
-    }
-    // The strongest skins by the critical tilt.
+    printed
+}
+
+/// Compares the skins with the largest critical force and the largest failure force.
+fn assert_strongest_skins(place: &Place, page: &str) {
     let table = place.read("results/first-failure/designs.csv");
     let modes = cells(&table, "first_failure");
     let forces = ["critical_force", "failure_force"].map(|column| -> Vec<f64> {
@@ -191,12 +202,15 @@ fn the_page_on_failure_quotes_values_of_its_commands() {
         ["across", "bend"].map(|mode| by_tilt.iter().filter(|row| modes[**row] == mode).count());
     let common = by_tilt.iter().filter(|row| by_failure.contains(row)).count();
     assert_eq!((counted[0], counted[1], common), (11, 9, 4));
-    let mut shares: Vec<f64> =
+    let mut ratios: Vec<f64> =
         by_tilt.iter().map(|row| forces[1][*row] / forces[0][*row]).collect();
-    shares.sort_by(f64::total_cmp);
-    let median = 50.0 * (shares[9] + shares[10]);
+    ratios.sort_by(f64::total_cmp);
+    let median = 50.0 * (ratios[9] + ratios[10]);
     assert!(page.contains(&format!("{median:.1} %")), "{median}");
-    // First failures by slant.
+}
+
+/// Compares the number of skins by first failure, slant and width.
+fn assert_first_failures_by_slant(place: &Place, page: &str) {
     for (folder, title) in [("first-failure", "width `t`"), ("wide", "width `3 t`")] {
         let table = place.read(&format!("results/{folder}/designs.csv"));
         let (slants, modes) = (cells(&table, "slant_deg"), cells(&table, "first_failure"));

@@ -68,7 +68,7 @@ const REQUESTS: [(&str, &str); 10] = [
 ];
 
 /// Returns title and table of the columns that each request adds to `designs.csv`.
-fn requested_columns() -> impl Iterator<Item = (String, String)> {
+fn requested_columns() -> impl Iterator<Item = Section> {
     REQUESTS.into_iter().map(|(words, request)| {
         let [plain, mut added] = ["", request].map(|request| {
             let text = format!("name = 'x'\nimperfection.gap_cv = 0.1\n{request}\n{MATERIAL}");
@@ -80,43 +80,40 @@ fn requested_columns() -> impl Iterator<Item = (String, String)> {
     })
 }
 
-#[test]
-fn the_guide_to_the_results_explains_every_column() {
-    let mut guide = text("results/README.md");
-    guide = guide.split_off(guide.find("### `designs.csv`").expect("the first table"));
+/// Title and table of a section of the guide.
+type Section = (String, String);
+
+/// Returns sections from their titles and tables.
+fn sections<const N: usize>(all: [(&str, String); N]) -> impl Iterator<Item = Section> {
+    all.into_iter().map(|(title, table)| (title.to_owned(), table))
+}
+
+/// Returns the sections on the columns of `designs.csv`, without requested columns.
+fn sections_of_designs() -> impl Iterator<Item = Section> {
+    let plain = design_columns(&sweep("name = 'x'"));
+    let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
+    let mut in_physical_units =
+        design_columns(&sweep(&format!("name = 'x'\nimperfection.gap_cv = 0.1\n{MATERIAL}")));
+    in_physical_units.retain(|column| !imperfect.iter().any(|of| of.name == column.name));
+    let several = design_columns(&sweep("name = 'x'\npuncture.critical_tilt_deg = [5, 10]"));
+    sections([
+        ("`designs.csv`", columns(&plain)),
+        ("`designs.csv`, with imperfections in addition", columns(&imperfect[plain.len()..])),
+        (
+            "`designs.csv`, with `puncture.critical_tilt_deg = [5, 10]` in addition",
+            columns(&several[plain.len()..]),
+        ),
+        ("`designs.csv`, with a material in addition", columns(&in_physical_units)),
+    ])
+}
+
+/// Returns the sections on statuses, failures and the tables of single designs.
+fn sections_of_single_designs() -> impl Iterator<Item = Section> {
     let mut statuses = "| Status | Meaning |\n|---|---|\n".to_owned();
     for outcome in Outcome::ALL {
         let _ = writeln!(statuses, "| `{outcome}` | {} |", outcome.meaning());
     }
-    let paper = Preferences::paper();
-    let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
-    let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
-    let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
-    let physical =
-        design_columns(&sweep(&format!("name = 'x'\nimperfection.gap_cv = 0.1\n{MATERIAL}")));
-    let in_physical_units: Vec<_> = physical
-        .into_iter()
-        .filter(|column| !imperfect.iter().any(|of| of.name == column.name))
-        .collect();
-    let several = design_columns(&sweep("name = 'x'\npuncture.critical_tilt_deg = [5, 10]"));
-    let at_tilts = &several[design_columns(&sweep("name = 'x'")).len()..];
-    let fittest = goal(
-        "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'fitness'",
-    );
-    let (best, known) = (optimum_columns(&fittest), design_columns(&sweep("name = 'x'")).len());
-    let history = history_columns(&goal(
-        "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'coverage'",
-    ));
-    let of_designs = [
-        ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
-        ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
-        (
-            "`designs.csv`, with `puncture.critical_tilt_deg = [5, 10]` in addition",
-            columns(at_tilts),
-        ),
-        ("`designs.csv`, with a material in addition", columns(&in_physical_units)),
-    ];
-    let others = [
+    sections([
         ("Statuses", statuses),
         (
             "`failures.csv`, after the columns that say which design it is",
@@ -134,6 +131,21 @@ fn the_guide_to_the_results_explains_every_column() {
         ("`flexure_events.csv`", columns(FLEXURE_EVENTS)),
         ("`flexure_scales.csv`", columns(FLEXURE_SCALES)),
         ("`flexure_steps.csv`", columns(FLEXURE_STEPS)),
+    ])
+}
+
+/// Returns the sections on the tables of rankings, searches and comparisons.
+fn sections_of_rankings_and_searches() -> impl Iterator<Item = Section> {
+    let paper = Preferences::paper();
+    let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
+    let fittest = goal(
+        "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'fitness'",
+    );
+    let (best, known) = (optimum_columns(&fittest), design_columns(&sweep("name = 'x'")).len());
+    let history = history_columns(&goal(
+        "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'coverage'",
+    ));
+    sections([
         ("`ranking.csv`", columns(&ranking_columns(geometry, &paper))),
         ("`pareto.csv`", columns(&pareto_columns(geometry, &paper))),
         ("`winners.csv`", columns(&winner_columns(geometry, &paper))),
@@ -148,12 +160,17 @@ fn the_guide_to_the_results_explains_every_column() {
         ),
         ("`compare.csv`", columns(COMPARISON_COLUMNS)),
         ("`differences.csv`", columns(&difference_columns(geometry))),
-    ];
-    let expected: Vec<_> = of_designs
-        .into_iter()
-        .map(|(title, table)| (title.to_owned(), table))
+    ])
+}
+
+#[test]
+fn the_guide_to_the_results_explains_every_column() {
+    let mut guide = text("results/README.md");
+    guide = guide.split_off(guide.find("### `designs.csv`").expect("the first table"));
+    let expected: Vec<_> = sections_of_designs()
         .chain(requested_columns())
-        .chain(others.into_iter().map(|(title, table)| (title.to_owned(), table)))
+        .chain(sections_of_single_designs())
+        .chain(sections_of_rankings_and_searches())
         .map(|(title, table)| format!("### {title}\n\n{table}"))
         .collect();
     let expected = expected.join("\n");

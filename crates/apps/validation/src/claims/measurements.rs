@@ -12,6 +12,12 @@ use crate::study::MeasuredDesign;
 
 /// Returns the measurement for the statement with this number.
 pub(super) fn measurement(id: &str) -> Option<Measurement> {
+    let parts = [of_puncture, of_critical_force, of_flexure, of_best_designs];
+    parts.into_iter().find_map(|part| part(id))
+}
+
+/// Measurements of coverage and of the punctures of Figs. 3 and 6.
+fn of_puncture(id: &str) -> Option<Measurement> {
     Some(match id {
         // If the largest coverage is 0, all coverages are.
         "C01" => Number(|e| Some(e.best(|d| d.slant == 0.0, |d| d.coverage)?.value.into())),
@@ -38,6 +44,13 @@ pub(super) fn measurement(id: &str) -> Option<Measurement> {
         "C10a" => Number(|e| puncture::spread(&e.by_gap, |curve| curve.initial_slope)),
         "C10b" => Number(|e| puncture::spread(&e.by_gap, PunctureCurve::slope_after_contact)),
         "C10c" => Number(puncture::contact_is_delayed),
+        _ => return None,
+    })
+}
+
+/// Measurements of critical force and puncture stiffness, and of the rows of Fig. 9.
+fn of_critical_force(id: &str) -> Option<Measurement> {
+    Some(match id {
         "C11" => Number(|e| {
             let lines = e.lines(GAP, [LENGTH, SLANT], FORCE);
             Measured::steps(TrendSteps::falling(&lines))
@@ -60,6 +73,13 @@ pub(super) fn measurement(id: &str) -> Option<Measurement> {
         "C17" => Number(|e| loaded(e, 0, |row| row.carrying)),
         "C18a" => Number(|e| loaded(e, 1, |row| row.carrying)),
         "C18b" => Number(|e| loaded(e, 1, |row| row.touching)),
+        _ => return None,
+    })
+}
+
+/// Measurements of bending.
+fn of_flexure(id: &str) -> Option<Measurement> {
+    Some(match id {
         "C19a" => Number(flexure::axial_before_contact),
         "C19b" => Number(|e| Some(flexure::strip(e, 0.0)?.axial_at_end.into())),
         "C20a" => Number(flexure::slanted_scales_soften),
@@ -74,6 +94,13 @@ pub(super) fn measurement(id: &str) -> Option<Measurement> {
             let lines = e.lines(LENGTH, [GAP, SLANT], |d| d.compliance);
             Measured::steps(TrendSteps::falling(&lines))
         }),
+        _ => return None,
+    })
+}
+
+/// Measurements of the best designs, and of the kink of two blocks.
+fn of_best_designs(id: &str) -> Option<Measurement> {
+    Some(match id {
         "C25" => Best(|e| e.best(MeasuredDesign::is_covered, |d| d.penetration.map(f64::recip))),
         "C26" => Best(|e| e.best(MeasuredDesign::is_covered, |d| d.compliance)),
         "C27" => Best(|e| e.best(MeasuredDesign::is_covered, FORCE)),
