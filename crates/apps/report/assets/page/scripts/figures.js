@@ -182,7 +182,7 @@ squama.charts = [];
 
   const add = (id, title, description, ...columns) => squama.addChart({ id, title, description, columns: () => columns });
   add("critical-force", "Critical force", "Critical force for each slant.", squama.criticalForce);
-  add("stiffness", "Stiffness against critical force", "Puncture stiffness, the largest and that of the secant, against the critical force.", squama.criticalForce, ...squama.stiffnesses);
+  add("stiffness", "Stiffness against critical force", "Largest slope of the puncture path, and secant stiffness, against the critical force.", squama.criticalForce, ...squama.stiffnesses);
   add("penetration", "Penetration", "Penetration of the bases at the critical tilt for each slant; the needle goes deeper.", squama.penetration);
   add("compliance", "Flexural compliance", "Flexural compliance for each slant; open marks: no contact in bending. Without contact the slant does not matter, so that its marks coincide.", squama.compliance);
   add("coverage", "Coverage", "Coverage by gap, aspect ratio and slant, with contours; white: none.", squama.coverage);
