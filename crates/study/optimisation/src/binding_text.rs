@@ -69,7 +69,7 @@ impl<'a> BindingText<'a> {
     /// `None` if the multiplier is unknown.
     pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
         if binding.limit.is_yield(&self.judge) {
-            return Some("no price: a share of samples moves in steps".to_owned());
+            return Some("no price: the fraction of samples changes in steps".to_owned());
         }
         let price = binding.price?;
         let objective = &self.goal.objectives[target.objective];

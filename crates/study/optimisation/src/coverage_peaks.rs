@@ -48,8 +48,9 @@ pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> 
 
 /// Returns the points on coverage peaks along one interval through `point`.
 fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<(u32, SpacePoint)> {
-    let place = |share| coverage_piece::place(&space.case(&point.with_share(interval, share)));
-    let Some((first, last)) = place(0.0).zip(place(1.0)) else { return Vec::new() };
+    let at =
+        |share| coverage_piece::reach_over_pitch(&space.case(&point.with_share(interval, share)));
+    let Some((first, last)) = at(0.0).zip(at(1.0)) else { return Vec::new() };
     let (low, high) = (first.min(last), first.max(last));
     // `S/p` is monotonic along an interval of any length parameter.
     // Empty if the interval does not change `S/p`, for example a modulus.
@@ -58,7 +59,7 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
             let (mut below, mut above) = if first < last { (0.0, 1.0) } else { (1.0, 0.0) };
             for _ in 0..BISECTIONS {
                 let middle = f64::midpoint(below, above);
-                let is_below = place(middle)? < f64::from(peak);
+                let is_below = at(middle)? < f64::from(peak);
                 *(if is_below { &mut below } else { &mut above }) = middle;
             }
             Some((peak, point.with_share(interval, above)))

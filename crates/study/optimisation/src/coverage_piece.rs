@@ -51,8 +51,8 @@ impl Lengths {
         Some(Self { reach: row.scale().shift(), gap: row.gap(), pitch: row.pitch() })
     }
 
-    /// Returns `S/p`, an integer at the peaks.
-    fn place(self) -> f64 {
+    /// Returns the reach over the pitch, `S/p`, an integer at the peaks.
+    fn reach_over_pitch(self) -> f64 {
         self.reach / self.pitch
     }
 }
@@ -61,7 +61,7 @@ impl CoveragePiece {
     /// Returns the branches that contain a design: one, or two on a border.
     pub fn beside(case: &Case) -> Vec<Self> {
         let Some(lengths) = Lengths::of(case) else { return Vec::new() };
-        let whole = lengths.place().floor() as u32;
+        let whole = lengths.reach_over_pitch().floor() as u32;
         // Each point lies between two peaks; near a border both branches qualify.
         let near = [whole, whole + 1]
             .into_iter()
@@ -71,10 +71,10 @@ impl CoveragePiece {
 
     /// Returns the excess over the two borders; at most 0 inside.
     fn borders(self, lengths: Lengths) -> [f64; 2] {
-        let (place, open) = (lengths.place(), lengths.gap / lengths.pitch);
+        let (reach, open) = (lengths.reach_over_pitch(), lengths.gap / lengths.pitch);
         let peak = f64::from(self.peak);
         let [from, to] = if self.rising { [peak - 1.0 + open, peak] } else { [peak, peak + open] };
-        [from - place, place - to]
+        [from - reach, reach - to]
     }
 
     /// Number of borders of a branch.
@@ -106,9 +106,9 @@ impl CoveragePiece {
     }
 }
 
-/// Returns the position `S/p` of a design, which is an integer at each peak.
-pub(crate) fn place(case: &Case) -> Option<f64> {
-    Lengths::of(case).map(Lengths::place)
+/// Returns the reach over the pitch, `S/p`, which is an integer at each peak.
+pub(crate) fn reach_over_pitch(case: &Case) -> Option<f64> {
+    Lengths::of(case).map(Lengths::reach_over_pitch)
 }
 
 /// Returns the fraction `d/p` of the pitch taken by the gap.

@@ -139,7 +139,7 @@ impl<'a> Evaluations<'a> {
 
     /// Solves the design at `point` from the end of the puncture at the point `near`.
     ///
-    /// `None` if its path has to be followed. See [`Self::solve`].
+    /// `None` if its path must be followed from rest. See [`Self::solve`].
     pub fn solve_near(
         &self,
         point: &SpacePoint,

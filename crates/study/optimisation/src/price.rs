@@ -191,7 +191,7 @@ fn prices(
 
 /// Bounds the gain of the objective that is left to first order, relative to the objective.
 ///
-/// Also returns whether the bound needs the border of contact in bending. `None` at a kink, or if
+/// Also returns whether the bound depends on the border of contact in bending. `None` at a kink, or if
 /// multipliers do not balance the gradient.
 pub(crate) fn first_order_gain(
     search: &Search<'_>,

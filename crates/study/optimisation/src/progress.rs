@@ -71,13 +71,13 @@ impl SearchPart {
     /// Returns the description of the part.
     pub fn words(self) -> &'static str {
         match self {
-            Self::Sample => "filling the space",
+            Self::Sample => "space-filling points",
             Self::LocalSearches => "local searches from the best",
-            Self::Restart => "again near the best",
+            Self::Restart => "restarts near the best",
             Self::Front => "points of the front",
             Self::Samples => "first samples",
-            Self::Refine => "near the best with more samples",
-            Self::Check => "checking with other samples",
+            Self::Refine => "local searches with more samples",
+            Self::Check => "checking with independent samples",
             Self::Round => "rounding the best",
         }
     }
@@ -93,7 +93,7 @@ impl SearchProgress {
 
     /// Returns the completed fraction of the expected work, from 0 to 1.
     ///
-    /// It becomes smaller where a part starts that was not expected.
+    /// It decreases if a part starts that was not expected.
     pub fn share(&self) -> f64 {
         let parts = self.parts();
         let own = parts.work.get(parts.at).map_or(0, |part| part.1);

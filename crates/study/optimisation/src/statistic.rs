@@ -43,7 +43,7 @@ impl Statistic {
             Self::Quantile { .. } => {
                 "quantile over the samples of the design, of the column before _p05, _p50 or _p95 (5 %, 50 %, 95 %)"
             }
-            Self::Yield => "share of the samples of the design that meet the requirements",
+            Self::Yield => "fraction of the samples of the design that meet the requirements",
         }
     }
 }

@@ -33,7 +33,8 @@ pub const FAILED_CHECKS: &str = "failed_checks";
 /// The goal, including overrides.
 pub const GOAL: &str = "goal.toml";
 
-const FITNESS_MEANING: &str = "weighted geometric mean of the rescaled criteria (Eq. 7), by the weights and scales of the goal, which names it";
+const FITNESS_MEANING: &str =
+    "weighted geometric mean of the rescaled criteria (Eq. 7), if the goal names it";
 
 /// A row of cells.
 type Cells = Vec<Cell>;
@@ -140,7 +141,7 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         plain("evaluation", "number of the evaluation, in the order of the search"),
         plain(
             "stage",
-            "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; tolerance: the first look at the samples of a design; rounded: sizes in multiples of `goal.round`",
+            "sample: space-filling point; gradient: step along derivatives; ridge: step along the derivatives on both sides of a kink; polish: derivative-free step; tolerance: first samples of a design; rounded: sizes in multiples of `goal.round`",
         ),
     ];
     let parameters = goal.space.parameters().map(|p| (p.key.to_owned(), p.unit, p.meaning));
@@ -154,7 +155,7 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         ),
         plain(
             "verdict",
-            "met, short, folded, nominal: it was not sampled; or why it cannot be judged",
+            "met, short (it misses a requirement), folded, nominal (it was not sampled), or why it cannot be judged",
         ),
         plain(
             "best",

@@ -1,6 +1,6 @@
 //! Refuses requirements that exceed bounds known in closed form.
 //!
-//! Scales take the fraction `1 − d/p` of the pitch, and only the rest bends. The coverage is at
+//! Scales occupy the fraction `1 − d/p` of the pitch, and only the gaps bend. The coverage is at
 //! most `1 − d/p` and the compliance at most `d/p` (O8).
 
 use ranking::Requirement;
@@ -28,9 +28,12 @@ pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<Inva
     for (requirement, place) in &goal.requirements {
         let is_on_coverage = is_lower_bound(requirement, &[name::COVERAGE]);
         let (bound, why) = if is_on_coverage {
-            (1.0 - least, "coverage is at most 1 - d/p, the part of the pitch that scales take")
+            (
+                1.0 - least,
+                "coverage is at most 1 - d/p, the fraction of the pitch that scales occupy",
+            )
         } else if is_lower_bound(requirement, &COMPLIANCES) {
-            (most, "compliance is at most d/p, the part of the pitch that gaps take")
+            (most, "compliance is at most d/p, the fraction of the pitch that gaps occupy")
         } else {
             continue;
         };
@@ -43,9 +46,9 @@ pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<Inva
             && is_on_coverage
             && !requirement.is_met(1.0 - other.limit)
         {
-            let room = number::text(rounded(1.0 - other.limit));
+            let remaining = number::text(rounded(1.0 - other.limit));
             format!(
-                "at most {room} beside {other}: scales take 1 - d/p of the pitch, which bounds coverage, and gaps d/p, which bounds compliance"
+                "at most {remaining} beside {other}: scales occupy 1 - d/p of the pitch, which bounds coverage, and gaps d/p, which bounds compliance"
             )
         } else {
             continue;

@@ -7,8 +7,8 @@ use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
 use super::refusal::{no_effect, not_accepted};
 
-const WEIGHTS: &str = "weights of which none is negative and one is more than 0, of columns of which it is plain what is good, e.g. { coverage = 1, critical_force = 2 }";
-const RESCALE: &str = "the worst and the best value of columns, e.g. { coverage = [0, 0.9] }";
+const WEIGHTS: &str = "weights of at least 0, one of them positive, of columns for which large or small values are known to be better, e.g. { coverage = 1, critical_force = 2 }";
+const RESCALE: &str = "the worst and the best value of each column, e.g. { coverage = [0, 0.9] }";
 
 /// Values of the keys read so far.
 #[derive(Default)]

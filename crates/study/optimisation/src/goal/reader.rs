@@ -189,7 +189,8 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
         })
         .map(|variable| {
             let key = variable.parameter().key;
-            let expected = "a list of its values: it is no number that describes the skin";
+            let expected =
+                "a list of its values, because it is not a continuous parameter of the skin";
             let place = entry_place(entries, "variables", key).unwrap_or(file);
             not_accepted(place, &format!("variables.{key}"), variable.to_toml(), expected)
         });
@@ -202,7 +203,7 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
     vague.chain(open).collect()
 }
 
-/// Returns the place of a key in a section.
+/// Returns the position of a key in a section.
 fn entry_place<'e>(entries: &'e KeyValues, section_name: &str, key: &str) -> Option<&'e Place> {
     let mut section = section(entries, section_name).iter();
     section.find(|entry| entry.key == key).map(|entry| &entry.place)
@@ -261,7 +262,7 @@ fn missing_column(named: &Written, known: &[&str], sweep: &Sweep) -> Option<Inva
     let Written { column, key, place } = *named;
     if known.contains(&column) {
         let is_measured = measure_of(column).is_none_or(|m| sweep.measures().contains(&m));
-        let expected = "a column of what `measures` asks for";
+        let expected = "a column of the requested `measures`";
         return (!is_measured).then(|| not_accepted(place, key, column, expected));
     }
     let expected = match (statistics::nearly(column, known), nearest(column, known)) {

@@ -11,7 +11,7 @@ use super::refusal::{no_effect, not_accepted};
 use super::section::{GoalSection, Written};
 use crate::statistic::Statistic;
 
-const DEVIATIONS: &str = "it beside a [tolerance], e.g. gap_over_t = { batch_sd = 0.02 } there";
+const DEVIATIONS: &str = "a [tolerance] beside it, e.g. gap_over_t = { batch_sd = 0.02 }";
 const ONE_SCATTER: &str =
     "scatter from scale to scale as scale_sd in [tolerance], without [imperfection]";
 
@@ -47,7 +47,7 @@ fn not_of_numbers(column: &str, sweep: &Sweep) -> Option<String> {
     };
     let is_measured = measure_of(column).is_none_or(|m| sweep.measures().contains(&m));
     if !is_measured {
-        return Some("a quantile of a column of what `measures` asks for".to_owned());
+        return Some("a quantile of a column of the requested `measures`".to_owned());
     }
     holds_text(known, sweep).then(|| {
         format!("a quantile of a column of numbers, e.g. {}", quantiles(name::CRITICAL_FORCE))
@@ -85,7 +85,7 @@ pub(super) fn meaningless_keys(goal: &GoalSection) -> Vec<InvalidDefinition> {
         let is_share = requirement.limit > 0.0 && requirement.limit <= 1.0;
         let is_strict = requirement.relation == Relation::Above && requirement.limit >= 1.0;
         if requirement.column == Statistic::YIELD && (!is_bound || !is_share || is_strict) {
-            let expected = "the least share of samples, at most 1, e.g. yield >= 0.9";
+            let expected = "the minimum fraction of samples, at most 1, e.g. yield >= 0.9";
             refused.push(not_accepted(place, "goal.require", requirement, expected));
         }
     }
@@ -97,7 +97,7 @@ pub(super) fn meaningless_keys(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let has_bounds = goal.requirements.iter().any(|(r, _)| Statistic::named(&r.column).is_none());
     let mut yields = goal.columns().filter(|named| named.column == Statistic::YIELD && !has_bounds);
     refused.extend(yields.next().map(|Written { column, key, place }| {
-        let expected = "a requirement that samples are to meet beside it, e.g. \"coverage >= 0.5\"";
+        let expected = "a requirement on the samples beside it, e.g. \"coverage >= 0.5\"";
         not_accepted(place, key, column, expected)
     }));
     let is_sampled = goal.columns().any(|named| Statistic::named(named.column).is_some());

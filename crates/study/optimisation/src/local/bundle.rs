@@ -63,7 +63,7 @@ pub(super) trait PiecewiseSmooth {
     type Error;
 
     /// Evaluates cost and limits at a point; `None` if the cost is undefined.
-    fn pieces(&self, place: &[f64]) -> Result<Option<Pieces>, Self::Error>;
+    fn pieces(&self, point: &[f64]) -> Result<Option<Pieces>, Self::Error>;
 }
 
 /// Radii and evaluation budget of the bundle method.
@@ -74,7 +74,7 @@ pub(super) struct BundleOptions {
     /// Radius at which the search ends.
     pub smallest: f64,
     /// Maximum number of evaluated points.
-    pub places: usize,
+    pub points: usize,
 }
 
 /// Minimises the cost of `problem` from `start`.
@@ -90,7 +90,7 @@ pub(super) fn descend<P: PiecewiseSmooth>(
         seen: Vec::new(),
         centre: 0,
         radius: options.reach,
-        left: options.places,
+        left: options.points,
         misses: 0,
         filled: false,
         sequence: Sequence::new(start.len(), 0),
@@ -106,7 +106,7 @@ pub(super) fn descend<P: PiecewiseSmooth>(
 }
 
 struct Seen {
-    place: Vec<f64>,
+    point: Vec<f64>,
     pieces: Pieces,
 }
 
@@ -127,11 +127,11 @@ struct Bundle<'p, P> {
 
 impl<P: PiecewiseSmooth> Bundle<'_, P> {
     /// Evaluates a point, and returns its index if the cost is defined.
-    fn evaluate(&mut self, place: Vec<f64>) -> Result<Option<usize>, P::Error> {
+    fn evaluate(&mut self, point: Vec<f64>) -> Result<Option<usize>, P::Error> {
         self.left = self.left.saturating_sub(1);
-        let pieces = self.problem.pieces(&place)?;
+        let pieces = self.problem.pieces(&point)?;
         Ok(pieces.map(|pieces| {
-            self.seen.push(Seen { place, pieces });
+            self.seen.push(Seen { point, pieces });
             self.seen.len() - 1
         }))
     }
@@ -158,13 +158,13 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
     fn fill(&mut self) -> Result<(), P::Error> {
         self.drawn += 1;
         let unit = self.sequence.point(self.drawn);
-        let centre = &self.seen[self.centre].place;
+        let centre = &self.seen[self.centre].point;
         let shifted = centre.iter().zip(unit).map(|(x, u)| x + self.radius * (2.0 * u - 1.0));
         // Points beyond the cube move to its face instead of being skipped, so that the ball is
         // filled.
-        let place: Vec<f64> = shifted.map(|x| x.clamp(0.0, 1.0)).collect();
+        let point: Vec<f64> = shifted.map(|x| x.clamp(0.0, 1.0)).collect();
         let merit = self.merit(self.centre);
-        if let Some(index) = self.evaluate(place)?
+        if let Some(index) = self.evaluate(point)?
             && better(self.merit(index), merit) > 0.0
         {
             self.centre = index;
@@ -172,20 +172,20 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         Ok(())
     }
 
-    /// Evaluates a step with predicted gain `told`, and accepts or rejects it.
-    fn attempt(&mut self, to: Vec<f64>, told: f64) -> Result<(), P::Error> {
+    /// Evaluates a step with this predicted gain, and accepts or rejects it.
+    fn attempt(&mut self, to: Vec<f64>, predicted: f64) -> Result<(), P::Error> {
         // A step inside the ball was limited by tangents: a larger radius would not lengthen it.
-        let far = distance(&to, &self.seen[self.centre].place) > 0.9 * self.radius;
+        let far = distance(&to, &self.seen[self.centre].point) > 0.9 * self.radius;
         // Without a cost no tangent is added, so only a smaller radius avoids the same step.
         let Some(index) = self.evaluate(to)? else {
             self.shrink(0.5);
             return Ok(());
         };
         let gain = better(self.merit(index), self.merit(self.centre));
-        if gain >= ENOUGH * told {
+        if gain >= ENOUGH * predicted {
             self.centre = index;
             (self.misses, self.filled) = (0, false);
-            self.radius *= if far && gain >= PLENTY * told { 2.0 } else { 1.0 };
+            self.radius *= if far && gain >= PLENTY * predicted { 2.0 } else { 1.0 };
             return Ok(());
         }
         self.misses += 1;
@@ -203,7 +203,7 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
     }
 
     fn dimensions(&self) -> usize {
-        self.seen[self.centre].place.len()
+        self.seen[self.centre].point.len()
     }
 
     /// Returns feasibility, and the cost (if feasible) or the excess to be minimised.
@@ -214,19 +214,19 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
 
     /// Iterates over points with a tangent within `radii` of the centre, newest first.
     fn near(&self, radii: f64) -> impl Iterator<Item = &Seen> {
-        let centre = &self.seen[self.centre].place;
+        let centre = &self.seen[self.centre].point;
         // Include points on the border of the ball despite round-off in their distance.
         let within = radii * self.radius * (1.0 + 1e-9);
         let near =
-            self.seen.iter().rev().filter(move |seen| distance(&seen.place, centre) <= within);
+            self.seen.iter().rev().filter(move |seen| distance(&seen.point, centre) <= within);
         near.filter(|seen| seen.pieces.have_tangents())
     }
 
     /// Returns the end of the best step, and its predicted gain.
     fn step(&self) -> Option<(Vec<f64>, f64)> {
-        let Seen { place, pieces } = &self.seen[self.centre];
+        let Seen { point, pieces } = &self.seen[self.centre];
         let (met, worst) = self.merit(self.centre);
-        let mut model = Model::new(place, self.radius, worst);
+        let mut model = Model::new(point, self.radius, worst);
         let kept = KEPT * (self.dimensions() + 1);
         // Twice the radius, so that a halved ball keeps its tangents. The centre may be older than
         // the kept points and is always included: without it, the model could predict a gain where
@@ -234,11 +234,11 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         let near = self.near(2.0).take(kept).chain([&self.seen[self.centre]]);
         for seen in near {
             if met {
-                model.add(Cut::Cost, &seen.pieces.cost, worst, &seen.place);
+                model.add(Cut::Cost, &seen.pieces.cost, worst, &seen.point);
             }
             let cut = if met { Cut::Limit } else { Cut::Cost };
             for (piece, here) in seen.pieces.limits.iter().zip(&pieces.limits) {
-                model.add(cut, piece, here.value, &seen.place);
+                model.add(cut, piece, here.value, &seen.point);
             }
         }
         model.step()

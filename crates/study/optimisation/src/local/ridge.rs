@@ -28,7 +28,7 @@ impl LocalSearch<'_> {
             return Ok(());
         };
         let smallest = SMALLEST.max(self.search.fineness().step).min(0.1 * reach);
-        let options = BundleOptions { reach, smallest, places: most };
+        let options = BundleOptions { reach, smallest, points: most };
         descend(&problem, &self.best_shares(), options)
     }
 }

@@ -196,10 +196,7 @@ fn infeasible_yields_report_the_nearest_sampled_design() {
     let text = "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54', 'yield >= 0.99']";
     let found = found(&goal(text));
     let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
-    assert!(
-        nearest > 64,
-        "a design of which skins were made is nearer than any that is only drawn"
-    );
+    assert!(nearest > 64, "a sampled design is nearer than any design that was not sampled");
     // The gap would have to be between 0.852 and 0.866, with a standard deviation of 0.02. No sample
     // misses both limits.
     let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("sampled") };

@@ -390,9 +390,9 @@ fn requirements_that_no_design_can_meet_are_refused() {
         DesignGoal::parse(&text, "x.toml", &[])
             .map_or_else(|error| error.to_string(), |_| String::new())
     };
-    insta::assert_snapshot!(refused("'coverage >= 0.95'"), @"x.toml:13: goal.require: coverage >= 0.95 is not accepted, expected at most 0.9090909090909091 between these ends of the variables: coverage is at most 1 - d/p, the part of the pitch that scales take");
-    insta::assert_snapshot!(refused("'compliance >= 0.6'"), @"x.toml:13: goal.require: compliance >= 0.6 is not accepted, expected at most 0.5 between these ends of the variables: compliance is at most d/p, the part of the pitch that gaps take");
-    insta::assert_snapshot!(refused("'coverage >= 0.7', 'initial_compliance >= 0.4'"), @"x.toml:13: goal.require: coverage >= 0.7 is not accepted, expected at most 0.6 beside initial_compliance >= 0.4: scales take 1 - d/p of the pitch, which bounds coverage, and gaps d/p, which bounds compliance");
+    insta::assert_snapshot!(refused("'coverage >= 0.95'"), @"x.toml:13: goal.require: coverage >= 0.95 is not accepted, expected at most 0.9090909090909091 between these ends of the variables: coverage is at most 1 - d/p, the fraction of the pitch that scales occupy");
+    insta::assert_snapshot!(refused("'compliance >= 0.6'"), @"x.toml:13: goal.require: compliance >= 0.6 is not accepted, expected at most 0.5 between these ends of the variables: compliance is at most d/p, the fraction of the pitch that gaps occupy");
+    insta::assert_snapshot!(refused("'coverage >= 0.7', 'initial_compliance >= 0.4'"), @"x.toml:13: goal.require: coverage >= 0.7 is not accepted, expected at most 0.6 beside initial_compliance >= 0.4: scales occupy 1 - d/p of the pitch, which bounds coverage, and gaps d/p, which bounds compliance");
     // Feasible up to round-off.
     assert_eq!(refused("'coverage >= 0.7', 'compliance >= 0.3'"), "");
     assert_eq!(refused("'coverage >= 0.9090909090909'"), "");

@@ -44,13 +44,13 @@ impl<'c> Model<'c> {
         Self { centre, radius, worst, cuts: Vec::new() }
     }
 
-    /// Adds the tangent of a function at `place`.
+    /// Adds the tangent of a function at `point`.
     ///
     /// It is limited to the value `here` of the function at the centre.
-    pub fn add(&mut self, cut: Cut, piece: &Piece, here: f64, place: &[f64]) {
+    pub fn add(&mut self, cut: Cut, piece: &Piece, here: f64, point: &[f64]) {
         let Some(gradient) = &piece.gradient else { return };
         let along =
-            gradient.iter().zip(self.centre.iter().zip(place)).map(|(g, (x, y))| g * (x - y));
+            gradient.iter().zip(self.centre.iter().zip(point)).map(|(g, (x, y))| g * (x - y));
         // For a non-convex function the tangent may exceed the value at the centre, and exclude the
         // centre.
         let value = (piece.value + along.sum::<f64>()).min(here);

@@ -45,18 +45,18 @@ impl Textbook {
         Piece { value: *value, gradient }
     }
 
-    /// Returns the best of `places` evaluated points, starting at `start`.
-    fn minimum(&self, start: &[f64], places: usize) -> Best {
+    /// Returns the best of `points` evaluated points, starting at `start`.
+    fn minimum(&self, start: &[f64], points: usize) -> Best {
         let start = start.iter().map(|x| (x - self.from) / (self.to - self.from));
         let start: Vec<f64> = start.collect();
-        let options = BundleOptions { reach: 0.06, smallest: 1e-8, places };
+        let options = BundleOptions { reach: 0.06, smallest: 1e-8, points };
         let Ok(()) = descend(self, &start, options);
         self.best.borrow().clone()
     }
 
-    /// Checks the minimum found with `places` evaluations.
-    fn check(&self, name: &str, start: &[f64], places: usize, known: (f64, &[f64])) {
-        let Best { cost, x, .. } = self.minimum(start, places);
+    /// Checks the minimum found with `points` evaluations.
+    fn check(&self, name: &str, start: &[f64], points: usize, known: (f64, &[f64])) {
+        let Best { cost, x, .. } = self.minimum(start, points);
         let off = cost - known.0;
         // Limits are satisfied to 1e-9, and the cost may be below the minimum accordingly.
         assert!(off > -1e-7 && off < 1e-6, "{name}: {off:.2e} above {} at {x:?}", known.0);
@@ -68,9 +68,9 @@ impl Textbook {
 impl PiecewiseSmooth for Textbook {
     type Error = Infallible;
 
-    fn pieces(&self, place: &[f64]) -> Result<Option<Pieces>, Infallible> {
+    fn pieces(&self, point: &[f64]) -> Result<Option<Pieces>, Infallible> {
         let x: Vec<f64> =
-            place.iter().map(|share| self.from + share * (self.to - self.from)).collect();
+            point.iter().map(|share| self.from + share * (self.to - self.from)).collect();
         let cost = self.largest(&self.cost, &x);
         let limits: Vec<Piece> = self.limits.iter().map(|limit| self.largest(limit, &x)).collect();
         let excess = limits.iter().map(|limit| limit.value).fold(0.0, f64::max);
