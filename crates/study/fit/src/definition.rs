@@ -57,7 +57,7 @@ impl Unknown {
     }
 }
 
-/// Quantity that an unknown stands for.
+/// Quantity that an unknown represents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
     Parameter(&'static Parameter),

@@ -170,7 +170,7 @@ pub enum FitError {
     },
     /// The definition has no unknowns.
     #[error("there are no unknowns; add [variables] or offsets to a [[curve]]")]
-    NothingSought,
+    NoUnknowns,
     /// Profiles kept finding better minima, up to the maximum number of restarts.
     #[error(
         "the search did not converge: the sum of squares has too many local minima; narrow the ranges of [variables]"
@@ -217,7 +217,7 @@ impl FitDefinition {
         let points = self.curves.iter().map(|curve| curve.measured.points.len()).sum();
         let unknowns = self.unknowns.len();
         if unknowns == 0 {
-            return Err(FitError::NothingSought);
+            return Err(FitError::NoUnknowns);
         }
         if points <= unknowns {
             return Err(FitError::TooFew { points, unknowns });
@@ -275,7 +275,7 @@ impl Residuals<'_> {
         Err(FitError::Unsettled)
     }
 
-    /// Alternates between weights from the noise and unknowns, which change the noise.
+    /// Alternates between estimating the noise of each curve and refitting, until both converge.
     fn weight(&mut self, mut minimum: Minimum, sizes: &[f64]) -> Result<Minimum, FitError> {
         for _ in 0..ROUNDS {
             let noise = self.noise_at(&minimum.scaled, sizes)?;
@@ -544,7 +544,7 @@ mod tests {
         let best = definition.fit(&stop, &work).expect("a fit");
         let mut residuals = Residuals::new(&definition, &evaluator, (&stop, &work));
         let sizes: Vec<_> = residuals.noise.iter().map(|noise| noise.deviation).collect();
-        // This point is no minimum: any profile finds better ones.
+        // This point is not a minimum: any profile finds better ones.
         let scaled = vec![0.9, 0.9];
         let poor = Minimum { cost: residuals.cost(&scaled).expect("a cost"), scaled };
         let settled = residuals.settle(poor, &sizes).expect("a fit");

@@ -179,7 +179,7 @@ impl SolvedCurve<'_> {
         values.collect()
     }
 
-    /// Returns the derivatives with respect to an unknown that is no parameter of this curve.
+    /// Returns the derivatives with respect to an unknown that is not a parameter of this curve.
     ///
     /// They are nonzero for the offsets of this curve only.
     fn offset_rates(&self, source: Source) -> Vec<f64> {
@@ -286,14 +286,14 @@ impl Path<'_> {
     fn solve(
         &self,
         case: &Case,
-        sought: &[&'static Parameter],
+        parameters: &[&'static Parameter],
         [loading, unloading]: [&[f64]; 2],
     ) -> Result<CurvePoints, Outcome> {
         let Self { evaluator, test, turn } = *self;
         let mut points = match test {
             _ if loading.is_empty() => Vec::new(),
-            Test::Puncture => evaluator.force_curve(case, sought, loading)?,
-            Test::Bending => evaluator.moment_curve(case, sought, loading)?,
+            Test::Puncture => evaluator.force_curve(case, parameters, loading)?,
+            Test::Bending => evaluator.moment_curve(case, parameters, loading)?,
         };
         if !unloading.is_empty() {
             let mut back = match test {
@@ -301,7 +301,7 @@ impl Path<'_> {
                 Test::Bending => evaluator.unloading_moment_curve(case, turn, unloading)?,
             };
             for point in back.iter_mut().flatten() {
-                point.rates.resize(sought.len(), None);
+                point.rates.resize(parameters.len(), None);
             }
             points.append(&mut back);
         }

@@ -150,8 +150,8 @@ impl Profiles<'_, '_> {
         let limit = self.t.powi(2);
         let mut inner = from.clone();
         let mut outer: Option<ProfilePoint> = None;
-        // Go on beyond the first crossing, because the sum of squares may fall again: its kinks make
-        // several valleys.
+        // Go on beyond the first crossing, because the sum of squares may fall again: its kinks
+        // make several valleys.
         let half = self.t * self.covariance[(j, j)].sqrt();
         let mut distance = half.clamp(FIRST[0], FIRST[1]);
         let mut last = inner.clone();

@@ -268,7 +268,7 @@ impl<'a> Residuals<'a> {
         let improved = starts.into_iter().map(|(_, start)| self.improve(start));
         let improved = improved.collect::<Result<Vec<_>, FitError>>()?;
         let best = improved.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
-        best.ok_or(FitError::NothingSought)
+        best.ok_or(FitError::NoUnknowns)
     }
 }
 

@@ -1,8 +1,9 @@
 //! Checks of a best design with finer models.
 //!
-//! The checks are full substrate coupling, other load positions and new samples. They may contradict
-//! a requirement that the fast model of the search meets. With `confirm = true` the search then
-//! tightens the limit `l` of the requirement by the ratio of both values, and continues:
+//! The checks are full substrate coupling, other load positions and new samples. They may
+//! contradict a requirement that the fast model of the search meets. With `confirm = true` the
+//! search then tightens the limit `l` of the requirement by the ratio of both values, and
+//! continues:
 //!
 //! ```text
 //! l ← l · v_search/v_check                                                               (O10)

@@ -67,7 +67,7 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
         .collect()
 }
 
-/// Returns the shortfall of a design on a peak that is known without solving it.
+/// Returns the shortfall of a design on a peak, as far as it is known without a solution.
 ///
 /// Coverage, parameters and masses are exact; compliance is bounded by `d/p`.
 fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {

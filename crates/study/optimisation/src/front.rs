@@ -38,7 +38,7 @@ const NARROW: f64 = 1e-3;
 /// Number of parts between the first points of a front.
 const QUARTERS: usize = 4;
 
-/// Ratio of the ends of a front from which points are spaced by equal ratios.
+/// Ratio of the ends of a front above which points are spaced by equal ratios.
 const DECADE: f64 = 10.0;
 
 /// Front of several objectives.

@@ -65,7 +65,7 @@ impl DesignGoal {
         self.columns().zip(worth.objectives.iter().chain(&worth.required).copied())
     }
 
-    /// Returns the statistic over samples that a column stands for.
+    /// Returns the statistic over samples that a column names.
     ///
     /// `None` for columns of `designs.csv` and the fitness.
     pub fn statistic(&self, column: &str) -> Option<Statistic> {
@@ -100,8 +100,8 @@ impl DesignGoal {
 
     /// Returns the goal for nominal designs, with which a search begins.
     ///
-    /// A quantile of a column is replaced by the column. A yield is replaced by the least margin over
-    /// the requirements (`Statistic::MARGIN`) if it is an objective, and is dropped if it is a
+    /// A quantile of a column is replaced by the column. A yield is replaced by the least margin
+    /// over the requirements (`Statistic::MARGIN`) if it is an objective, and is dropped if it is a
     /// requirement.
     #[must_use]
     pub fn nominal(&self) -> Self {

@@ -36,8 +36,8 @@ impl Plan {
     pub const STARTS: Self = Self { restarts: 0, ..Self::NOMINAL };
     /// Plan for sampled designs.
     ///
-    /// They are too expensive for restarts, and the uncertainty of their quantiles exceeds the steps
-    /// of an objective that jumps.
+    /// They are too expensive for restarts, and the uncertainty of their quantiles exceeds the
+    /// steps of an objective that jumps.
     pub const SAMPLED: Self = Self { regions: 6, ..Self::STARTS };
 
     /// Plan for a search that continues with tighter limits. The best regions are known.

@@ -84,7 +84,7 @@ pub(crate) struct Search<'a> {
 pub(crate) struct Effort {
     /// Maximum evaluations of a gradient search, per variable.
     ///
-    /// Smooth problems need fewer; searches that need more zigzag across a ridge.
+    /// Smooth problems need fewer. A search that needs more is zigzagging across a ridge.
     pub gradient_evaluations: u64,
     /// Maximum number of coverage branches in a gradient search.
     pub pieces: usize,

@@ -189,10 +189,10 @@ fn prices(
     Some(per_unit.collect())
 }
 
-/// Bounds the gain of the objective that is left to first order, relative to the objective.
+/// Bounds the remaining first-order gain of the objective, relative to the objective.
 ///
-/// Also returns whether the bound depends on the border of contact in bending. `None` at a kink, or if
-/// multipliers do not balance the gradient.
+/// Also returns whether the bound depends on the border of contact in bending. `None` at a kink, or
+/// if multipliers do not balance the gradient.
 pub(crate) fn first_order_gain(
     search: &Search<'_>,
     best: &Candidate,

@@ -1,7 +1,7 @@
 //! Progress of a search, for display.
 //!
-//! Work is counted in units; a sample of the space is one unit. Units only need the right ratios: the
-//! time of one unit is measured.
+//! Work is counted in units; a sample of the space is one unit. Units only need the right ratios:
+//! the time of one unit is measured.
 
 use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};

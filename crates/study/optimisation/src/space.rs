@@ -111,7 +111,8 @@ fn multiple(factor: f64, step: f64) -> f64 {
     number::short_decimal(factor * step, factor * step)
 }
 
-/// Returns the step of a rounded parameter; `None` for a parameter that is no size.
+/// Returns the step of a rounded parameter; `None` if it is neither a length nor an
+/// angle.
 ///
 /// `round` is the step of lengths in mm, or over the thickness if that is unknown.
 fn step(parameter: &Parameter, round: f64, thickness: Option<f64>) -> Option<f64> {

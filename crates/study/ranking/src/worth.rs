@@ -9,8 +9,8 @@ pub struct Worth {
     pub objectives: Vec<f64>,
     /// Objectives used to compare designs.
     ///
-    /// A yield is a step function of the design, so its value here also contains the fraction of the
-    /// next step that is completed.
+    /// A yield is a step function of the design, so its value here also contains the fraction of
+    /// the next step that is completed.
     pub compared: Vec<f64>,
     /// Values of the required columns.
     pub required: Vec<f64>,

@@ -257,8 +257,8 @@ impl ResultsFolder {
 
     /// Returns the CSV format of this folder, or of the run that it belongs to.
     ///
-    /// Results of `design` and `tolerance` are one or two levels below their run. Without tables the
-    /// format is [`CsvFormat::Plain`].
+    /// Results of `design` and `tolerance` are one or two levels below their run. Without tables
+    /// the format is [`CsvFormat::Plain`].
     pub fn csv_format(&self) -> CsvFormat {
         for folder in self.path.ancestors().take(3) {
             for table in [Self::DESIGNS, "optimum.csv"] {
@@ -340,7 +340,8 @@ impl ResultsFolder {
 
     /// Removes the tables and the contents of an earlier run, but not its journal.
     pub fn remove_results(&self) {
-        // Remove the contents first: without them no reader accepts the remaining tables as complete.
+        // Remove the contents first: without them no reader accepts the remaining tables as
+        // complete.
         self.remove(Self::CONTENTS);
         FileEntry::products(Maker::Run).for_each(|file| self.remove(file.name));
     }

@@ -1,8 +1,8 @@
 //! The audit of a run: solves a fraction of its designs again by a second method.
 //!
 //! There are two second methods. Steps a tenth as large must not change any result. Bending as a
-//! chain of all gaps must agree with one gap that represents all; the number of gaps is then rounded,
-//! so that both methods solve the same problem.
+//! chain of all gaps must agree with one gap that represents all; the number of gaps is then
+//! rounded, so that both methods solve the same problem.
 
 use std::path::Path;
 

@@ -103,7 +103,8 @@ impl Rerun {
     ) -> Result<Finished, RunError> {
         let clock = Instant::now();
         let folder = self.folder.clone();
-        // The journal is locked from here on. Other processes may have added designs and reruns since.
+        // The journal is locked from here on. Other processes may have added designs and reruns
+        // since.
         let journal = run_journal::resume(&folder)?;
         require_program(journal.records(), &folder, program)?;
         folder.make()?;

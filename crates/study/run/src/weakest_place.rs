@@ -34,9 +34,9 @@ pub struct WeakestPlace {
 impl WeakestPlace {
     /// Solves design `number` of `sweep` at [`PLACES`] load positions and at the requested one.
     ///
-    /// `columns` are columns of `sweep`. Columns are omitted if they have no number, are no puncture
-    /// force, or compare as many positions already. Returns an empty list if there is no such
-    /// design, or if its needle is not guided: a dead load is attached to its corner.
+    /// `columns` are columns of `sweep`. Columns are omitted if they have no number, are not a
+    /// puncture force, or compare as many positions already. Returns an empty list if there is no
+    /// such design, or if its needle is not guided: a dead load is attached to its corner.
     pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Vec<Self> {
         let Some((own, case)) = case_to_solve(sweep, number, Patience::Unlimited) else {
             return Vec::new();
@@ -53,7 +53,8 @@ impl WeakestPlace {
     }
 }
 
-/// Returns a design with full coupling at the requested load position, then at [`PLACES`] positions.
+/// Returns a design with full coupling at the requested load position, then at [`PLACES`]
+/// positions.
 fn coupled_cases(case: &Case) -> Vec<Case> {
     let mut coupled = Case { coupling: Coupling::Full, ..*case };
     coupled.puncture.places = None;

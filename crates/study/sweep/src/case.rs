@@ -116,8 +116,8 @@ impl Case {
     /// one. The load is moved to the middle of a narrow top if the inset would place it beyond the
     /// middle, and to the left corner of the next scale if it would be on that scale.
     pub fn punctured(&self) -> puncture::PunctureParameters {
-        // Limit the position here, not in the case, because the limit depends on gap and length, which
-        // may be axes.
+        // Limit the position here, not in the case, because the limit depends on gap and length,
+        // which may be axes.
         let top = 2.0 * self.design.half_base();
         let position = self.puncture.load_position.min(1.0 + self.design.gap / top);
         let load_position = self.load_inset.map_or(position, |inset| (1.0 - inset / top).max(0.5));

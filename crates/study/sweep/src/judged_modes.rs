@@ -18,7 +18,7 @@ impl JudgedModes {
 }
 
 impl Case {
-    /// Returns the judged failure modes; `None` unless the first failure is sought.
+    /// Returns the judged failure modes; `None` unless the first failure is requested.
     pub fn judged_modes(&self) -> Option<JudgedModes> {
         let (parameters, across) = (self.punctured(), self.across().is_some());
         parameters.failure?;

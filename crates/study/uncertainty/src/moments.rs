@@ -34,7 +34,8 @@ mod tests {
     #[test]
     fn a_kink_has_the_moments_of_the_folded_distribution() {
         let slopes = [-1.0, 1.0];
-        // Variances: 1 − 2/π of |z| for a standard normal z; w²/3 − w²/4 of |x| for x uniform in ±w.
+        // Variances: 1 − 2/π of |z| for a standard normal z; w²/3 − w²/4 of |x| for x uniform in
+        // ±w.
         let normal = variance(slopes, BatchDeviation::Normal(1.0));
         assert!((normal - (1.0 - 2.0 / std::f64::consts::PI)).abs() < 1e-15);
         assert!((variance(slopes, BatchDeviation::Uniform(1.0)) - 1.0 / 12.0).abs() < 1e-15);

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-/// Separators of cells, in the order of preference. A blank stands for any number of blanks.
+/// Separators of cells, in the order of preference. Adjacent blanks count as one.
 const SEPARATORS: [char; 4] = [';', '\t', ',', ' '];
 
 /// Part of a text from which its separator is detected, in bytes.

@@ -193,7 +193,8 @@ pub(super) fn begin(
 ) -> Result<Journal<Known>, OptimisationError> {
     let folder = ResultsFolder::new(folder);
     folder.require_own(Maker::Search, start)?;
-    // Refuse files of ours that were not written by a search: one of them may be the goal itself.
+    // Refuse existing files that have the names of results but were not written by a search: one of
+    // them may be the goal itself.
     Claim::check(&folder, Maker::Search)?;
     folder.make()?;
     let path = folder.file(ResultsFolder::EVALUATIONS);

@@ -4,7 +4,7 @@ use crate::space::SpacePoint;
 
 /// Largest distance over which a puncture starts from the end of another one.
 ///
-/// It is a fraction of the intervals. Farther ends are seldom near enough.
+/// It is a fraction of the intervals. Starts from farther ends seldom succeed.
 const NEAR: f64 = 0.05;
 
 /// Points with punctures that a local search has followed from rest.

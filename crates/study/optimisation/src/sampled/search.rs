@@ -85,7 +85,8 @@ impl Searches<'_> {
         match &mut answer {
             Answer::Optimum(best) => {
                 let is_refined = refine(self, best, history)?;
-                // Independent samples follow all seen samples, and the finer search saw more.
+                // Independent samples are numbered after all seen samples, and the finer search has
+                // seen more.
                 let search = if is_refined { finer } else { sampled };
                 check(search, std::slice::from_mut(best.as_mut()))?;
                 if goal.confirm {

@@ -197,8 +197,8 @@ fn infeasible_yields_report_the_nearest_sampled_design() {
     let found = found(&goal(text));
     let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
     assert!(nearest > 64, "a sampled design is nearer than any design that was not sampled");
-    // The gap would have to be between 0.852 and 0.866, with a standard deviation of 0.02. No sample
-    // misses both limits.
+    // The gap would have to be between 0.852 and 0.866, with a standard deviation of 0.02. No
+    // sample misses both limits.
     let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("sampled") };
     let missed: f64 = found.missed.iter().map(|missed| missed.share).sum();
     assert!((missed - (1.0 - worth.required[2])).abs() < 1e-12, "{:?}", found.missed);

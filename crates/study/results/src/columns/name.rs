@@ -42,7 +42,7 @@ pub const FIRST_FAILURE: &str = "first_failure";
 pub const CRITICAL_EVENT: &str = "critical_event";
 /// Depth at first contact of scales.
 pub const FIRST_CONTACT: &str = "first_contact_displacement";
-/// Tilt at which a guided needle first touches a face other than the one it was set down on.
+/// Tilt at which a guided needle first touches a face other than its initial one.
 pub const PASSING_TILT: &str = "passing_tilt_deg";
 /// Stretch of the tightest gap. Not above 0 where the surface is folded.
 pub const GAP_STRETCH_MIN: &str = "gap_stretch_min";
@@ -107,9 +107,9 @@ mod tests {
             .join("\n")
     }
 
-    /// A name occurs in one source file.
+    /// Each name occurs in this file and in at most one other.
     ///
-    /// One more is allowed, where the mechanics names a derivative.
+    /// The other file is the one in which the mechanics names a derivative.
     #[test]
     fn a_name_occurs_in_two_files_at_most() {
         let mut paths = Vec::new();

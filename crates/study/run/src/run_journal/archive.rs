@@ -73,7 +73,8 @@ impl Records for Archive {
     fn take(&mut self, line: Line, bytes: Range<u64>) -> Result<(), String> {
         match line {
             Line::Session(session) => {
-                // Only the latest session counts, because machine and threads may differ between sessions.
+                // Only the latest session counts, because machine and threads may differ between
+                // sessions.
                 self.latest = LatestSession::default();
                 self.sessions.push(session);
             }

@@ -17,7 +17,7 @@ use super::sensitivity::{self, Wanted};
 /// not depend. Each thread solves its own group of designs, so one cached row would not suffice.
 const MAX_CACHED: usize = 64;
 
-/// Forces of a row across, in units that contain the length of the scales in that row.
+/// Forces `F*` of a row across, normalised by the length of its own scales.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AcrossForces {
     outcome: Outcome,

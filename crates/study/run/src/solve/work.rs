@@ -27,16 +27,16 @@ pub struct WorkMeter {
 /// Runs `work` for a design, and reports progress if it takes over five seconds.
 pub fn report_slow<T>(
     design: &str,
-    tell: impl Fn(String) + 'static,
+    report: impl Fn(String) + 'static,
     work: impl FnOnce() -> T,
 ) -> T {
-    report_after(PATIENCE, design, tell, work)
+    report_after(PATIENCE, design, report, work)
 }
 
 fn report_after<T>(
     patience: Duration,
     design: &str,
-    tell: impl Fn(String) + 'static,
+    report: impl Fn(String) + 'static,
     work: impl FnOnce() -> T,
 ) -> T {
     let design = design.to_owned();
@@ -44,7 +44,7 @@ fn report_after<T>(
         // The fraction at rest may be negative zero.
         let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.fraction + 0.0);
         let PathProgress { points, .. } = far;
-        tell(format!(
+        report(format!(
             "{design}: {seconds:.0} s so far, {points} points, at {share:.1} % of the final angle"
         ));
     };
@@ -62,8 +62,8 @@ impl WorkMeter {
     /// [`Self::take_slow`] returns the messages.
     pub fn track<T>(&self, design: &str, work: impl FnOnce() -> T) -> T {
         let slow = Arc::clone(&self.slow);
-        let tell = move |text| slow.lock().unwrap_or_else(PoisonError::into_inner).push(text);
-        report_slow(design, tell, work)
+        let report = move |text| slow.lock().unwrap_or_else(PoisonError::into_inner).push(text);
+        report_slow(design, report, work)
     }
 
     /// Returns the completed fraction of the work, from 0 to 1.

@@ -28,8 +28,8 @@ fn solved(radius: &str) -> (Option<BareNeedle>, f64, f64) {
 
 #[test]
 fn bare_pressure_follows_hertz_up_to_the_radius_of_the_shaft() {
-    // A thin needle sinks in up to its shaft; a thick one touches with a part of its tip, at the end
-    // of the path and at a smaller force.
+    // A thin needle sinks in up to its shaft; a thick one touches with a part of its tip, at the
+    // end of the path and at a smaller force.
     let needles = [("0.1", 0.1, true), ("2", 2.0, false), ("2\nforce_N = 0.3", 2.0, false)];
     for (given, radius, is_shaft) in needles {
         let (bare, force, under_skin) = solved(&format!("needle_radius_mm = {given}"));

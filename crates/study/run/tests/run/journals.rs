@@ -95,10 +95,10 @@ fn damaged_journals_are_refused_or_give_the_same_tables() {
                 let error = error.to_string();
                 let name = format!("/{JOURNAL}:{line}: ");
                 assert!(error.contains(&name), "{what} in line {line}: {error}");
-                let tells = ["expected", "restore the line", "restore it"]
+                let states_remedy = ["expected", "restore the line", "restore it"]
                     .iter()
                     .any(|what| error.contains(what));
-                assert!(error.lines().count() == 1 && tells, "{error}");
+                assert!(error.lines().count() == 1 && states_remedy, "{error}");
                 let left = fs::read(place.path().join(JOURNAL)).expect("a journal");
                 assert!(left == damaged, "{what}: a refused journal was changed");
                 refused += 1;

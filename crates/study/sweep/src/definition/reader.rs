@@ -391,9 +391,10 @@ impl Reader {
         })
     }
 
-    /// Returns an error for every modulus or strength of the scales without the modulus below it.
+    /// Returns an error for every numerator of a ratio without the modulus that is its denominator.
     ///
-    /// Measures use the ratio to the modulus of the substrate or of the membrane.
+    /// Measures use the ratios of a modulus or strength of the scales to the modulus of the
+    /// substrate or of the membrane.
     fn ratios_without_modulus(&self) -> impl Iterator<Item = InvalidDefinition> {
         let measures = self.measures.as_deref().unwrap_or(&Measure::USUAL);
         self.written().filter_map(move |(key, parameter, place)| {

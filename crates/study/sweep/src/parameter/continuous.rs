@@ -71,8 +71,8 @@ impl Parameter {
             Excluded(low) => low < 0.0,
             Included(low) => low <= 0.0,
         };
-        // Use the curvature of a forearm instead of 1: changes much smaller than 1 already close the
-        // gap between two scales.
+        // Use the curvature of a forearm instead of 1: changes much smaller than 1 already close
+        // the gap between two scales.
         let least = if self.key == key::CURVATURE { 0.05 } else { 1.0 };
         Some(if may_vanish { value.max(least) } else { value })
     }

@@ -107,7 +107,7 @@ pub const CONTACT_OVER_SUBSTRATE: &str = "contact_modulus_over_substrate";
 /// Modulus of the scales in contact over the modulus of the membrane.
 pub const CONTACT_OVER_MEMBRANE: &str = "contact_modulus_over_membrane";
 
-/// Whether the first failure is sought without any strength.
+/// Whether to find the first failure even if no strength is given.
 pub const FAILURE: &str = "failure";
 
 /// Strength of the scales over the modulus of the substrate.

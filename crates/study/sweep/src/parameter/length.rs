@@ -36,8 +36,8 @@ impl Parameter {
 
     /// Returns true if it is the parameter `key`, or the same length in mm.
     pub(crate) fn is_or_determines(&self, key: &str) -> bool {
-        // Exclude the pitch: if it counted as a gap, a definition with a pitch would also give a gap,
-        // so every pitch would determine the length.
+        // Exclude the pitch: if it counted as a gap, a definition with a pitch would also give a
+        // gap, so every pitch would determine the length.
         let is_pitch = self.key == key::PITCH;
         self.key == key || self.over_t().is_some_and(|of| !is_pitch && of.key == key)
     }

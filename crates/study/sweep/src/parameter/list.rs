@@ -15,8 +15,8 @@
 //!    Python package (`python -m squama._manual`).
 //!
 //! Tests enforce steps 2 and 4: `roles_agree_with_each_other` in `role.rs`, the snapshots of
-//! `tests/sweep`, `the_paper_sweep_lists_every_key_with_its_default` in `apps/report`, and the test of
-//! the signatures in `apps/python`.
+//! `tests/sweep`, `the_paper_sweep_lists_every_key_with_its_default` in `apps/report`, and the test
+//! of the signatures in `apps/python`.
 
 use skin::Base;
 use skin::flexure::{MembraneMesh, Method};
@@ -201,8 +201,8 @@ pub static PARAMETERS: &[Parameter] = parameters! {
                 },
                 |c, count| c.puncture.scales = count.map_or(RowLength::Auto, RowLength::Scales)),
             "number of scales in the row";
-        // The largest position beyond 1 depends on gap and tip: `has_valid_load_position` checks the tip,
-        // and `punctured` limits the position to the next scale.
+        // The largest position beyond 1 depends on gap and tip: `has_valid_load_position` checks
+        // the tip, and `punctured` limits the position to the next scale.
         key::LOAD_POSITION, "-", [Continuous, Made],
             number(Range::closed(0.0, 1e6), |c| &mut c.puncture.load_position),
             "load position on the top of the punctured scale: 0 the left corner, 1 the right; for a round tip up to 1 + gap/base, the left corner of the next scale";

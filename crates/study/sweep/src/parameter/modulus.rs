@@ -1,9 +1,9 @@
 //! Moduli and strengths in `MPa` and a force in N, and the ratios that follow from them.
 //!
 //! The solvers read only the contact ratios `E_ct/E_s` and `E_ct/E_m` of Eq. (5), the strengths
-//! over `E_s`, and the force over `E_s t²`. The stiffness and the strength of a scale are properties
-//! of its material, not of its substrate. If they are given in `MPa`, the ratios therefore follow
-//! from them, also when another modulus varies.
+//! over `E_s`, and the force over `E_s t²`. The stiffness and the strength of a scale are
+//! properties of its material, not of its substrate. If they are given in `MPa`, the ratios
+//! therefore follow from them, also when another modulus varies.
 
 use super::{Parameter, key};
 use crate::case::Case;

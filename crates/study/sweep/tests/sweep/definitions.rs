@@ -230,7 +230,7 @@ fn a_needle_radius_requires_a_guided_needle() {
 
 /// Only a round tip may be between two scales.
 ///
-/// Its limit is the left corner of the next one.
+/// Its largest position is the left corner of the next scale.
 #[test]
 fn a_load_between_two_scales_requires_a_round_tip() {
     let grid = "designs = { gap_over_t = [0.1, 0.5], length_over_t = 1 }\n";

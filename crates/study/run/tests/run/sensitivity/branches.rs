@@ -13,7 +13,7 @@ use super::designs::{self, random_case};
 use super::differences::Differences;
 use super::{compare, compare_components, derivatives};
 
-/// Returns the branches in which the contacts of puncture and bending end.
+/// Returns the contact branches at the ends of the puncture and bending paths.
 ///
 /// Branches are a corner on an edge, corners together, a tip on the neighbour's end, and flush
 /// sides.

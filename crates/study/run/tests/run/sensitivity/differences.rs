@@ -37,7 +37,7 @@ const AGREE: f64 = 1e-4;
 /// Round-off of the solver and of the differences.
 const NOISE: f64 = 1e-7;
 
-/// Relative accuracy of searched maxima such as the largest stiffness.
+/// Relative accuracy of numerically located maxima such as the largest stiffness.
 ///
 /// The search stops when three values agree to 1e-10.
 const SEARCHED: f64 = 2e-10;

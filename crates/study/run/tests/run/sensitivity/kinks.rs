@@ -8,7 +8,7 @@ use super::designs::{self, random_case};
 use super::differences::Differences;
 use super::{TOLERANCE, derivatives};
 
-/// Compares both one-sided derivatives of every measure with a kink. Returns them.
+/// Compares the one-sided derivatives of every measure that has a kink, and returns them.
 fn compare_sides(case: &Case) -> Vec<ParameterDerivative> {
     let differences = Differences::of(case);
     let mut kinks = derivatives(case);
