@@ -110,15 +110,18 @@ pub(crate) fn improved_from(
         // Each search depends on its start only, so results are independent of the order of
         // completion.
         let known = history.iter().chain(&evaluated);
+        let is_met = |candidate: &Candidate| met(search, candidate, target).is_some();
+        let any_met = known.clone().any(is_met);
         // Gradient searches lead to feasible designs, and full searches improve them. Full searches
         // therefore start at feasible designs if there are any.
-        let is_full = effort.rounds > 0 && known.clone().any(|c| met(search, c, target).is_some());
-        let known = known.filter(|c| !is_full || met(search, c, target).is_some());
+        let known = known.filter(|c| effort.rounds == 0 || !any_met || is_met(c));
         let near = near.filter(|_| effort.rounds == 0 && count > 0);
         let count = if near.is_some() { count.min(ELSEWHERE) } else { count };
         let starts = starts(search, known, target, count);
         let starts = distinct(near.cloned().into_iter().chain(starts).collect());
         let walks = starts.par_iter().map(|start| {
+            // If some designs are feasible, a start that is not gets another short search.
+            let effort = if any_met && !is_met(start) { Effort::PROBE } else { effort };
             let walk = search.improve(target, start, effort)?;
             let best = search.best(walk.iter().chain([start]), target);
             let end = best.and_then(|best| met(search, best, target));

@@ -7,10 +7,12 @@ mod bundle;
 mod certainty;
 mod followed_points;
 mod gradient_search;
+mod linear_model;
 mod polish;
 mod problem;
 mod ridge;
 mod samples;
+mod yield_search;
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -86,6 +88,8 @@ pub(crate) struct Effort {
     ///
     /// Smooth problems need fewer. A search that needs more is zigzagging across a ridge.
     pub gradient_evaluations: u64,
+    /// Maximum evaluations of a search for a required yield.
+    pub yield_evaluations: usize,
     /// Maximum number of coverage branches in a gradient search.
     pub pieces: usize,
     /// Maximum number of rounds.
@@ -102,10 +106,12 @@ pub(crate) struct Effort {
 
 impl Effort {
     /// A few gradient steps, enough to compare regions.
-    pub const PROBE: Self = Self { gradient_evaluations: 4, pieces: 1, ..Self::GRADIENT };
+    pub const PROBE: Self =
+        Self { gradient_evaluations: 4, yield_evaluations: 5, pieces: 1, ..Self::GRADIENT };
     /// Gradient search alone.
     pub const GRADIENT: Self = Self {
         gradient_evaluations: 15,
+        yield_evaluations: 15,
         pieces: 2,
         rounds: 0,
         reach: 0.0,
@@ -307,9 +313,9 @@ impl Search<'_> {
         if effort.rounds > 0 && walk.is_certain()? {
             return Ok(walk.log.take());
         }
-        walk.gradient_search(effort)?;
+        let mut is_converged = walk.climb(effort)?;
         for _ in 0..effort.rounds {
-            if walk.is_certain()? {
+            if is_converged || walk.is_certain()? {
                 break;
             }
             let before = walk.best_merit();
@@ -322,7 +328,7 @@ impl Search<'_> {
             if !gained(before, walk.best_merit(), self.fineness().gain) {
                 break;
             }
-            walk.gradient_search(effort)?;
+            is_converged = walk.climb(effort)?;
             reach *= 0.3;
         }
         walk.follow_best()?;
@@ -358,6 +364,17 @@ struct LocalSearch<'a> {
 }
 
 impl LocalSearch<'_> {
+    /// Searches by derivatives from the best design.
+    ///
+    /// Returns true if it converged to a design with a required yield.
+    fn climb(&self, effort: Effort) -> Result<bool, Halt> {
+        if let Some(required) = self.required_yield() {
+            return self.yield_search(required, effort.yield_evaluations);
+        }
+        self.gradient_search(effort)?;
+        Ok(false)
+    }
+
     /// Evaluates the design at `shares`, with the choices of the start.
     fn at(
         &self,
@@ -365,6 +382,15 @@ impl LocalSearch<'_> {
         shares: &[f64],
         differentiated: bool,
     ) -> Result<(Candidate, EvaluatedRow), Halt> {
+        let point = self.point(shares);
+        let result = self.solved(&point, differentiated)?;
+        let evaluated = self.search.judged(stage, &point, result, differentiated)?;
+        self.note(&evaluated.0);
+        Ok(evaluated)
+    }
+
+    /// Returns the point at `shares`, with the choices of the start.
+    fn point(&self, shares: &[f64]) -> SpacePoint {
         let chosen = self.best.borrow().point.chosen.clone();
         // Snap to the ends: tables should show 60, not 59.99999999999999.
         let ended = shares.iter().map(|share| match *share {
@@ -372,12 +398,7 @@ impl LocalSearch<'_> {
             share if share > 1.0 - ROUND_OFF => 1.0,
             share => share,
         });
-        let shares = ended.collect();
-        let point = SpacePoint { shares, chosen };
-        let result = self.solved(&point, differentiated)?;
-        let evaluated = self.search.judged(stage, &point, result, differentiated)?;
-        self.note(&evaluated.0);
-        Ok(evaluated)
+        SpacePoint { shares: ended.collect(), chosen }
     }
 
     /// Solves a design from the end of the nearest design that this search has followed, or else

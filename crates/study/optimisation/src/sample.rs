@@ -255,7 +255,7 @@ fn met(margins: &[f64]) -> usize {
 /// Returns the index of the sample that decides a required yield.
 ///
 /// The `count` samples are sorted by margin.
-fn needed(requirement: &Requirement, count: usize) -> usize {
+pub(crate) fn needed(requirement: &Requirement, count: usize) -> usize {
     let wanted = requirement.limit * count as f64;
     // The product may miss an integer by round-off.
     let needed = match requirement.relation {

@@ -18,14 +18,13 @@
 //! 10.1137/090780201): its limit points are Clarke-stationary. While no point is feasible, the
 //! largest excess over a limit is the cost.
 
-mod model;
 #[cfg(test)]
 mod tests;
 
 use std::iter;
 
+use super::linear_model::{Cut, Model};
 use crate::space_filling::Sequence;
-use model::{Cut, Model};
 
 /// Fraction of the predicted gain from which a step is accepted.
 const ENOUGH: f64 = 0.1;
@@ -270,6 +269,6 @@ fn better((met, value): (bool, f64), (other_met, other): (bool, f64)) -> f64 {
 }
 
 /// Returns the largest coordinate difference between two points.
-fn distance(one: &[f64], other: &[f64]) -> f64 {
+pub(super) fn distance(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

@@ -275,7 +275,7 @@ impl<'a> LocalProblem<'a> {
     /// Computes the negative gradient of a quantity over fractions of the intervals.
     ///
     /// `slopes` are its one-sided derivatives. At an end of an interval, the inward one is used.
-    fn falling(
+    pub fn falling(
         &self,
         shares: &[f64],
         slopes: impl Fn(&Parameter) -> Slopes,

@@ -8,7 +8,7 @@ use basin::{
     SelectedFirstOrderState, Slsqp, State as _,
 };
 
-use super::Piece;
+use super::bundle::Piece;
 
 /// Weight of the linear cost against the quadratic term with which SLSQP starts.
 const WEIGHT: f64 = 1e3;
@@ -58,12 +58,17 @@ impl<'c> Model<'c> {
         if !(value.is_finite() && self.worst.is_finite()) {
             return;
         }
-        let slope = gradient.iter().map(|g| g * self.radius).collect();
         let right = match cut {
             Cut::Cost => self.worst - value,
             // Not below 0: a zero step must remain feasible, also on a limit.
             Cut::Limit => (-MARGIN - value).max(0.0),
         };
+        self.push(cut, gradient, right);
+    }
+
+    /// Adds the constraint `gradient·d ≤ right + s` on the step `d`, without `s` for a limit.
+    pub fn push(&mut self, cut: Cut, gradient: &[f64], right: f64) {
+        let slope = gradient.iter().map(|g| g * self.radius).collect();
         self.cuts.push((cut, slope, right));
     }
 
