@@ -74,7 +74,9 @@ fn hash(mut files: Vec<PathBuf>) -> String {
     format!("{:016x}", hash.state)
 }
 
-/// Collects the files below `folder`, except tests and benches, which do not affect the program.
+/// Collects the files below `folder` except tests and benches.
+///
+/// Tests and benches do not affect the program.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
@@ -89,7 +91,9 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The 64-bit hash FNV-1a (Fowler, Noll & Vo, draft-eastlake-fnv), which needs no other crate.
+/// The 64-bit hash FNV-1a, which needs no other crate.
+///
+/// See Fowler, Noll & Vo, draft-eastlake-fnv.
 struct Fnv {
     state: u64,
 }

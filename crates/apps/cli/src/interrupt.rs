@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use signal_hook::flag;
 
-/// Exit codes after a signal are this plus the signal number, as in shells.
+/// The exit code after a signal is this base plus the signal number, as in shells.
 const BASE: u8 = 128;
 
 /// State of the handling of termination signals.
@@ -36,12 +36,12 @@ impl Interrupt {
         self.asks_first.store(true, Ordering::Relaxed);
     }
 
-    /// Returns a flag that is set once the end is requested.
+    /// Returns a flag that is set once a signal has requested a graceful end.
     pub fn stop(&self) -> &AtomicBool {
         &self.stop
     }
 
-    /// Returns the exit code if the end was requested.
+    /// Returns the exit code if a signal has requested the end.
     pub fn exit_code(&self) -> Option<u8> {
         let signal = u8::try_from(self.signal.load(Ordering::Relaxed)).unwrap_or_default();
         (signal > 0).then(|| BASE + signal)

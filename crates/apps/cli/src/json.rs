@@ -26,7 +26,9 @@ pub fn answer(
     crate::print::print(&format!("{}\n{}: {}\n", text(), folder.display(), files.join(" ")))
 }
 
-/// Returns the failure modes as JSON: each with the reason for which it is not judged, or null.
+/// Returns the failure modes as JSON.
+///
+/// Each mode has the reason for which it is not judged, or null.
 pub fn failure_modes(modes: &JudgedModes) -> Value {
     modes
         .reasons()

@@ -23,7 +23,9 @@ pub fn print_raw(text: &str) -> io::Result<()> {
     }
 }
 
-/// Returns a line that states the number of designs of an incomplete run; empty if it is complete.
+/// Returns a line that states the number of designs of an incomplete run.
+///
+/// Empty if it is complete.
 pub fn shortfall(results: &VerifiedFolder) -> String {
     results.shortfall().map_or_else(String::new, |held| {
         format!("  made from {held}, {}\n", results.path().display())

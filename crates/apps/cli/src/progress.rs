@@ -28,7 +28,7 @@ pub const RESUMED: &str =
 /// Minimum completed fraction for an extrapolation of the remaining time.
 const ENOUGH: f64 = 0.05;
 
-/// Number of advances that also suffice for an extrapolation, at a smaller completed fraction.
+/// Number of advances that suffice for an extrapolation at a smaller fraction, too.
 // The work of one design varies by a factor of ten and more, so a few designs do not predict the
 // remaining time.
 const ADVANCES: usize = 30;
@@ -223,7 +223,9 @@ struct Remaining {
 }
 
 impl Remaining {
-    /// Formats the remaining time; empty until there is enough progress to extrapolate from.
+    /// Formats the remaining time.
+    ///
+    /// Empty until there is enough progress to extrapolate from.
     fn text(&mut self, share: f64, elapsed: Duration) -> String {
         if share != self.share {
             (self.share, self.at) = (share, elapsed);

@@ -52,7 +52,9 @@ pub struct Puncture {
 )]
 pub struct NoDeck(usize);
 
-/// Block of a node (0: substrate, then the scales), and its indices in the grid of half elements.
+/// Block of a node, and its indices in the grid of half elements.
+///
+/// Block 0 is the substrate; the scales follow.
 type NodeIndex = [usize; 4];
 
 /// Nodes and elements.

@@ -5,7 +5,9 @@ use nalgebra::Vector3;
 use crate::Patch;
 use crate::mesh::triangles;
 
-/// Bytes of the header, which must not begin with `solid`: readers would take the file for text.
+/// Bytes of the header.
+///
+/// A header that begins with `solid` would make readers take the file for text.
 const HEADER: usize = 80;
 
 pub(crate) fn write(patch: &Patch) -> Vec<u8> {

@@ -76,7 +76,9 @@ impl ChartAxis {
         Self { label: label.to_owned(), scale: AxisScale::Log, low: low / air, high: high * air }
     }
 
-    /// Returns the position of a value: 0 at the low end, 1 at the high end; `None` outside.
+    /// Returns the position of a value: 0 at the low end, 1 at the high end.
+    ///
+    /// `None` outside.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
         let place = match self.scale {
             AxisScale::Linear => (value - self.low) / (self.high - self.low),

@@ -9,7 +9,9 @@ pub(crate) const GRID: &str = "#e6e6e6";
 /// Colour of contacts.
 pub(crate) const RED: &str = "#d0021b";
 
-/// Steps of the sequential colour scale of maps: cividis, which is safe for colour-blind readers.
+/// Steps of the sequential colour scale of maps, cividis.
+///
+/// Cividis is safe for colour-blind readers.
 const SEQUENCE: [[u8; 3]; 9] = [
     [0, 32, 77],
     [0, 51, 111],

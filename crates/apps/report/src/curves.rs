@@ -166,7 +166,9 @@ const MOMENT: FigureText = FigureText {
     units: |case| bending_units(case).map(|[per_mm, moment, _]| [per_mm, moment]),
 };
 impl FigureText {
-    /// Returns the factors to physical units of each design; `None` if a design has no material.
+    /// Returns the factors to physical units of each design.
+    ///
+    /// `None` if a design has no material.
     fn physical(&self, designs: &[DesignCurves]) -> Option<Vec<[f64; 2]>> {
         designs.iter().map(|solved| (self.units)(solved.case)).collect()
     }
@@ -281,7 +283,9 @@ fn measured_legend(name: &str, dashes: &'static str, [x, y]: Spot, right: f64) -
     [thin_line(&[[x, y], [x + 40.0, y]], dashes), text]
 }
 
-/// Draws the mean of specimens with the band of one standard deviation, and its legend at a spot.
+/// Draws the mean of specimens with the band of one standard deviation.
+///
+/// The legend is drawn at a spot.
 fn mean_band(
     panel: &ChartPanel,
     band: &[[f64; 3]],

@@ -99,7 +99,9 @@ impl Designs {
         })
     }
 
-    /// Returns the column in mm of a length over the thickness, or `axis` itself if there is none.
+    /// Returns the column in mm of a length over the thickness.
+    ///
+    /// Returns `axis` itself if there is no such column.
     pub(crate) fn in_mm(&self, axis: &str) -> String {
         let in_mm = axis.replace("_over_t", "_mm");
         if self.are_equivalent(axis, &in_mm) { in_mm } else { axis.to_owned() }

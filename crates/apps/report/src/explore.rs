@@ -98,7 +98,9 @@ struct Control {
     is_radius: bool,
 }
 
-/// Default control of a parameter: key, label, range, initial fraction of the range, optional.
+/// Default control of a parameter.
+///
+/// Key, label, range, initial fraction of the range, true if optional.
 ///
 /// Lengths are over the thickness; a definition in mm has controls in mm. The range and initial
 /// value apply if the definition has none. An optional parameter has a control only if the
@@ -141,7 +143,7 @@ struct Shown {
     words: &'static str,
     /// True if the column is a curvature, which the page shows as a radius.
     is_curvature: bool,
-    /// True if one direction is better, so that arrows can show how to improve it.
+    /// True if the measure has a better direction, so that arrows can show improvements.
     has_goal: bool,
     /// The column with the failure mode of a force.
     mode: Option<&'static str>,
@@ -389,7 +391,7 @@ impl Explorer {
             || self.variables().any(|variable| variable.parameter() == parameter)
     }
 
-    /// Returns the variables of the definition and of the search that found it.
+    /// Returns the variables of the definition, and of the search if the design is an optimum.
     fn variables(&self) -> impl Iterator<Item = &Variable> {
         self.sweep.variables().iter().chain(&self.variables)
     }
@@ -403,7 +405,9 @@ impl Explorer {
     }
 }
 
-/// Returns the curvature of a body with this value of the parameter `key`, a curvature or a radius.
+/// Returns the curvature of a body with this value of the parameter `key`.
+///
+/// The parameter is a curvature or a radius.
 fn curvature(key: &str, value: f64) -> f64 {
     if key == key::CURVATURE { value } else { value.recip() }
 }

@@ -79,7 +79,7 @@ pub(crate) fn is_touched_by_folds(column: &str) -> bool {
     is_invalid_after_fold(column)
 }
 
-/// Returns the title suffix that marks figures of the perfect designs in a sweep with random gaps.
+/// Returns the title suffix for figures of perfect designs in a sweep with random gaps.
 pub(crate) fn of_perfect(designs: &Designs) -> &'static str {
     let has_samples = MULTIPLES.iter().any(|(measure, _)| designs.has(&format!("{measure}_p50")));
     if has_samples { ", of the perfect designs" } else { "" }

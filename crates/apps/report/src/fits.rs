@@ -12,7 +12,7 @@ use crate::svg::{Element, Spot, circle, line, polyline};
 pub struct FitPanel<'a> {
     /// The name of the file.
     pub file: &'a str,
-    /// The quantities on its axes, with units.
+    /// Quantities on the axes, with units.
     pub axes: &'a [String; 2],
     /// Position, measured value and fitted value of each point.
     pub points: &'a [[f64; 3]],

@@ -58,7 +58,7 @@ pub struct CheckedClaim {
 /// A statement of a claim, checked against the two studies.
 #[derive(Clone, Debug)]
 pub struct CheckedStatement {
-    /// The statement in words; empty if it is the claim itself.
+    /// Text of the statement; empty if the claim has no other statement.
     pub says: String,
     /// The measured quantity.
     pub measured: String,

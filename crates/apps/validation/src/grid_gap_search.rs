@@ -57,7 +57,7 @@ pub struct FittestDesign {
 /// A front compared with the designs of the grid.
 #[derive(Clone, Debug)]
 pub struct FrontOverGrid {
-    /// The number of its designs.
+    /// Number of designs on the front.
     pub designs: usize,
     /// The number of grid designs without a fold and with sufficient compliance.
     pub grid: usize,

@@ -1,4 +1,6 @@
-//! Answers requests from standard input, one per line, for comparison by `scripts/check-wasm`.
+//! Answers requests from standard input, one per line.
+//!
+//! `scripts/check-wasm` compares the answers.
 
 use std::io::{self, BufRead as _};
 

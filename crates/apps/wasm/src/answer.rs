@@ -66,7 +66,7 @@ pub struct Required {
     pub value: Option<f64>,
     /// The margin relative to the limit, negative if it is missed; `None` without a value.
     pub margin: Option<f64>,
-    /// True if the value meets it; false without a value.
+    /// True if the value meets the requirement; false without a value.
     pub met: bool,
     /// True for the requirement that is closest to its limit.
     pub limits: bool,

@@ -225,7 +225,9 @@ fn on_body(definition: &str, key: &str, value: f64) -> (f64, String) {
     (number(&answer, "critical_force"), last.to_owned())
 }
 
-/// A slider sets a radius, or a curvature of 0 for a flat body, whatever the definition gives.
+/// A slider sets a radius, or a curvature of 0 for a flat body.
+///
+/// This holds for any body in the definition.
 #[test]
 fn a_set_body_replaces_the_body_of_the_definition() {
     let (flat, _) = on_body(DEFINITION, "thickness_mm", 2.0);
@@ -282,7 +284,7 @@ fn placed([x, y]: [f64; 2], [u, v]: [f64; 2], angle: f64) -> [f64; 2] {
     [x + u * cos - v * sin, y + u * sin + v * cos]
 }
 
-/// Contacts are drawn at a corner of a scale in its place on the body.
+/// Contacts are drawn at a corner of a scale in its position on the body.
 #[test]
 fn contacts_on_a_body_are_drawn_at_corners_of_its_scales() {
     for curvature in [0.0, 0.1, -0.02] {

@@ -9,7 +9,7 @@
 pub struct Compliance {
     /// Displacement of the middle scale.
     pub middle: f64,
-    /// Displacement of its nearest neighbours.
+    /// Displacement of the nearest neighbours of the middle scale.
     pub neighbour: f64,
 }
 

@@ -75,9 +75,9 @@ pub struct Corners<'a> {
     pub(crate) poses: [&'a Pose; 2],
 }
 
-/// Angle with its derivative by the rotation of the left scale.
+/// Angle with its derivative with respect to the rotation of the left scale.
 ///
-/// The derivative by the rotation of the right scale is the opposite.
+/// The derivative with respect to the rotation of the right scale is the opposite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Angle {
     pub(crate) value: f64,

@@ -101,7 +101,7 @@ impl CornerEdge {
     }
 }
 
-/// Gap with its derivatives by the six coordinates of a pair.
+/// Gap with its derivatives with respect to the six coordinates of a pair.
 ///
 /// The coordinates are `(x, y, φ)` of the left and `(x, y, φ)` of the right scale.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -47,7 +47,7 @@ const SMALLEST_FORCE: f64 = 1e-12;
 /// Approach of two scales under a contact force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
-    /// `δ`, over `t`.
+    /// Approach `δ`, over `t`.
     pub value: f64,
     /// `dδ/dλ`.
     pub slope: f64,

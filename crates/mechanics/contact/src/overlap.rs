@@ -18,7 +18,7 @@ pub struct Overlap {
     pub left: usize,
     /// Index of the right scale.
     pub right: usize,
-    /// Least displacement that separates them, over `t`.
+    /// Least displacement that separates the two scales, over `t`.
     pub depth: f64,
 }
 
@@ -98,7 +98,7 @@ fn depth(scales: [&Parallelogram; 2], offset: Vec2, poses: [&Pose; 2]) -> Option
         let points = corners(scales[i], poses[i], at).map(|v| Vector::new(v.x, v.y));
         ConvexPolygon::from_convex_polyline_unmodified(points.to_vec())
     });
-    // The corners are already in place.
+    // The corners already have their final positions.
     let here = Placement::IDENTITY;
     let contact = query::contact(&here, &first?, &here, &second?, 0.0).ok()??;
     (contact.dist < 0.0).then_some(-contact.dist)

@@ -282,8 +282,8 @@ impl Together {
 
     /// Evaluates the balance of both scales under a force `f`.
     ///
-    /// `turning` holds the derivatives of `f` by each coordinate, `parts` the derivatives by `λ`
-    /// and `λ'`.
+    /// `turning` holds the derivatives of `f` with respect to each coordinate. `parts` holds the
+    /// derivatives with respect to `λ` and `λ'`.
     fn balance(
         &self,
         f: Vec2,

@@ -21,7 +21,7 @@ pub struct ContactStiffness {
     pub by_coordinate: [[f64; COORDINATES]; COORDINATES],
     /// The columns of `B`.
     pub by_force: Vec<[f64; COORDINATES]>,
-    /// `C`; with one component only its first entry counts.
+    /// Matrix `C`; with one force component only the first entry of `C` counts.
     pub compliance: [[f64; 2]; 2],
 }
 

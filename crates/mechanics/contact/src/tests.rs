@@ -85,7 +85,7 @@ fn closed(edge: usize, state: usize) -> Closed {
     states[state % if EDGES[edge].1.flush().is_some() { 3 } else { 2 }]
 }
 
-/// Returns the derivatives of an equation by coordinates and forces.
+/// Returns the derivatives of an equation with respect to coordinates and forces.
 fn derivatives(equation: &Equation) -> [f64; COUPLED] {
     std::array::from_fn(|i| match i {
         0..COORDINATES => equation.by_coordinate[i],
@@ -234,7 +234,7 @@ proptest! {
                 assert_relative_eq!(ours.value, there.value, epsilon = 1e-12);
             }
         }
-        // The forces are opposite, and the scales have exchanged places.
+        // The forces are opposite, and left and right scale are exchanged.
         for (k, row) in [3, 4, 0, 1].into_iter().enumerate() {
             let column = [0, 1, 3, 4][k];
             assert_relative_eq!(ours.balance[column].value, -there.balance[row].value, epsilon = 1e-12);

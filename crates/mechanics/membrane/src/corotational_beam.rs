@@ -81,7 +81,7 @@ pub struct Local {
     pub moments: [f64; 2],
 }
 
-/// Energies of an element and their derivatives by the poses of its ends.
+/// Energies of an element and their derivatives with respect to the poses of its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     /// Stretching energy `Wₐ`.

@@ -75,7 +75,7 @@ pub struct GapEnergies {
     pub bending: f64,
 }
 
-/// Derivatives of the potential of a gap by its state.
+/// Derivatives of the potential of a gap with respect to its state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
     /// First derivatives, in the order of the state.

@@ -47,7 +47,7 @@ pub struct GapMembrane {
     span: Span,
 }
 
-/// Energies of the membrane in a gap, and their derivatives by its state.
+/// Energies of the membrane in a gap, and their derivatives with respect to its state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GapResponse {
     /// Stretching energy.

@@ -54,7 +54,7 @@ impl Membrane {
         }
     }
 
-    /// Computes the derivatives of the potential of the gap by its state `z`.
+    /// Computes the derivatives of the potential of the gap with respect to its state `z`.
     pub fn derivatives(&self, z: &[f64]) -> Derivatives {
         match self {
             Self::Elements(gap) => {

@@ -46,7 +46,7 @@ impl RigidArm {
         NodePose::new(body[0] + lever.x, body[1] + lever.y, body[2])
     }
 
-    /// Returns the gradient of the attached pose by the pose of the body (M11).
+    /// Returns the gradient of the attached pose with respect to the pose of the body (M11).
     ///
     /// Rows are components of the attached pose.
     pub fn gradient(&self, phi: f64) -> Matrix3<f64> {
@@ -97,7 +97,7 @@ impl OffsetBeam {
         self.beam.axis_point(&self.ends(bodies), xi)
     }
 
-    /// Returns energies and their derivatives by the poses of the bodies (M12).
+    /// Returns energies and their derivatives with respect to the poses of the bodies (M12).
     pub fn response(&self, bodies: &Ends) -> Response {
         let at_ends = self.beam.response(&self.ends(bodies));
         let transform = self.transform(bodies);

@@ -68,9 +68,9 @@ pub(crate) struct Contacts {
     ///
     /// Each comes with the tangent frame of the right scale in the frame of the left one.
     pair_shapes: Vec<(Pair, Frame)>,
-    /// Number of scales on its right that a scale may touch.
+    /// Number of right-hand neighbours that a scale may touch.
     ///
-    /// It is 1 unless the row was found to need more.
+    /// The reach is 1 unless scales of the row touch beyond their nearest neighbours.
     pub(crate) reach: usize,
     law: ContactLaw,
     /// First of the three unknowns of each scale; `None` for the fixed scale.

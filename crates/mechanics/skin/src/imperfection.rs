@@ -84,7 +84,7 @@ impl Imperfection {
             let is_legal = value >= 0.0 && value.is_finite();
             OutOfRange::unless(is_legal, quantity, value, "a number of at least 0")?;
         }
-        // Validate only.
+        // Reject an invalid design now; the row is not needed.
         design.row()?;
         Ok(Sample { imperfection: *self, design: *design, key })
     }

@@ -17,7 +17,7 @@
 //! | [`Common`] | contact law and solver settings, for puncture and bending |
 //! | [`puncture::PunctureParameters`] | moduli, row length, load, critical tilt |
 //! | [`puncture::RowLength`] | number of scales: given, or as many as contact reaches |
-//! | [`puncture::PerturbedScale`] | one perturbed scale in a row, for derivatives by single scales |
+//! | [`puncture::PerturbedScale`] | one scale of a row with a changed gap or slant |
 //! | [`puncture::Snap`], [`puncture::Instability`] | snap-through and loss of stability along the path |
 //! | [`puncture::TiltMeasures`] | measures at one of several critical tilts |
 //! | [`puncture::LoadPosition`], [`puncture::Weakest`] | other load positions, and the weakest one |

@@ -28,7 +28,7 @@ pub struct ContactEvent<P> {
 /// One Newton iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
-    /// Index of the path point that it led to, from 1.
+    /// Index of the path point to which the iteration led, from 1.
     pub step: usize,
     /// Iteration within the step, from 0.
     pub iteration: usize,

@@ -186,7 +186,9 @@ impl<M> Sides<M> {
 
 /// Motion of a point on one side of a parameter value.
 struct SideMotion<M> {
-    /// The point for the smaller and the larger parameter; `None` if this side has no equilibrium.
+    /// The point for the smaller and the larger parameter.
+    ///
+    /// `None` if this side has no equilibrium.
     moved: Option<[MovedPoint<M>; 2]>,
     /// The contact change on this side.
     change: Option<String>,

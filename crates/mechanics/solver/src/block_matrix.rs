@@ -55,7 +55,7 @@ pub struct BlockMatrix {
     pub(crate) starts: Vec<usize>,
     /// Position of the first unknown of each link.
     pub(crate) links: Vec<usize>,
-    /// Unknown at each position; `blocks` holds its block.
+    /// Unknown at each position; `blocks` holds the block of each unknown.
     pub(crate) kept: Vec<usize>,
     blocks: Vec<usize>,
     /// Position of each unknown.

@@ -16,7 +16,7 @@ use crate::settings::Settings;
 use crate::system::{Control, State, System};
 use crate::termination::Termination;
 
-/// Least rate of the control parameter at which it prescribes the step.
+/// Rate of the control parameter above which the step prescribes its increment.
 ///
 /// The rate is per unit of arc length. Below this rate the control parameter is about to turn and
 /// the arc length prescribes the step: a step of the control parameter would be more than twenty

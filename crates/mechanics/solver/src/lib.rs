@@ -24,7 +24,7 @@
 //! | [`Tangent`], [`Blocks`], [`BlockMatrix`] | derivatives of a row, in blocks |
 //! | [`BlockElimination`] | elimination block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves if blocks are not available or not safe |
-//! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`] | a measured point, differentiated by a parameter |
+//! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`] | derivatives of a measured point |
 //! | [`Neighbours`], [`MovedPoint`] | systems with a perturbed parameter, and their equilibria |
 //! | [`TargetPoint`] | end of a path, from which ends of neighbouring paths are found |
 //! | [`SkylineMatrix`] | symmetric matrices, and their number of negative eigenvalues |

@@ -17,7 +17,7 @@ const NEAR: f64 = 1e-4;
 /// Number of approaches to a kink, each to a tenth of the last distance.
 const CLOSER: usize = 4;
 
-/// Limit on the iterations of a search; few searches need a quarter of them.
+/// Maximum number of iterations of a search. Most searches need a quarter or less.
 const ROUNDS: usize = 40;
 
 /// Fraction of the largest value at which a segment next to a kink is searched.
@@ -42,7 +42,7 @@ pub struct Peak<M = ()> {
 struct KinkSegment<M> {
     from: Arc<Equilibrium<M>>,
     to: Arc<Equilibrium<M>>,
-    /// Larger of the values at its ends.
+    /// Larger of the values at the two ends of the segment.
     value: f64,
 }
 
@@ -106,7 +106,7 @@ impl<M> Peak<M> {
         self.compare(value, from, &path.point);
     }
 
-    /// Stores the point `here` if its value is the largest so far.
+    /// Stores the point `here` if the value at `here` is the largest so far.
     fn compare(
         &mut self,
         value: f64,

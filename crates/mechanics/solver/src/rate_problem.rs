@@ -461,7 +461,7 @@ impl<S: System> Continuation<S> {
                 failure = Termination::NoConvergence;
                 continue;
             }
-            // The equations change at an event, the only place where the sign of (N7) may change.
+            // The equations change at an event, the only point where the sign of (N7) may change.
             self.is_positive = self.newton.is_positive(&condition, &direction);
             *state = trial;
             return Ok(direction);
@@ -524,7 +524,7 @@ impl<S: System> Continuation<S> {
     }
 }
 
-/// State at an event after some changes.
+/// State at an event after changes of some constraints.
 #[derive(Clone)]
 struct ActiveSetCandidate<M> {
     state: State<M>,

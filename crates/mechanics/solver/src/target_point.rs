@@ -64,8 +64,8 @@ impl<M: Clone> TargetPoint<M> {
     /// Finds the point of a neighbouring system at a fraction of the target.
     ///
     /// Starts from `near`, an equilibrium of that system or of a similar one; otherwise like
-    /// [`TargetPoint::of_neighbour`]. Directions are derivatives by the control parameter over its
-    /// scale.
+    /// [`TargetPoint::of_neighbour`]. Directions are derivatives with respect to the control
+    /// parameter over its scale.
     pub fn before_target<S: System<Mode = M>>(
         &self,
         system: &S,

@@ -141,7 +141,9 @@ fn added(long: &[f64], short: &[f64], scale: usize, direction: usize) -> f64 {
     (reaction(long, scale, direction) - reaction(short, scale, direction)) / short[direction]
 }
 
-/// Returns a reaction on the scale itself, number 0, or on a neighbour; 0 beyond the row.
+/// Returns a reaction on the scale itself, number 0, or on a neighbour.
+///
+/// 0 beyond the row.
 fn reaction(row: &[f64], scale: usize, direction: usize) -> f64 {
     match scale {
         0 => row[direction],

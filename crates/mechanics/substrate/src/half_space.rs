@@ -87,7 +87,7 @@ impl CornerLine {
         self.corners.len()
     }
 
-    /// Returns true if there are no corners.
+    /// Returns true if the set has no corners.
     pub fn is_empty(&self) -> bool {
         self.corners.is_empty()
     }

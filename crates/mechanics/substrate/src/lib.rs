@@ -21,7 +21,7 @@
 //! | [`calibrate`] | one footprint to its springs: from a table, elsewhere solved in milliseconds |
 //! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | stiffness with more neighbours and cross terms |
 //! | [`FarField`], [`Relief`] | motion of the scales beyond the last contact, and their compliance |
-//! | [`StiffnessSlopes`] | derivatives of the stiffness of a row by the footprint |
+//! | [`StiffnessSlopes`] | derivatives of the stiffness of a row with respect to the footprint |
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
 //! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch and its law |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |

@@ -20,7 +20,7 @@ pub enum FootprintParameter {
     Size,
 }
 
-/// Stiffness of a row with its derivatives by the parameters of the footprint.
+/// Stiffness of a row with its derivatives with respect to the parameters of the footprint.
 ///
 /// A derivative is computed when it is first needed, because outside the table and on a layer it
 /// takes several boundary-element solutions.

@@ -56,7 +56,7 @@ impl SurfaceStrip {
     }
 }
 
-/// Returns the neo-Hookean bar energy per `k d²`, and two derivatives by `g`.
+/// Returns the neo-Hookean bar energy per `k d²`, and two derivatives with respect to `g`.
 ///
 /// `k` is the stiffness at rest and `g` the stretch:
 ///

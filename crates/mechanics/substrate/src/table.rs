@@ -62,7 +62,7 @@ pub fn poisson_ratio(w: f64) -> f64 {
 /// Coefficients of the table.
 static TABLE: &[u8] = include_bytes!("table.bin");
 
-/// Value with its derivatives by `d/a`, `b/a` and `ν`.
+/// Value with its derivatives with respect to `d/a`, `b/a` and `ν`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Differentiated(pub(crate) [f64; 4]);
 
@@ -136,7 +136,7 @@ pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Diffe
 
 /// Reader of successive polynomials at one point.
 struct Reader {
-    /// `T_i` and its slope by `d/a`, by `b/a` and by `ν`.
+    /// `T_i` and its slope with respect to `d/a`, `b/a` and `ν`.
     gap: Vec<[f64; 2]>,
     width: Vec<[f64; 2]>,
     ratio: Vec<[f64; 2]>,
@@ -194,7 +194,7 @@ impl Reader {
 
 /// Returns the first Chebyshev polynomials at `x` and their slopes.
 ///
-/// `slope` is the derivative of `x` by the variable of the slopes.
+/// `slope` is the derivative of `x` with respect to the variable of the slopes.
 fn chebyshev(x: f64, slope: f64, count: usize) -> Vec<[f64; 2]> {
     let mut polynomials = vec![[1.0, 0.0], [x, slope]];
     for k in 2..count {

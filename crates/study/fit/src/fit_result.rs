@@ -51,7 +51,9 @@ pub struct Estimate {
     pub unknown: Unknown,
     /// Value at the minimum of the sum of squares.
     pub value: f64,
-    /// Ends of the 95 % confidence interval; `None` where it extends to the end of the range.
+    /// Ends of the 95 % confidence interval.
+    ///
+    /// `None` where it extends to the end of the range.
     pub interval: [Option<f64>; 2],
     /// True if the value is at a bound of its range.
     pub at_end: bool,
@@ -122,7 +124,7 @@ fn student_quantile(freedom: f64) -> f64 {
 /// A measured curve and the fitted curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittedCurve {
-    /// Name of its file.
+    /// Name of the file of the measured curve.
     pub file: String,
     /// Quantities on the axes, with their units.
     pub axes: [String; 2],
@@ -453,7 +455,7 @@ impl Residuals<'_> {
     }
 }
 
-/// Returns true if a fitted curve exceeds the measured force before contact at a displacement.
+/// Returns true if a fitted curve before contact exceeds the measured force.
 fn rises_before(points: &[[f64; 2]], model: &ModelCurve, contact: f64) -> bool {
     let largest = points.iter().map(|point| point[1].abs()).fold(0.0, f64::max);
     let toe = points.iter().zip(&model.values).filter(|(point, _)| point[0] <= contact);

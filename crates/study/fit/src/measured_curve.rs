@@ -481,7 +481,7 @@ mod tests {
     }
 
     #[test]
-    fn results_around_the_readings_are_left_out() {
+    fn summary_rows_above_or_below_the_data_are_left_out() {
         let results = "Results\n,\"Maximum Load\",\"Extension\"\n,(N),(mm)\n1,9,8\n2,7,6\n";
         let data = "Time,Extension,Load\n(s),(mm),(N)\n0,1,2\n1,3,4\n2,5,6\n";
         let points = [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]];

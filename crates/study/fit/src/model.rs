@@ -73,7 +73,9 @@ impl FitDefinition {
         case
     }
 
-    /// Returns the parameters that differ from specimen to specimen, with their unknowns by index.
+    /// Returns the parameters that differ from specimen to specimen.
+    ///
+    /// Each comes with its unknowns by index.
     pub(crate) fn specimens(&self) -> Vec<(&'static Parameter, Vec<usize>)> {
         let mut specimens: Vec<(&'static Parameter, Vec<usize>)> = Vec::new();
         for (j, unknown) in self.unknowns.iter().enumerate() {

@@ -22,7 +22,7 @@ pub(crate) const FORMAT: u64 = 2;
 pub struct Program {
     /// Version of the program.
     pub version: &'static str,
-    /// Revision of its source.
+    /// Source revision of the program.
     pub revision: &'static str,
 }
 
@@ -41,7 +41,7 @@ pub struct JournalHeader<D> {
     format: u64,
     /// Version of the program.
     version: String,
-    /// Revision of its source.
+    /// Source revision of the program.
     revision: String,
     /// SHA-256 of the definition.
     definition_sha256: String,

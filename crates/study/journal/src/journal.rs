@@ -37,12 +37,13 @@ pub enum Start {
     /// Refuses to start.
     #[default]
     New,
-    /// Continues from them if definition, designs and program are the same.
+    /// Continues from existing results if definition, designs and program are the same.
     ///
-    /// Lines with a valid checksum are trusted. A torn end is cut off and solved again; a damaged
+    /// Lines with a valid checksum are trusted. An incomplete last line is cut off, and its design
+    /// is solved again; a damaged
     /// line before intact ones is an error.
     Resume,
-    /// Discards them.
+    /// Discards existing results.
     Fresh,
 }
 

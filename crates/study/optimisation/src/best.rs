@@ -36,7 +36,7 @@ pub struct BestDesign {
     pub reason: Option<String>,
     /// Check with independent samples, if the goal is about samples.
     pub confirmation: Option<Confirmation>,
-    /// Agreement of the searches for it; `None` for a point of a front.
+    /// Agreement of the searches for this design; `None` for a point of a front.
     pub agreement: Option<Agreement>,
     /// Checks with finer models; empty for a point of a front.
     pub checks: DesignChecks,

@@ -32,7 +32,9 @@ pub struct DesignChecks {
     pub coupling: Option<CouplingChange>,
     /// Columns of the goal with gaps 10 % smaller and larger.
     pub gaps: Option<GapChange>,
-    /// Forces at other load positions, with full coupling; empty unless the needle is guided.
+    /// Forces at other load positions, with full coupling.
+    ///
+    /// Empty unless the needle is guided.
     pub places: Vec<WeakestPlace>,
 }
 

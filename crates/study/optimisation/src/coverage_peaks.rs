@@ -80,7 +80,7 @@ fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
             .or_else(|| (is_compliance && requirement.direction() > 0.0).then_some(open))
             .map_or(0.0, |value| requirement.margin(value).min(0.0))
     });
-    // Contact in bending leaves no compliance.
+    // A design with scales in contact at rest has no compliance at all.
     let touching = judge
         .requirements()
         .find(|r| r.column == COMPLIANCES[0] && r.direction() > 0.0)

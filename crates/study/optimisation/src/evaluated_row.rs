@@ -27,7 +27,7 @@ pub(crate) struct StatisticSlopes {
 pub(crate) struct EvaluatedRow {
     /// The nominal design.
     pub nominal: DesignRow,
-    /// Derivatives of statistics over its samples.
+    /// Derivatives of statistics over the samples of the design.
     pub statistics: Vec<StatisticSlopes>,
 }
 

@@ -198,7 +198,9 @@ impl<'a> Evaluations<'a> {
         end
     }
 
-    /// Locks the ends. A poisoned lock is safe, because no operation under it leaves partial state.
+    /// Locks the ends.
+    ///
+    /// A poisoned lock is safe, because no operation under it leaves partial state.
     fn ends(&self) -> MutexGuard<'_, HashMap<PointKey, Option<PunctureEnd>>> {
         self.ends.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -34,7 +34,9 @@ pub struct DesignGoal {
     pub sound: bool,
     /// True if the best design must meet the requirements in the checks, too.
     pub confirm: bool,
-    /// Step of the lengths of a rounded best design, mm, or over the thickness if it is unknown.
+    /// Step of the lengths of a rounded best design, in mm.
+    ///
+    /// Over the thickness if the thickness is unknown.
     pub round: Option<f64>,
     /// Number of space-filling points.
     pub samples: usize,

@@ -15,7 +15,7 @@ pub enum SearchPart {
     /// Evaluating space-filling points.
     #[default]
     Sample,
-    /// Local searches from the best of them.
+    /// Local searches from the best space-filling points.
     LocalSearches,
     /// Restarts near the best, because the local searches disagree.
     Restart,

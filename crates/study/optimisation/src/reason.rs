@@ -21,7 +21,7 @@ struct Effect {
     /// The relaxed limit, e.g. `1 % less required coverage`; `None` where a percentage of the
     /// limit has no meaning.
     relaxed: Option<String>,
-    /// Gain of the objective relative to its value; `None` if the multiplier is unknown.
+    /// Gain over the value of the objective; `None` if the multiplier is unknown.
     gain: Option<f64>,
 }
 

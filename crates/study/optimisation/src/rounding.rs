@@ -144,7 +144,9 @@ fn best_of(search: &Search<'_>, known: &[(Vec<i64>, Candidate)], target: &Target
     best(known.iter().map(|(_, candidate)| search.merit(candidate, target)))
 }
 
-/// Evaluates points of the lattice; variables that are not rounded keep their values in `start`.
+/// Evaluates points of the lattice.
+///
+/// Variables that are not rounded keep their values in `start`.
 fn add(
     search: &Search<'_>,
     start: &SpacePoint,

@@ -381,7 +381,9 @@ impl Limits<'_> {
         Ok(judge.missed(&samples))
     }
 
-    /// Tightens the limits by the checks of an optimum; returns the limits before, if they changed.
+    /// Tightens the limits by the checks of an optimum.
+    ///
+    /// Returns the earlier limits if they changed.
     fn tighten(&mut self, answer: &mut Answer) -> Option<DesignGoal> {
         let Answer::Optimum(best) = answer else { return None };
         self.goal.confirm.then_some(())?;

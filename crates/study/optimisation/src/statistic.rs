@@ -37,7 +37,7 @@ impl Statistic {
         split(name).map_or(name, |(column, _)| column)
     }
 
-    /// Returns the description of its column.
+    /// Returns the description of the column of the statistic.
     pub fn meaning(&self) -> &'static str {
         match self {
             Self::Quantile { .. } => {

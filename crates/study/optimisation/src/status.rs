@@ -24,7 +24,9 @@ pub struct SearchStatus {
     pub designs: usize,
     /// Number of sets of samples.
     pub sample_sets: usize,
-    /// Time from the first to the last entry of the journal, with pauses; `None` if unknown.
+    /// Time from the first to the last entry of the journal, with pauses.
+    ///
+    /// `None` if unknown.
     pub time: Option<Duration>,
     /// The goal, if this version reads it.
     pub definition: Option<DesignGoal>,
@@ -54,7 +56,9 @@ pub struct EvaluatedDesign {
 }
 
 impl SearchStatus {
-    /// Returns the index of the best design so far: feasible by the first objective, else nearest.
+    /// Returns the index of the best design so far.
+    ///
+    /// The best by the first objective, or if none is feasible the nearest to the limits.
     pub fn best(&self) -> Option<usize> {
         let goal = self.definition.as_ref()?;
         let sign = if goal.objectives[0].goal == ranking::Goal::Maximize { 1.0 } else { -1.0 };

@@ -300,10 +300,10 @@ impl<'r> Ranking<'r> {
 
     /// Returns the designs that are best for some weights on the grid.
     ///
-    /// The largest share comes first. Empty unless there are four criteria.
+    /// The design with the largest fraction comes first. Empty unless there are four criteria.
     pub fn winners(&self) -> Vec<RankedDesign<'_>> {
         let mut winners: Vec<_> = self.wins.iter().collect();
-        // Stable sort: equal shares are ordered by number.
+        // Stable sort: equal fractions are ordered by number.
         winners.sort_by_key(|(_, wins)| std::cmp::Reverse(wins.cells));
         // Rows of these tables have no rank, so it is 0.
         winners.into_iter().map(|(&winner, _)| self.ranked(winner, Weights::BALANCED, 0)).collect()

@@ -74,7 +74,7 @@ impl TetrahedralGrid {
     /// at a corner. These are the only fractions with which the volumes add up for every
     /// resolution.
     pub fn cell(steps: Steps) -> u64 {
-        // The unit 1/72 of a cell makes all volumes integers, so that shares sum to 1 exactly.
+        // The unit 1/72 of a cell makes all volumes integers, so that fractions sum to 1 exactly.
         match steps.iter().filter(|step| **step == 0).count() {
             0 => 72,
             1 => 36,

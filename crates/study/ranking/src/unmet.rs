@@ -22,9 +22,9 @@ pub struct Unmet {
 pub struct UnmetRequirement {
     /// The requirement.
     pub requirement: Requirement,
-    /// Number of designs that meet it.
+    /// Number of designs that meet this requirement.
     pub met: usize,
-    /// Number of designs that meet all others.
+    /// Number of designs that meet all other requirements.
     pub met_without: usize,
     /// Value of the nearest design.
     pub nearest: Option<f64>,

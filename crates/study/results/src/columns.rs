@@ -129,7 +129,7 @@ pub fn plain_goal(name: &str) -> Option<Goal> {
     value.good_as(quantity)
 }
 
-/// Returns the values that the table of a page shows at `place`, grouped by table.
+/// Returns the values that a page shows in the position `place`, grouped by table.
 pub fn shown(place: Shown) -> Vec<&'static str> {
     let mut values: Vec<_> = VALUES.iter().filter(|value| value.shown == place).collect();
     // Stable sort: values of one table keep the order of `designs.csv`.
@@ -209,7 +209,9 @@ fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     columns
 }
 
-/// Returns every column of a measured value, including columns that only some definitions request.
+/// Returns every column of a measured value.
+///
+/// Includes columns that only some definitions request.
 pub fn value_columns() -> impl Iterator<Item = Column<DesignRow>> {
     COLUMNS.iter().map(ValueColumn::column)
 }

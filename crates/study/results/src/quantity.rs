@@ -83,7 +83,7 @@ impl Quantity {
         }
     }
 
-    /// Returns true if it is the inverse of the dimensionless value.
+    /// Returns true if the quantity is the inverse of the dimensionless value.
     pub(crate) fn is_inverse(self) -> bool {
         matches!(self, Self::Rigidity | Self::Radius)
     }

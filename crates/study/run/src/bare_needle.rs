@@ -1,4 +1,4 @@
-//! The pressure of a bare needle on the tissue, for comparison with the pressure under a skin.
+//! Pressure of a bare needle on tissue, for comparison with the pressure under a skin.
 
 use results::{DesignRow, Quantity};
 

@@ -53,7 +53,9 @@ pub fn flat_design_warning(sweep: &Sweep, number: &str) -> Option<String> {
     curved_body_warning(sweep, &solved_row(sweep, number, Patience::Milliseconds)?)
 }
 
-/// Returns the thickness in mm of a flat design that is quick to solve; `None` for any other.
+/// Returns the thickness in mm of a flat design that is quick to solve.
+///
+/// `None` for any other.
 fn thickness_of_flat(sweep: &Sweep, case: &Case) -> Option<f64> {
     let is_flat = case.body().curvature == 0.0 && case.body_radius_to.is_none();
     case.material.thickness_mm.filter(|_| is_flat && is_quick(sweep, case))

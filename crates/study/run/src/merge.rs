@@ -39,7 +39,7 @@ pub enum MergeError {
         design: u64,
         /// A folder with this design.
         first: PathBuf,
-        /// Another folder with it.
+        /// Another folder with the same design.
         second: PathBuf,
     },
 }

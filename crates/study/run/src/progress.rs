@@ -59,7 +59,7 @@ pub enum Progress {
     },
     /// A design is done.
     Done {
-        /// True if it lacks a value.
+        /// True if the design lacks a value.
         failed: bool,
     },
 }

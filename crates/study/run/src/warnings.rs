@@ -11,7 +11,9 @@ use crate::gap_change::GapChange;
 /// Strain limit of the small-strain law of the membrane.
 const LARGE_STRAIN: f64 = 0.2;
 
-/// Width of a line of common printers, mm: narrower gaps fuse and thinner walls are not printed.
+/// Width of a line of common printers, mm.
+///
+/// Narrower gaps fuse, and thinner walls are not printed.
 const NOZZLE_MM: f64 = 0.4;
 
 /// Largest overhang from the vertical that printers build without supports, degrees.

@@ -20,7 +20,9 @@ pub struct WeakestPlace {
     pub column: String,
     /// Force at the requested position, with the coupling of the design.
     pub requested: f64,
-    /// Smallest force over [`PLACES`] positions; `None` if a path ended before it was reached.
+    /// Smallest force over [`PLACES`] positions.
+    ///
+    /// `None` if a path ended before it was reached.
     pub weakest: Option<f64>,
     /// The weakest position, or the one where the path ended: 0 is the left corner of the top, 1
     /// the right corner.
@@ -139,7 +141,9 @@ fn keep_smaller<'a>(kept: &mut Option<(f64, &'a DesignRow)>, force: f64, row: &'
     }
 }
 
-/// Returns the largest force of a path that ended early; `None` if the load tilts no scale at all.
+/// Returns the largest force of a path that ended early.
+///
+/// `None` if the load tilts no scale at all.
 fn borne_before_end(row: &DesignRow, column: &str) -> Option<f64> {
     let puncture = row.result.puncture?;
     let tilts_nothing = puncture.outcome == Status::Untilted.into() && puncture.points == 1;

@@ -1,4 +1,4 @@
-//! A parameter of a sweep: its accepted values and its field in a case.
+//! Parameters of a design or a sweep. To add one, follow the steps in `parameter/list.rs`.
 
 mod continuous;
 pub mod key;
@@ -301,12 +301,12 @@ impl Parameter {
         self.over_t().is_some()
     }
 
-    /// Returns true if it takes numbers, so that it may have a range.
+    /// Returns true if the parameter takes numbers, and may therefore have a range.
     pub(crate) fn takes_numbers(&self) -> bool {
         !matches!(self.kind, ParameterKind::Word { .. })
     }
 
-    /// Returns true if a word may replace its numbers.
+    /// Returns true if the parameter accepts a word instead of a number.
     pub(crate) fn takes_word(&self) -> bool {
         matches!(
             self.kind,
@@ -319,7 +319,7 @@ impl Parameter {
         self.takes_word() || matches!(self.kind, ParameterKind::OptionalNumber { .. })
     }
 
-    /// Returns true if its numbers are whole.
+    /// Returns true if the numbers of the parameter are whole.
     pub(crate) fn takes_counts(&self) -> bool {
         matches!(self.kind, ParameterKind::Count { .. } | ParameterKind::CountOrWord { .. })
     }

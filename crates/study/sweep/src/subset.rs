@@ -131,7 +131,7 @@ impl SubsetDesigns {
         self.whole.saturating_sub(self.first).div_ceil(self.step)
     }
 
-    /// Returns true if there are none.
+    /// Returns true if the subset has no designs.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -56,7 +56,7 @@ impl DistinctNumbers {
         &self.numbers
     }
 
-    /// Returns the index of a number, if it is one of them.
+    /// Returns the index of `number`; `None` if the list does not contain it.
     pub fn position(&self, number: f64) -> Option<usize> {
         let above = self.numbers.partition_point(|other| *other < number);
         // Check the smaller neighbour first, because it represents its group.

@@ -50,7 +50,9 @@ pub struct KeyValue {
 /// Keys and values in the order of the document.
 pub type KeyValues = Vec<KeyValue>;
 
-/// A value as written. Numbers remain text, so that ranges are computed in decimal arithmetic.
+/// A value as written.
+///
+/// Numbers remain text, so that ranges are computed in decimal arithmetic.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number, including `nan` and `inf`.

@@ -49,7 +49,7 @@ struct Nominal {
 pub struct DesignTolerance {
     /// Nominal design.
     pub nominal: DesignRow,
-    /// Spread of its measures.
+    /// Spread of each measure of the design.
     pub measures: Vec<MeasureTolerance>,
     /// Yield of every requirement, then of all together.
     pub yields: Vec<RequirementYield>,

@@ -20,9 +20,9 @@ const LABEL: &str = "global";
 
 /// Global sensitivity analysis of the variables of a sweep.
 pub struct GlobalAnalysis<'a> {
-    /// Sweep with one design, apart from its variables.
+    /// Sweep with one design and with variables.
     pub sweep: &'a Sweep,
-    /// Number of samples; each has two points more than there are variables.
+    /// Number of samples, each with two points more than the number of variables.
     pub samples: usize,
     /// Set to stop the analysis.
     pub stop: &'a AtomicBool,

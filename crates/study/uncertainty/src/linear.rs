@@ -25,7 +25,7 @@ pub struct SourceShare {
     pub source: String,
     /// Scales that share a deviation.
     pub level: DeviationLevel,
-    /// Standard deviation of the source, in its own unit.
+    /// Standard deviation of the source, in the unit of the source.
     pub deviation: f64,
     /// Standard deviation of the measure if this were the only source.
     pub spread: f64,

@@ -10,9 +10,9 @@ use crate::proportion::Proportion;
 pub struct RequirementYield {
     /// Requirement; `None` for all together.
     pub requirement: Option<Requirement>,
-    /// Fraction of samples that meet it; `None` without samples.
+    /// Fraction of samples that meet the requirement; `None` without samples.
     ///
-    /// Failed samples do not meet it.
+    /// Failed samples do not meet the requirement.
     pub proportion: Option<Proportion>,
     /// Number of samples without a value.
     pub failed: usize,

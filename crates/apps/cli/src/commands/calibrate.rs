@@ -1,4 +1,4 @@
-//! `squama calibrate`.
+//! The command `squama calibrate`.
 
 use anyhow::{Context as _, ensure};
 use clap::Args;

@@ -1,4 +1,4 @@
-//! `squama check`.
+//! The command `squama check`.
 
 use std::path::Path;
 use std::thread::available_parallelism;

@@ -1,4 +1,4 @@
-//! `squama compare`.
+//! The command `squama compare`.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

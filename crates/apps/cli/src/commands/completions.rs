@@ -1,4 +1,4 @@
-//! `squama completions`.
+//! The command `squama completions`.
 
 use clap::{Args, CommandFactory as _};
 use clap_complete::Shell;

@@ -1,4 +1,4 @@
-//! `squama design`.
+//! The command `squama design`.
 
 use std::path::PathBuf;
 
@@ -163,7 +163,9 @@ impl SolvedChoice {
         format!("{title}\n{changes}\n{required}{table}{notes}")
     }
 
-    /// States the radius at which neighbouring scales touch; empty unless they overlap at rest.
+    /// States the radius at which neighbouring scales touch.
+    ///
+    /// Empty unless they overlap at rest.
     fn overlap(&self) -> String {
         let outcome = self.solved.row.result.puncture.map(|puncture| puncture.outcome);
         let case = self.design.case();

@@ -1,4 +1,4 @@
-//! `squama draw`.
+//! The command `squama draw`.
 
 use anyhow::{Context as _, bail, ensure};
 use clap::Args;

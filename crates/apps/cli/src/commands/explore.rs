@@ -1,4 +1,4 @@
-//! `squama explore`.
+//! The command `squama explore`.
 
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};

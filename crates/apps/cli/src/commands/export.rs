@@ -1,4 +1,4 @@
-//! `squama export`.
+//! The command `squama export`.
 
 use std::path::{Path, PathBuf};
 

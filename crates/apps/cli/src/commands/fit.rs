@@ -1,4 +1,4 @@
-//! `squama fit`.
+//! The command `squama fit`.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -18,7 +18,7 @@ pub struct FolderContents {
     pub folder: PathBuf,
     /// The sweep that was run.
     pub sweep: Sweep,
-    /// The table of its designs.
+    /// Table of the designs.
     pub designs: Designs,
     /// Facts about the run.
     pub run: Vec<Fact>,
@@ -60,7 +60,9 @@ impl FolderContents {
         Ok(Self { folder: folder.to_owned(), sweep, designs, run: facts(&run), results })
     }
 
-    /// Returns a ranking for each group of comparable designs; empty if there is nothing to rank.
+    /// Returns a ranking for each group of comparable designs.
+    ///
+    /// Empty if there is nothing to rank.
     pub fn rankings(&self) -> Result<Vec<Ranking<'_>>, InvalidRanking> {
         let groups = match comparable_groups(&self.results, &self.preferences()) {
             Err(InvalidResults::NoColumn { .. }) => return Ok(Vec::new()),

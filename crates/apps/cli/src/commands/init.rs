@@ -1,4 +1,4 @@
-//! `squama init`.
+//! The command `squama init`.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};

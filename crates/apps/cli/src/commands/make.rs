@@ -1,4 +1,4 @@
-//! `squama make`.
+//! The command `squama make`.
 
 use std::path::{Path, PathBuf};
 
@@ -103,7 +103,9 @@ fn length_and_width(text: &str) -> Result<[f64; 2], String> {
     lengths.ok_or_else(|| "expected length and width of the patch in mm, e.g. 60x40".to_owned())
 }
 
-/// Parses two numbers separated by `x` or the multiplication sign, which users copy from texts.
+/// Parses two numbers separated by `x` or by the multiplication sign.
+///
+/// Users copy the multiplication sign from texts.
 fn pair<T: std::str::FromStr>(text: &str) -> Option<[T; 2]> {
     let (along, across) = text.split_once(['x', '×'])?;
     Some([along.trim().parse().ok()?, across.trim().parse().ok()?])
@@ -301,7 +303,9 @@ fn no_template(sheet: &Sheet, template: f64) -> String {
     )
 }
 
-/// Solves the design again and returns its answer: required values, first failure and warnings.
+/// Solves the design again and returns its answer.
+///
+/// The answer has the required values, the first failure and warnings.
 fn answer(design: &SelectedDesign, searched: &SearchedDesign) -> String {
     let (sweep, case) = (&design.sweep, design.case());
     let modes = case.judged_modes();
@@ -333,7 +337,9 @@ fn first_failure(row: &DesignRow, case: &Case, modes: &JudgedModes) -> String {
     format!("\n{first}{modes}")
 }
 
-/// Lists the effect of the deviations in `[tolerance]` on the main measures, from derivatives.
+/// Lists the effects of the deviations in `[tolerance]` on the main measures.
+///
+/// The effects follow from derivatives.
 fn tolerances(
     design: &SelectedDesign,
     out: &Path,

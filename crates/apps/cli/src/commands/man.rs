@@ -1,4 +1,4 @@
-//! `squama man`.
+//! The command `squama man`.
 
 use std::path::PathBuf;
 

@@ -7,7 +7,7 @@ const SHOWN_RANGES: usize = 5;
 
 /// Properties of a measured curve that a reader should know.
 pub struct Reading<'a> {
-    /// Names of the quantities on its axes.
+    /// Names of the quantities on the axes.
     pub axes: [&'a str; 2],
     /// True if the columns have physical units.
     pub is_physical: bool,

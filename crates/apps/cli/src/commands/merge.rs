@@ -1,4 +1,4 @@
-//! `squama merge`.
+//! The command `squama merge`.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! `squama optimise`.
+//! The command `squama optimise`.
 
 mod figures;
 mod record;

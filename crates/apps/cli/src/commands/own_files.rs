@@ -25,7 +25,7 @@ const ZIP_ENTRIES: [&str; 2] = ["docProps/core.xml", "3D/3dmodel.model"];
 /// A missing or empty file may be written. Links, folders and devices are never replaced.
 pub fn require_own(path: &Path) -> Result<(), OutputError> {
     let Ok(metadata) = fs::symlink_metadata(path) else { return Ok(()) };
-    // An image cannot hold the mark; the drawing beside it does.
+    // A PNG file has no mark; search the SVG file of the same drawing instead.
     let marked = if path.extension().is_some_and(|extension| extension == "png") {
         path.with_extension("svg")
     } else {

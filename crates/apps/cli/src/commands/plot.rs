@@ -1,4 +1,4 @@
-//! `squama plot`.
+//! The command `squama plot`.
 
 use std::path::{Path, PathBuf};
 
@@ -364,7 +364,9 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure, Vec
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?, limits))
 }
 
-/// Lists the limits of failure on a path up to a displacement, and the level of the row across.
+/// Lists the limits of failure on a path up to a displacement.
+///
+/// Adds the level of the row across.
 fn limits(
     case: &Case,
     puncture: &Puncture,
@@ -415,7 +417,9 @@ fn limits(
 /// Number of bodies between the two radii for which a force is shown.
 const BODIES: u32 = 25;
 
-/// Computes the critical force on bodies between the two radii of a case, in ascending curvature.
+/// Computes the critical force on bodies between the two radii of a case.
+///
+/// The bodies are in the order of ascending curvature.
 fn on_bodies(case: &Case, evaluator: &Evaluator) -> Vec<(f64, Option<f64>)> {
     let mut forces = Vec::new();
     for k in 0..BODIES {

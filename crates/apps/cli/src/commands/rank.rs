@@ -1,4 +1,4 @@
-//! `squama rank`.
+//! The command `squama rank`.
 
 mod answer;
 mod checks;

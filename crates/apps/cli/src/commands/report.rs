@@ -1,4 +1,4 @@
-//! `squama report`.
+//! The command `squama report`.
 
 mod front;
 mod search;
@@ -158,7 +158,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
     })
 }
 
-/// Returns the failure modes that the designs are judged by, and those that are not, as facts.
+/// Returns the judged failure modes and the modes that are not judged, as facts.
 fn judged_modes(sweep: &Sweep) -> Vec<Fact> {
     let Some(modes) = sweep.grid().case(0).judged_modes() else { return Vec::new() };
     let facts = modes.reasons().map(|(mode, reason)| {
@@ -252,7 +252,9 @@ fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
     rows
 }
 
-/// Solves a design for its curves, and its drawing if `is_drawn`; `None` if it cannot be solved.
+/// Solves a design for its curves, and its drawing if `is_drawn`.
+///
+/// `None` if it cannot be solved.
 fn solve(results: &FolderContents, row: usize, is_drawn: bool) -> Option<PageDesign> {
     let number = results.designs.design(row);
     let grid = results.sweep.grid();
@@ -303,7 +305,9 @@ fn gap_factors(results: &FolderContents, row: usize) -> Vec<GapFactors> {
         .collect()
 }
 
-/// Returns curvatures and moments along the path of bending; empty if it cannot be solved.
+/// Returns curvatures and moments along the path of bending.
+///
+/// Empty if it cannot be solved.
 fn bending(case: &Case) -> Vec<[f64; 2]> {
     let solved = flexure::solve(&case.design, &case.common, &case.flexure);
     let path = solved.map_or_else(|_| Vec::new(), |solved| solved.path);

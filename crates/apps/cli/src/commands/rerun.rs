@@ -1,4 +1,4 @@
-//! `squama rerun`.
+//! The command `squama rerun`.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! `squama run`.
+//! The command `squama run`.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

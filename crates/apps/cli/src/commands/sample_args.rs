@@ -52,7 +52,9 @@ impl<'a> SampleFolder<'a> {
         Ok(Self { definition, arguments, maker, folder })
     }
 
-    /// Runs `solve` on `samples` and claims the tables; `None`, with a note, after an interruption.
+    /// Runs `solve` on `samples` and claims the tables.
+    ///
+    /// `None`, with a note, after an interruption.
     pub fn solved<T: Send>(
         &self,
         (samples, interrupt): (u64, &Interrupt),

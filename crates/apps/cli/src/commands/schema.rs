@@ -1,4 +1,4 @@
-//! `squama schema`.
+//! The command `squama schema`.
 
 use clap::Args;
 use fit::{PER_SPECIMEN, curves_schema};

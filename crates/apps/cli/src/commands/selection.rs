@@ -203,7 +203,9 @@ fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&Strin
     ]
 }
 
-/// Converts a value, a comma-separated list, or a range `FROM..TO` of the values of `axis` to TOML.
+/// Converts the values of an option to TOML.
+///
+/// `text` is a value, a comma-separated list, or a range `FROM..TO` of the values of `axis`.
 fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     let Some((low, high)) = text.split_once("..") else {
         // TOML such as { from = 0.1, to = 1 } is passed on.
@@ -237,7 +239,9 @@ fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     Ok(format!("[{}]", values.join(", ")))
 }
 
-/// Returns the only design of `sweep`, with its number in the whole sweep, if it is on the grid.
+/// Returns the only design of `sweep`.
+///
+/// Its number is from the whole sweep if the design is on the grid of the latter.
 fn located(sweep: Sweep, whole: Option<&Sweep>) -> SelectedDesign {
     let found = whole.and_then(|whole| {
         let grid = whole.grid();

@@ -1,4 +1,4 @@
-//! `squama sensitivity`.
+//! The command `squama sensitivity`.
 
 use std::fmt::Write as _;
 use std::path::Path;

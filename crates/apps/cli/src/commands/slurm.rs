@@ -1,4 +1,4 @@
-//! `squama slurm`.
+//! The command `squama slurm`.
 
 use std::path::{Path, PathBuf};
 

@@ -202,7 +202,9 @@ pub fn folder_of(sweep: &Sweep, out: Option<&Path>) -> PathBuf {
     out.map_or_else(|| Path::new("results").join(sweep.name()), Path::to_owned)
 }
 
-/// Returns the default folder of a product of designs: `subfolder` in the results of their sweep.
+/// Returns the default folder of a product of designs.
+///
+/// It is `subfolder` in the results of the sweep.
 pub fn folder_within(definition: &Definition, sweep: &Sweep, subfolder: &str) -> PathBuf {
     let path = &definition.path;
     let results = if path.is_dir() { path.clone() } else { folder_of(sweep, None) };

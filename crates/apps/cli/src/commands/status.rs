@@ -1,4 +1,4 @@
-//! `squama status`.
+//! The command `squama status`.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;

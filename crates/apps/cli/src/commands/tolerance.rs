@@ -1,4 +1,4 @@
-//! `squama tolerance`.
+//! The command `squama tolerance`.
 
 mod figures;
 mod record;

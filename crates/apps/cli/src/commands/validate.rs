@@ -1,4 +1,4 @@
-//! `squama validate`.
+//! The command `squama validate`.
 
 use std::path::PathBuf;
 

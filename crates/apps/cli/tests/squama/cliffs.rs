@@ -4,7 +4,9 @@ use serde_json::Value;
 
 use crate::{FEW, Place};
 
-/// Designs in which (0.1, 0.2, 60°) loses half of its critical force if its gap grows by a tenth.
+/// Designs with a steep dependence on the gap.
+///
+/// (0.1, 0.2, 60°) loses half of its critical force if its gap grows by a tenth.
 const STEEP: &str = "name = 'steep'\n[designs]\ngap_over_t = [0.1, 0.2, 0.4]\nlength_over_t = [0.1, 0.2]\nslant_deg = [45, 60, 75]\n";
 
 fn ranked(definition: &str, arguments: &str) -> (Place, String) {

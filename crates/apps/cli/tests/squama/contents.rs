@@ -123,7 +123,8 @@ fn derivatives_are_verified_like_any_table() {
     fs::write(place.path("with.toml"), with).expect("writable");
     place.squama("run with.toml -q --out r").assert().code(0);
     assert!(place.list("r").contains("sensitivity.csv"));
-    // A run without derivatives removes earlier ones, and does not accept a foreign table of them.
+    // A run without derivatives removes an earlier table of derivatives, and rejects a table that
+    // it did not write.
     place.squama("run x.toml -q --fresh --out r").assert().code(0);
     assert!(!place.list("r").contains("sensitivity.csv"));
     fs::write(place.path("r/sensitivity.csv"), "design\n0001\n").expect("writable");
@@ -140,7 +141,9 @@ fn derivatives_are_verified_like_any_table() {
     assert_eq!(place.read("strange/sensitivity.csv"), "mine");
 }
 
-/// Changes the lines of a journal after its header (marked by `key`), and renews their checksums.
+/// Changes the lines of a journal after the header, and renews their checksums.
+///
+/// The header is the line with `key`.
 fn reseal(place: &Place, journal: &str, key: &str, change: impl Fn(&mut serde_json::Value)) {
     let text = place.read(journal);
     let (first, rest) = text.split_once('\n').expect("lines");

@@ -344,7 +344,9 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
     assert!(!text.contains("Weakest load position"), "{text}");
 }
 
-/// Returns the report of a search, and the weakest force of its optimum at eleven load positions.
+/// Returns the report of a search, and the weakest force of the optimum.
+///
+/// The weakest force is over eleven load positions.
 fn weakest_load_position(goal: &str) -> (String, f64) {
     let place = Place::with(goal);
     let text = place.prints("optimise x.toml");

@@ -255,7 +255,9 @@ fn round_off_is_not_a_difference() {
     assert!(text.lines().any(|line| line.trim_start().starts_with("critical_force ")), "{text}");
 }
 
-/// The surface of the best design folds with full coupling; the next one keeps the requirement.
+/// With full coupling the surface of the best design folds.
+///
+/// The next design keeps the requirement.
 #[test]
 fn the_best_design_that_passes_all_checks_is_listed() {
     let place = Place::with(

@@ -152,7 +152,9 @@ fn samples([from, to]: [Spot; 2]) -> Vec<Spot> {
 /// A position of a name: its bounds, its leader, and its distance from the mark.
 type Position = (Bounds, Option<[Spot; 2]>, f64);
 
-/// Lists positions of a name around a mark, and on a grid over the panel where those are taken.
+/// Lists positions of a name around a mark.
+///
+/// Positions on a grid over the panel follow, for marks without free space.
 fn around(mark: Spot, width: f64, area: Area) -> impl Iterator<Item = Position> {
     let near = DISTANCES.into_iter().flat_map(|r| (0..DIRECTIONS).map(move |k| (r, k)));
     let near = near.map(move |(distance, k)| {
@@ -216,11 +218,11 @@ pub(super) fn limits(panel: &ChartPanel, curves: &[Curve]) -> Option<Element> {
             }
         }
     }
-    // A level has fewer positions for its name.
+    // Names of levels go first, because they have fewer possible positions.
     for (name, wide, y) in levels {
         names.add(name, along(y, panel.area, wide));
     }
-    // The first failure has the first choice, then the lowest marks, close to the axis.
+    // Place the name of the first failure first, then the names of the lowest marks.
     marks.sort_by(|one, other| {
         let is_first = other.0.1.cmp(&one.0.1);
         is_first.then(other.2[1].total_cmp(&one.2[1]))

@@ -1,4 +1,4 @@
-//! Contacts: overlaps in red, a halo around each contact, and forces along their lines of action.
+//! Drawings of contacts: overlaps in red, halos, and forces along their lines of action.
 
 use skin::Contact;
 

@@ -414,7 +414,7 @@ impl<'a> RowSheet<'a> {
         ])
     }
 
-    /// Draws the upward reactions of the substrate, divided by the load, as bars under the scales.
+    /// Draws the upward reactions of the substrate over the load, as bars under the scales.
     fn reactions(&self, shown: &[&ScaleState], load: f64) -> Element {
         let (high, low) = self.reactions;
         // Without a load the reactions are zero, too.

@@ -7,7 +7,7 @@ use crate::svg::{Element, Spot, line};
 
 /// Maximum length of the bar, px.
 const LONGEST: f64 = 110.0;
-/// Height of the ticks at its ends, px.
+/// Height of the ticks at both ends of the scale bar, px.
 const TICK: f64 = 3.0;
 
 /// Returns the scale bar with its right end at `[x, y]`; `None` without a thickness.

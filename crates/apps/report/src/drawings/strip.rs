@@ -114,7 +114,7 @@ struct Enlarged {
     shape: Shape,
     /// Length of `t`, px.
     scale: f64,
-    /// Centre of its two scales.
+    /// Centre of the two scales beside the gap.
     middle: [f64; 2],
     /// Height of the enlarged gap, px.
     height: f64,
@@ -266,7 +266,9 @@ fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
     ])
 }
 
-/// Draws an arrow along the arc from angle `start` over `sweep`, counter-clockwise if positive.
+/// Draws an arrow along the arc from angle `start` over `sweep`.
+///
+/// A positive `sweep` is counter-clockwise.
 fn moment_arrow(center: Spot, start: f64, sweep: f64) -> Element {
     let arc: [Spot; 18] = std::array::from_fn(|k| {
         // The last point is the tip of the arrow, beyond the end of the line.

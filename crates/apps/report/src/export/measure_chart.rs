@@ -40,7 +40,9 @@ struct AxisColumn {
 }
 
 impl MeasureChart {
-    /// Creates the chart for a table with this header; `None` if it is not the table of a measure.
+    /// Creates the chart for a table with this header.
+    ///
+    /// `None` if it is not the table of a measure.
     pub fn new(table: &str, header: &StringRecord) -> Option<Self> {
         MEASURE_TABLES.iter().find(|(measure, _)| *measure == table)?;
         let name = physical_of(header, table).unwrap_or(table);

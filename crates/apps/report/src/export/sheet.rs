@@ -67,9 +67,9 @@ struct SheetColumn {
     is_number: bool,
     /// True for the status of designs.
     is_status: bool,
-    /// True if its values have a colour scale.
+    /// True if the column has a colour scale.
     is_measure: bool,
-    /// Format of its numbers.
+    /// Format of the numbers in the column.
     number: Format,
     /// Width of the longest cell, characters.
     width: usize,

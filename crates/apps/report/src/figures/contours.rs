@@ -42,7 +42,7 @@ fn continued(line: &[Place], [from, to]: &[Place; 2]) -> Option<Place> {
     is_same(end, *from).then_some(*to).or(is_same(end, *to).then_some(*from))
 }
 
-/// Returns true for equal places.
+/// Returns true if two positions are equal up to round-off.
 ///
 /// Neighbouring squares compute a shared end in opposite directions, equal up to round-off.
 fn is_same(a: Place, b: Place) -> bool {

@@ -85,7 +85,7 @@ pub enum InvalidMap {
         count: usize,
         /// Parameters that are neither axes nor fixed.
         axes: Vec<String>,
-        /// An example of a value that fixes one of them.
+        /// Example of a value that fixes one of the parameters.
         example: String,
     },
 }
@@ -342,7 +342,9 @@ impl MapSubject<'_> {
             .collect()
     }
 
-    /// Returns the colour bar between `left` and its name, labelled at the levels of the contours.
+    /// Returns the colour bar between `left` and its name.
+    ///
+    /// It is labelled at the levels of the contours.
     fn bar(&self, height: f64, [left, name]: [f64; 2]) -> Element {
         let width = 16.0;
         let step = height / f64::from(STEPS);

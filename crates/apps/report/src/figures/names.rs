@@ -4,7 +4,9 @@
 
 use results::columns::{explain_value, name};
 
-/// Columns with a symbol: words, symbol, and the definition of the symbol, used where it fits.
+/// Columns with a symbol.
+///
+/// Words, symbol, and definition of the symbol, which is used where it fits.
 const NAMED: [(&str, &str, &str, &str); 15] = [
     (name::COVERAGE, "coverage", "$λ$", ""),
     (name::CRITICAL_FORCE, "critical force", "$F_c^*$", " = $F_c$(1 − $ν$^2)/($E_s L t$)"),

@@ -1,4 +1,6 @@
-//! Parallel coordinates of the designs of a search: an axis per variable, objective and requirement.
+//! Parallel coordinates of the designs of a search.
+//!
+//! The figure has an axis per variable, objective and requirement.
 
 use super::names::in_words;
 use super::sheet;

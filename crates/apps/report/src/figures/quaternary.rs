@@ -89,7 +89,7 @@ fn badge(text: &str, [x, y]: Spot) -> Element {
     ])
 }
 
-/// Draws an entry of the list: letter, parameters, share of the weights, and the row at rest.
+/// Draws an entry of the list of best designs.
 ///
 /// The entry ends 14 px left of `right`.
 fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot, right: f64) -> Element {

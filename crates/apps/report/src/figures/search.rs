@@ -24,7 +24,7 @@ pub const EVALUATION: &str = "evaluation";
 pub struct SearchedDesign {
     /// The values on the two axes.
     pub place: [f64; 2],
-    /// True if it meets every requirement.
+    /// True if the design meets every requirement.
     pub met: bool,
 }
 

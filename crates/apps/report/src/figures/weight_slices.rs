@@ -1,4 +1,6 @@
-//! Slices of the weight tetrahedron at equal weights of coverage, so that no point hides another.
+//! Slices of the weight tetrahedron at equal weights of coverage.
+//!
+//! In slices no point hides another.
 
 use crate::colors::{FAINT, INK, RED};
 use crate::designs::Designs;
@@ -178,7 +180,9 @@ impl WeightSlices {
         })
     }
 
-    /// Returns the names of the criteria at the corners of slice `k`, as words for the first slice.
+    /// Returns the names of the criteria at the corners of slice `k`.
+    ///
+    /// The first slice has them as words.
     fn corner_names(&self, k: usize) -> impl Iterator<Item = Element> {
         let names: [&str; 3] = match k {
             0 if self.is_small() => ["critical force $n$", "resistance $k$", "compliance $l$"],

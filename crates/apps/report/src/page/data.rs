@@ -100,7 +100,7 @@ fn pareto_criteria(designs: &Designs) -> Vec<Value> {
     criteria.iter().map(named_criterion).collect()
 }
 
-/// Returns the columns in newtons or millimetres of the paper's measures and the failure force.
+/// Returns the physical columns of the paper's measures and of the failure force.
 fn physical_columns(designs: &Designs) -> BTreeMap<&str, String> {
     let measures = CRITERIA.iter().map(|criterion| criterion.column.as_ref());
     let columns = measures.chain([name::FAILURE_FORCE]);

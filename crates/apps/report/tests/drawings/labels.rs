@@ -256,7 +256,7 @@ fn measured_curves_are_thin_black_lines() {
     }
 }
 
-/// All modes on one point of the path, and spread over it: at its start, at its end, everywhere.
+/// All modes at one point of the path, and spread over the whole path.
 #[test]
 fn names_of_limits_do_not_overlap() {
     let case = super::case(&super::design(60.0), "", "");

@@ -172,7 +172,9 @@ fn a_guided_needle_keeps_its_horizontal_position() {
     assert!(!svg(&design, &punctured(&design, 9677.0)).contains("set-down"));
 }
 
-/// A round tip between two scales rests on both corners, with its lowest point below their tops.
+/// A round tip between two scales rests on both corners.
+///
+/// The lowest point of the tip is below the tops of the scales.
 #[test]
 fn a_round_tip_touches_both_corners() {
     let design = Design { gap: 0.6, ..design(0.0) };

@@ -30,7 +30,9 @@ fn clipped(polygon: &[Point], a: Point, b: Point) -> Vec<Point> {
     inside
 }
 
-/// Returns the intersection area of two convex polygons, by clipping one at each edge of the other.
+/// Returns the intersection area of two convex polygons.
+///
+/// Clips one polygon at each edge of the other.
 fn shared(a: &[Point; 4], b: &[Point; 4]) -> f64 {
     let edges = (0..4).map(|k| (b[k], b[(k + 1) % 4]));
     area(&edges.fold(a.to_vec(), |polygon, (from, to)| clipped(&polygon, from, to)))

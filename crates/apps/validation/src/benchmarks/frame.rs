@@ -42,7 +42,9 @@ pub(super) struct PlaneFrame {
 }
 
 impl PlaneFrame {
-    /// Creates a frame of beams with axial stiffness `axial`; `None` if a beam has no length.
+    /// Creates a frame of beams with axial stiffness `axial`.
+    ///
+    /// `None` if a beam has no length.
     pub(super) fn new(
         nodes: Vec<FrameNode>,
         axial: f64,

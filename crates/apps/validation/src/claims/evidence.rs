@@ -101,7 +101,7 @@ pub(crate) struct BentStrip {
     pub(crate) axial_before: f64,
     /// Ratio of axial to bending energy of the membrane at the end.
     pub(crate) axial_at_end: f64,
-    /// `dM*/dκ*` at the end, relative to its maximum after contact.
+    /// Slope `dM*/dκ*` at the end, over the largest slope after contact.
     pub(crate) softening: Option<f64>,
 }
 
@@ -112,9 +112,9 @@ pub(crate) struct Balanced {
     pub(crate) best: MeasuredDesign,
     /// The fitness of the best design.
     pub(crate) fitness: f64,
-    /// Percentage of the weightings that it wins.
+    /// Percentage of the weightings for which this design is the best.
     pub(crate) share: f64,
-    /// Percentage of the weightings that the printed optimum wins.
+    /// Percentage of the weightings for which the printed optimum is the best.
     pub(crate) share_of_printed: f64,
 }
 

@@ -14,7 +14,7 @@ use super::verdict::{Limits, Optimum, Verdict};
 pub(crate) struct Statement {
     /// The number of the claim, with a letter if it has several statements.
     pub(crate) id: String,
-    /// The statement in words; empty if it is the claim itself.
+    /// Text of the statement; empty if the claim has no other statement.
     pub(crate) says: String,
     /// The measured quantity.
     pub(crate) measured: String,

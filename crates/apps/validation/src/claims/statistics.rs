@@ -1,4 +1,4 @@
-//! Trends along lines, and shares of variance.
+//! Trends along lines, and fractions of variance.
 
 use std::collections::BTreeMap;
 use std::fmt;

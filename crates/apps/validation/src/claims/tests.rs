@@ -213,7 +213,9 @@ fn steps_without_a_value_count_against_a_trend() {
     assert_eq!(on("C11", &line([one, two, three, four, five])), NotReproduced);
 }
 
-/// Returns designs with two gaps, lengths from 0.025 and two slants; `value` sets their measures.
+/// Returns designs with two gaps, lengths from 0.025 and two slants.
+///
+/// `value` sets the measures.
 fn grid(value: impl Fn(&mut MeasuredDesign)) -> Evidence {
     let gaps = [0.1, 0.2].into_iter();
     let all = gaps.flat_map(|gap| [0.025, 0.05, 0.1, 0.2].map(move |length| (gap, length)));

@@ -85,7 +85,7 @@ fn an_edge_contact_becomes_flush() {
 }
 
 #[test]
-fn a_corner_without_its_own_force_is_left_by_the_partner() {
+fn a_corner_contact_without_its_own_force_becomes_the_edge_contact_of_the_partner() {
     for (short, edge, partner) in [
         (1.0, BottomRightOnLeftEdge, BottomLeftOnRightEdge),
         (-1.0, BottomLeftOnBase, BottomLeftOnRightEdge),
@@ -98,7 +98,7 @@ fn a_corner_without_its_own_force_is_left_by_the_partner() {
 }
 
 #[test]
-fn a_corner_without_the_force_of_its_partner_is_left_as_the_side_leans() {
+fn a_corner_contact_without_partner_force_moves_to_the_edge_set_by_the_lean() {
     for (short, edge, leaves) in [
         (1.0, BottomLeftOnBase, BottomRightOnLeftEdge),
         (-1.0, BottomRightOnLeftEdge, BottomLeftOnBase),

@@ -33,7 +33,7 @@ fn moved(q: &DVector<f64>, angle: f64, shift: Vector2<f64>) -> DVector<f64> {
 
 proptest! {
     #[test]
-    fn forces_of_a_gap_turn_with_it(
+    fn forces_of_a_gap_rotate_with_the_gap(
         (gap, u) in bent_gap(), angle in -10.0..10.0, x in -5.0..5.0, y in -5.0..5.0,
     ) {
         let before = gap.response(&u);

@@ -49,7 +49,7 @@ pub(crate) enum FrictionState {
     None,
     /// Sticks at the slip coordinate `anchor`.
     Stick {
-        /// `s₀`.
+        /// Slip coordinate `s₀`.
         anchor: f64,
     },
     /// Slips with the sign of `ṡ`, since `s` was `start`.
@@ -63,7 +63,7 @@ pub(crate) enum FrictionState {
     ///
     /// The corners coincide, or a needle tip is at the corner.
     Locked {
-        /// `T/Λ`.
+        /// Ratio `T/Λ`.
         ratio: f64,
     },
     /// A sticking needle tip is at the corner.

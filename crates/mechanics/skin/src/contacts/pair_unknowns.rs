@@ -68,7 +68,7 @@ impl Contacts {
     }
 }
 
-/// Rotates the derivatives by the right displacement to the tangent frame of the right scale.
+/// Rotates derivatives with respect to the displacement of the right scale to its frame.
 pub(super) fn local(&[lx, ly, turn, x, y, right_turn]: &OfEach, frame: &Frame) -> OfEach {
     let right = frame.inward(Vec2::new(x, y));
     [lx, ly, turn, right.x, right.y, right_turn]

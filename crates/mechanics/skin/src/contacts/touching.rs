@@ -34,7 +34,7 @@ pub(crate) struct TouchingEdge {
     pub(crate) turn: PairCoordinate,
     /// Outward normal of the edge, in the frame of its scale.
     pub(crate) normal: Vec2,
-    /// Corner, in the frame of its scale.
+    /// Corner, in the frame of the scale to which it belongs.
     pub(crate) corner: Vec2,
 }
 
@@ -141,7 +141,7 @@ impl Contacts {
 }
 
 impl PairUnknowns {
-    /// Returns the six unknowns of a row, and derivatives by them.
+    /// Returns the six unknowns of the pair in a row, and the derivatives in these unknowns.
     ///
     /// `None` for a strip.
     fn in_unknowns(

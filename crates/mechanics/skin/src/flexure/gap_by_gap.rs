@@ -26,7 +26,7 @@ const BESIDE: f64 = 1e-3;
 /// Relative gain that counts as a larger stiffness.
 const STIFFER: f64 = 1e-9;
 
-/// Maximum number of iterations of a search; most need less than a quarter of them.
+/// Maximum number of iterations of a search. Most searches need a quarter or less.
 const ROUNDS: usize = 50;
 
 /// Largest factor by which the moment is raised at once.
@@ -51,7 +51,7 @@ pub struct BentSample {
     pub closing_range: Option<f64>,
     /// Number of equilibria on the path of the strip, or on the paths of its gaps.
     pub points: usize,
-    /// Number of Newton iterations along them.
+    /// Number of Newton iterations along the paths of all gaps.
     pub iterations: usize,
 }
 

@@ -41,9 +41,9 @@ const AT_THE_TILT: f64 = 1e-9;
 struct Sums {
     /// Displacement `Σ C_kl Λ_l` at the load.
     displacement: f64,
-    /// First derivative of the displacement by the coordinate of the load `k`.
+    /// First derivative of the displacement with respect to the position of load `k`.
     slope: f64,
-    /// Second derivative of the displacement by the coordinate of the load `k`.
+    /// Second derivative of the displacement with respect to the position of load `k`.
     curvature: f64,
 }
 
@@ -60,7 +60,7 @@ struct BentScale {
 /// Many loads share their unknowns, so entries are added up before they enter the tangent.
 struct Coupling<'a> {
     loads: &'a [BeamLoad],
-    /// `C_kl`, with derivatives by the coordinate of the load `k` first, row by row.
+    /// `C_kl` row by row, differentiated first with respect to the position of load `k`.
     flexibilities: Vec<Flexibility>,
     /// First of the three unknowns of each scale on which the loads depend.
     nodes: Vec<usize>,
@@ -429,8 +429,8 @@ impl Chain {
 
     /// Returns derivatives of depth and total tilt.
     ///
-    /// For each, the derivatives by motions and contact forces, then the derivative by its own
-    /// load.
+    /// For each, the derivatives with respect to motions and contact forces, then the derivative
+    /// with respect to the load of the scale itself.
     pub(super) fn bending_loads(&self, state: &SkinState) -> [(Vec<(usize, f64)>, f64); 2] {
         let Some(rows) = self.bending_unknowns() else { return Default::default() };
         let mut entries: [Vec<(usize, f64)>; 2] = Default::default();

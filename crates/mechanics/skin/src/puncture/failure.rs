@@ -434,7 +434,9 @@ impl Chain {
         self.row_values(state).fractions
     }
 
-    /// Computes the largest fraction of the limit of a mode; 0 if it is no limit of a scale.
+    /// Computes the largest fraction of the limit of a mode.
+    ///
+    /// 0 if the mode does not limit a scale.
     pub(super) fn fraction(&self, state: &SkinState, mode: FailureMode) -> f64 {
         let limit = LIMITS.iter().position(|limit| *limit == mode);
         limit.map_or(0.0, |limit| self.fractions(state)[limit])

@@ -28,13 +28,13 @@ const SAME: f64 = 1e-6;
 pub struct LoadPosition {
     /// Position on the top: 0 left, 1 right corner; beyond for a round tip.
     pub position: f64,
-    /// Outcome of its path.
+    /// Outcome of the path at this load position.
     pub status: Status,
     /// `F*` at the critical tilt in either direction, or when the needle is through.
     pub force: Option<f64>,
-    /// `u*` there.
+    /// `u*` at that force.
     pub displacement: Option<f64>,
-    /// Tilt of the punctured scale there, clockwise, degrees.
+    /// Tilt of the punctured scale at that force, clockwise, degrees.
     pub tilt_deg: Option<f64>,
     /// Critical event of a guided needle; `None` for a free needle.
     pub critical_event: Option<CriticalEvent>,

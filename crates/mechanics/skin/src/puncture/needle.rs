@@ -107,7 +107,7 @@ pub(crate) struct GuidedNeedle {
     /// Tip at rest, or centre of a round tip, relative to the punctured node.
     pub(super) tip: Vec2,
     critical_tilt: f64,
-    /// First of its unknowns: the depth.
+    /// Index of the first unknown of the needle, the depth.
     pub(super) depth: usize,
     /// Number of contact constraints, which precede the needle constraints.
     contacts: usize,
@@ -115,7 +115,7 @@ pub(crate) struct GuidedNeedle {
     pub(super) slip_distances: Vec<usize>,
     /// Maximum number of touches.
     pub(super) slots: usize,
-    /// Unknowns per touch, and constraints among them.
+    /// Number of unknowns per touch, and of constraints among these unknowns.
     ///
     /// For a round tip the condition on the position is last.
     unknowns_per_touch: usize,
@@ -186,7 +186,7 @@ impl GuidedNeedle {
         self.friction > 0.0
     }
 
-    /// Lists the unknowns of its constraints in order.
+    /// Lists the unknowns of the needle constraints in order.
     pub(super) fn constraints(&self) -> Vec<usize> {
         let behind = self.normal_force(self.slots);
         // A tangential force that is an unknown in every state is no constraint.

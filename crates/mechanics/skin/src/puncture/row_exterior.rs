@@ -34,9 +34,9 @@ pub(crate) enum Reach {
 /// Far field beyond an end.
 #[derive(Clone, Debug)]
 pub(super) struct Beyond {
-    /// Motion of the scales there, in closed form.
+    /// Motion of the scales beyond the end, in closed form.
     pub(super) far: FarField,
-    /// Number of scales there; `None` if the row has no end.
+    /// Number of scales beyond the end; `None` for an infinite row.
     pub(super) scales: Option<usize>,
 }
 

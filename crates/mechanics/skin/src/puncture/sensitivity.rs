@@ -27,7 +27,7 @@ use crate::{Common, Design, PathDetail, Status};
 pub struct PunctureInput {
     /// The design.
     pub design: Design,
-    /// The stiffness of the substrate under its row.
+    /// Stiffness of the substrate under the row.
     pub stiffness: RowStiffness,
     /// Contact law and solver settings.
     pub common: Common,
@@ -341,7 +341,9 @@ impl Chain {
         ]
     }
 
-    /// Returns the state at rest with its measures; with the clearance if failures are judged.
+    /// Returns the state at rest with its measures.
+    ///
+    /// Includes the clearance if failures are judged.
     fn point_at_rest(&self, has_failures: bool) -> Option<MeasuredPoint<Self>> {
         let mut quantities = Vec::new();
         if !self.is_critical_only() {
@@ -399,7 +401,7 @@ impl Chain {
         Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark)))
     }
 
-    /// Anchors a point like the end of the path if it is there.
+    /// Anchors a point like the end of the path if the point is that end.
     fn end_of_target(&self, point: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         if point.anchor == PathAnchor::Target { self.end_of(point) } else { point }
     }
@@ -413,7 +415,7 @@ impl Chain {
         AnchoredPoint { anchor, ..point.clone() }
     }
 
-    /// Anchors an equilibrium to its vanishing gap.
+    /// Anchors an equilibrium to the vanishing stretch of a gap.
     fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<SkinMode> {
         let pair = (fold.left_scale as isize + self.layout.left.cast_signed()).cast_unsigned();
         AnchoredPoint::arriving(point, PathAnchor::Marker(pair))

@@ -9,9 +9,9 @@ use super::system::RowLayout;
 pub struct PerturbedScale {
     /// Number of the scale, counted from the punctured one to the right.
     pub place: i32,
-    /// Change of the gap on its right, over `t`.
+    /// Change of the gap on the right of the scale, over `t`.
     pub gap: f64,
-    /// Change of its slant, degrees.
+    /// Change of the slant of the scale, degrees.
     pub slant_deg: f64,
 }
 

@@ -36,7 +36,7 @@ pub struct Fold {
     pub left_scale: i64,
     /// True if the surface folds over, false if it unfolds.
     pub folds: bool,
-    /// Number of contact events before it.
+    /// Number of contact events before the fold.
     pub events_before: usize,
 }
 

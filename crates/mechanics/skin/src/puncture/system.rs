@@ -131,7 +131,9 @@ fn controls(
     controls
 }
 
-/// Creates the needle of a row with this number of contact constraints; `None` for a free one.
+/// Creates the needle of a row with this number of contact constraints.
+///
+/// `None` for a free one.
 fn guided_needle(
     parameters: &PunctureParameters,
     load_arm: Vec2,

@@ -416,9 +416,9 @@ fn derivatives_by_curvature_of_random_designs_agree_with_differences() {
     assert!(large.is_empty(), "{large:?}");
 }
 
-/// Compares the derivative of the critical force with a fourth-order difference.
+/// Compares the derivative of the critical force in the curvature with a difference.
 ///
-/// It is the derivative by the curvature. `None` at kinks, and where the path does not reach the
+/// The difference is of fourth order. `None` at kinks, and where the path does not reach the
 /// critical tilt.
 fn deviation((design, parameters): &(Design, PunctureParameters)) -> Option<(Design, f64)> {
     let footprint = design.footprint(parameters.poisson_ratio).unwrap();

@@ -46,7 +46,7 @@ fn draw(seed: u64) -> Drawn {
     Drawn { design, common, parameters }
 }
 
-/// Seeds of designs with paths that used to stop for a numerical reason.
+/// Each seed gives a path with simultaneous events, a regression test.
 #[test]
 fn paths_pass_simultaneous_events() {
     let ends = [

@@ -20,7 +20,7 @@ const COMPARED: usize = 1000;
 pub(super) struct Returns {
     /// Control parameter and load at the distinct events.
     events: Vec<[f64; 2]>,
-    /// Index of the last event among them.
+    /// Index of the last event in the list.
     last: usize,
     /// Number of events that equal an earlier one with another one in between.
     repeated: usize,

@@ -61,8 +61,8 @@ fn derivatives_agree_with_differences_of_the_table() {
 
 /// Footprints outside the table, with the derivatives of seven values.
 ///
-/// A footprint is gap, width and Poisson's ratio. The derivatives by each of the three follow from
-/// differentiating the matrices and the mesh.
+/// A footprint is gap, width and Poisson's ratio. The derivatives with respect to each of the
+/// three follow from differentiating the matrices and the mesh.
 const BEYOND: &str = "
 0.005 1.7 0.3 -107.7784891 -107.7603129 -104.7822641 54.0507774 54.09815128 -53.07484983 0.0
 0.005 1.7 0.3 2.339886676 2.366220771 2.042487522 -1.090018983 -1.086563414 0.7467053108 0.0

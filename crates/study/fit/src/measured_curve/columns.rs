@@ -113,7 +113,9 @@ fn quantity_of(name: &str) -> Option<&'static str> {
     quantity(&name.split('_').map(str::to_lowercase).collect::<Vec<_>>())
 }
 
-/// Counts the quantities of a test among names, to find the row that looks most like a header.
+/// Counts the quantities of a test among names.
+///
+/// The row with the largest count is taken as the header.
 pub(super) fn quantities(names: &[String]) -> usize {
     let mut quantities: Vec<_> = names.iter().filter_map(|name| quantity_of(name)).collect();
     quantities.sort_unstable();

@@ -82,7 +82,9 @@ impl Header {
         header.map(|header| Self { is_known: true, ..header })
     }
 
-    /// Returns the header in a row, with units from `units` rows below it; 0 means no units.
+    /// Returns the header in a row, with units from `units` rows below it.
+    ///
+    /// `units` is 0 if the header has no row of units.
     fn at(rows: &Rows, row: usize, units: usize) -> Self {
         let mut names = Vec::new();
         for (column, name) in rows.all[row].cells.iter().enumerate() {
@@ -119,7 +121,9 @@ impl Header {
         above.filter(|row| rows.is_text(*row))
     }
 
-    /// Returns the name of a specimen from the row above its columns; empty if there is none.
+    /// Returns the name of a specimen from the row above its columns.
+    ///
+    /// Empty if there is none.
     pub fn specimen(&self, rows: &Rows, columns: Range<usize>) -> String {
         let mut cells =
             columns.map(|column| self.named(rows).map(|row| rows.all[row].cell(column)));

@@ -55,9 +55,9 @@ pub(crate) struct SolvedLine {
 pub(crate) struct FarLine {
     /// Fractions of the intervals.
     pub shares: Vec<f64>,
-    /// Fractions of the intervals of the other point.
+    /// Fractions of the intervals at the other point.
     pub near: Vec<f64>,
-    /// Indices of the choices of both.
+    /// Indices of the choices, equal at both points.
     pub chosen: Vec<usize>,
 }
 

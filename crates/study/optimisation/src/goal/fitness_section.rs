@@ -102,7 +102,9 @@ fn weight(entry: &KeyValue) -> Option<(Criterion, f64)> {
     }
 }
 
-/// Reads the worst and the best value of a column; `None` if they are not two finite numbers.
+/// Reads the worst and the best value of a column.
+///
+/// `None` if they are not two finite numbers.
 fn criterion_ends(entry: &KeyValue) -> Option<(CriterionEnds, Place)> {
     let Value::List(items) = &entry.value else { return None };
     let [Value::Number(worst), Value::Number(best)] = items.as_slice() else { return None };

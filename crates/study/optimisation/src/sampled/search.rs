@@ -190,7 +190,9 @@ fn safer(
     Ok((next != *point && step.iter().all(|x| x.is_finite())).then_some(next))
 }
 
-/// Returns a short step along which every gradient rises by `rise`, by projections (Kaczmarz).
+/// Returns a short step along which every gradient rises by `rise`.
+///
+/// Computed by Kaczmarz projections.
 fn least_step(gradients: &[Vec<f64>], rise: f64, variables: usize) -> Vec<f64> {
     let mut step = vec![0.0; variables];
     for _ in 0..PROJECTIONS {

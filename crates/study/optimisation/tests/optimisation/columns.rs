@@ -1,4 +1,4 @@
-//! Derivatives of columns by extrapolated rows, compared with solved designs.
+//! Derivatives of columns, computed from extrapolated rows, compared with solved designs.
 
 use results::columns::{Cell, design_columns};
 use results::{Column, DesignRow, SlopeSide};

@@ -315,8 +315,8 @@ fn strongest(required: &str, seed: usize, most: usize) -> f64 {
     objectives(optimum(&found))[0]
 }
 
-/// Narrow feasible sets once took 1,430 to 1,520 evaluations: gradient searches without coverage in
-/// the goal met the jump of the compliance, and full searches began at infeasible designs.
+/// The feasible set is narrow. Gradient searches must avoid the jump of the compliance without a
+/// requirement on coverage, and full searches must start at feasible designs.
 #[test]
 fn least_penetration_is_found_as_fast_as_other_objectives() {
     let text = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
@@ -329,8 +329,7 @@ fn least_penetration_is_found_as_fast_as_other_objectives() {
     assert!((objectives(optimum(&found))[0] - 0.026_397_047).abs() < 1e-8);
 }
 
-/// The fraction used to count a full search like a short one: after half of the evaluations, the
-/// estimated total was a third of the true one.
+/// A full search counts by its evaluations, not like a short search.
 #[test]
 fn the_completed_fraction_follows_the_evaluations() {
     let text = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\

@@ -41,7 +41,7 @@ pub fn pareto_columns<'a>(
 ) -> RankedColumns<'a> {
     let mut columns = design(parameters);
     columns.extend(criteria(preferences));
-    // Only four criteria have a tetrahedron of weights, and hence shares.
+    // Only four criteria have a tetrahedron of weights, and hence winning fractions.
     if preferences.criteria.len() == FOUR {
         columns.push(share("fraction of all weights for which it is the best design"));
     }

@@ -1,4 +1,4 @@
-//! The measured values of a design.
+//! The single list of measured values. To add a column of a measure, add an entry here.
 //!
 //! To add a value, add a field to its measures, compute it there, and add an entry to [`VALUES`]:
 //!

@@ -25,7 +25,9 @@ pub struct Derivation {
     /// Part of the run that the tables covered, if the run was incomplete.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub made_from: Option<String>,
-    /// SHA-256 of the files of the product, by name in the folder, or by path for files elsewhere.
+    /// SHA-256 of the files of the product, by name.
+    ///
+    /// Files outside the folder are listed by path.
     pub files: BTreeMap<String, String>,
 }
 

@@ -71,7 +71,7 @@ pub struct SolvedDesign {
 pub struct FailureRow {
     /// Row of the design in `designs.csv`.
     pub design: DesignRow,
-    /// Reason why one of its measures has no value.
+    /// Reason why one of the measures of the design has no value.
     pub failure: Failure,
 }
 

@@ -39,7 +39,7 @@ pub struct Archive {
 pub struct LatestSession {
     /// Number of designs finished in the session.
     pub designs: u64,
-    /// Seconds from its start to the last finished design.
+    /// Seconds from the start of the session to its last finished design.
     pub seconds: f64,
 }
 

@@ -26,9 +26,9 @@ pub struct JournalEntry {
     /// The entry with the largest number is valid, wherever its line is.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub rerun: u64,
-    /// Seconds since the start of its session.
+    /// Seconds from the start of the session to the end of this design.
     pub at: f64,
-    /// Seconds taken to solve it.
+    /// Seconds that the solution of this design took.
     pub seconds: f64,
     /// Result of the design.
     pub result: DesignResult,

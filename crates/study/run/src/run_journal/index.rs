@@ -26,7 +26,7 @@ pub(crate) struct Index {
 pub(crate) struct Replaced {
     /// Offset of the earlier line.
     pub old: u64,
-    /// Offset of the line that replaces it.
+    /// Offset of the later line.
     pub new: u64,
 }
 

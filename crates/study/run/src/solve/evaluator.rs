@@ -118,7 +118,9 @@ impl Evaluator {
         solved(|| puncture::solve(design, &*substrate, common, &parameters)).ok()?.end
     }
 
-    /// Solves a design like [`Self::row`], or with derivatives by these `parameters` if given.
+    /// Solves a design like [`Self::row`], with derivatives if `parameters` are given.
+    ///
+    /// The derivatives are with respect to each of `parameters`.
     ///
     /// Also returns the end of its puncture, a start for similar designs.
     pub fn row_and_end(

@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-/// Number of blocks of a run of medium size. Remaining times are estimated from a few of them.
+/// Number of blocks of a run of medium size.
+///
+/// Remaining times are estimated from a few blocks.
 const BLOCKS: u64 = 1024;
 
 /// Maximum number of designs in a block. Neighbours share springs, which a cache holds only for a

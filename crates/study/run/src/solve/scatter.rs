@@ -48,7 +48,9 @@ pub(super) fn puncture(
     Ok(derivatives)
 }
 
-/// Returns the variation of the gap or slant of the scale `place` alone; 0 is the punctured one.
+/// Returns the variation of the gap or slant of the scale `place` alone.
+///
+/// Scale 0 is the punctured one.
 fn one_scale(
     case: &Case,
     input: &PunctureInput,

@@ -29,7 +29,7 @@ impl Wanted<'_> {
     fn contains(self, parameter: &Parameter) -> bool {
         let Self::Only(parameters) = self else { return true };
         parameters.iter().any(|listed| {
-            // The derivatives by the prefactor follow from the derivatives by a modulus.
+            // The derivative with respect to a modulus gives the one with respect to the prefactor.
             let gives_prefactor = listed.key == PREFACTOR && MODULI.contains(&parameter.key);
             listed.key == parameter.key || gives_prefactor
         })
@@ -144,7 +144,7 @@ pub(super) fn across(
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
-/// Critical force of another row of a case, with its derivatives by the parameters of the case.
+/// Critical force of another row of a case, with derivatives by parameter of the case.
 struct ForceDerivatives {
     puncture: Puncture,
     parameters: Vec<&'static Parameter>,

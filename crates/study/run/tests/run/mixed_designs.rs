@@ -1,4 +1,4 @@
-//! Random designs with every combination of features: how their paths end, and how long they take.
+//! Ends of paths and solution times of random designs with all combinations of features.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -126,7 +126,7 @@ fn outcomes(case: &Case) -> Vec<(&'static str, Outcome)> {
     outcomes
 }
 
-/// Paths that an event used to end numerically.
+/// Each design has a path with a rare event, which the solver passes.
 #[test]
 fn paths_pass_rare_events() {
     let expected = [
@@ -201,7 +201,7 @@ fn forces_do_not_depend_on_the_step() {
     assert!(100 * compared > 95 * (seeds.end - seeds.start), "{compared} of {seeds:?}");
 }
 
-/// At most one path in a hundred ends for a numeric reason, and no design takes more than 10 s.
+/// At most one path in a hundred ends numerically, and no design takes more than 10 s.
 #[test]
 #[ignore = "takes minutes; SQUAMA_HUNT=FROM..TO selects other seeds"]
 fn few_random_designs_stop_for_numerical_reasons() {

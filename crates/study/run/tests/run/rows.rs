@@ -179,7 +179,7 @@ fn gap_changes_reuse_the_values_of_a_known_design() {
     });
 }
 
-/// Derivatives by some parameters are the same as among all.
+/// Derivatives with respect to some parameters are the same as among all.
 #[test]
 fn selected_derivatives_equal_the_derivatives_among_all() {
     let keys = ["gap_over_t", "slant_deg", "c1", "needle_friction"];
@@ -191,7 +191,7 @@ fn selected_derivatives_equal_the_derivatives_among_all() {
         let mut all = evaluator.row(number, &case).result.sensitivity;
         all.retain(|derivative| keys.contains(&derivative.parameter));
         let mut some = evaluator.row_and_end(number, &case, Some(&chosen)).0.result.sensitivity;
-        // The modulus gives the derivatives by the prefactor of the contact law.
+        // The modulus gives the derivatives with respect to the prefactor of the contact law.
         some.retain(|derivative| keys.contains(&derivative.parameter));
         assert_eq!(some, all, "{index}");
         compared += some.len();

@@ -37,7 +37,9 @@ fn compare(case: &Case) -> usize {
     compare_with(case, is_long())
 }
 
-/// Compares each component and, if asked for, the derivative of each measure along its gradient.
+/// Compares each component of the gradients with differences.
+///
+/// If requested, also compares the derivative of each measure along its gradient.
 fn compare_with(case: &Case, along_gradients: bool) -> usize {
     let (derivatives, differences) = (derivatives(case), Differences::of(case));
     let compared = compare_components(case, &derivatives, &differences);

@@ -113,9 +113,9 @@ pub enum Problem {
     LengthInMm {
         /// The given value.
         value: String,
-        /// Keys and values that it is combined with.
+        /// Keys and values of the other parameters in the ratio.
         beside: String,
-        /// The parameter that follows from them.
+        /// Key of the resulting ratio.
         key: &'static str,
         /// Value of that parameter.
         found: String,
@@ -130,7 +130,7 @@ pub enum Problem {
     StepOrder {
         /// Smallest step.
         value: String,
-        /// The step that it exceeds, with its value.
+        /// Key and value of the other step, which is smaller.
         other: String,
     },
     /// The grid is too large.

@@ -36,7 +36,7 @@ pub(crate) struct Reader {
     refused: Vec<InvalidDefinition>,
 }
 
-/// An axis and its place in the definition.
+/// An axis and its position in the definition.
 #[derive(Debug)]
 struct WrittenAxis {
     axis: Axis,
@@ -327,7 +327,7 @@ impl Reader {
         Err(refuse(place, &path, wrong))
     }
 
-    /// Returns the values of a parameter, its dotted key and its place.
+    /// Returns the values of a parameter, its dotted key and its position in the definition.
     ///
     /// For a range these are its two ends.
     fn values(&self, key: &str) -> Option<(Vec<Scalar>, String, &Place)> {
@@ -413,7 +413,7 @@ impl Reader {
         Some(refuse(place, &key, Problem::Needs(format!("material.{}", key::THICKNESS))))
     }
 
-    /// Refuses a parameter at `place` if an alternative has a value, too.
+    /// Refuses a parameter if an alternative has a value, too.
     ///
     /// `gives` is false if the value of the parameter is a word that leaves it to the alternative.
     fn check_alternative(
@@ -467,7 +467,7 @@ impl Reader {
         )
     }
 
-    /// Returns the written parameters with their dotted keys and places.
+    /// Returns the written parameters with their dotted keys and positions.
     fn written(&self) -> impl Iterator<Item = (String, &'static Parameter, &Place)> {
         let shared = self.shared.iter().map(|(p, place)| (p.path(), *p, place));
         let axes = self.axes.iter().map(|WrittenAxis { axis, place }| {

@@ -91,7 +91,7 @@ impl Setting {
         }
     }
 
-    /// Returns the place of the setting.
+    /// Returns the position of the setting.
     pub fn place(&self) -> &Place {
         &self.place
     }

@@ -34,7 +34,7 @@ impl Parameter {
         Self::with(Role::InMm(self.key))
     }
 
-    /// Returns true if it is the parameter `key`, or the same length in mm.
+    /// Returns true if this parameter is `key`, or the length `key` in mm.
     pub(crate) fn is_or_determines(&self, key: &str) -> bool {
         // Exclude the pitch: if it counted as a gap, a definition with a pitch would also give a
         // gap, so every pitch would determine the length.
@@ -48,7 +48,7 @@ impl Parameter {
         if determines_length { Self::named(key::LENGTH) } else { self.over_t() }
     }
 
-    /// Returns true if it follows from a length in mm or from a modulus.
+    /// Returns true if a length in mm or a modulus determines this parameter.
     pub fn follows(&self, case: &Case) -> bool {
         given(case).any(|(in_mm, ..)| in_mm.determines(case).is_some_and(|of| of == self))
             || self.follows_modulus(case)

@@ -10,7 +10,7 @@ use crate::case::Case;
 pub enum Role {
     /// Axis of every grid.
     Geometry,
-    /// The measures are differentiable with respect to it.
+    /// The measures are differentiable with respect to the parameter.
     ///
     /// It is a number that describes the skin or its load, not the solver or the scatter.
     Continuous,
@@ -18,13 +18,13 @@ pub enum Role {
     Made,
     /// May vary from scale to scale.
     Scattered,
-    /// The springs of the substrate depend on it.
+    /// The springs of the substrate depend on the parameter.
     MovesSprings,
     /// Ends a puncture: a criterion of the study, without manufacturing deviations.
     EndsPuncture,
     /// Defines the end of bending.
     EndsBending,
-    /// The unit of the bending measures depends on it.
+    /// The unit of the bending measures depends on the parameter.
     UnitOfBending,
     /// Alternative to the parameter with that key.
     ///
@@ -35,7 +35,7 @@ pub enum Role {
 }
 
 impl Parameter {
-    /// Returns true if it has a role.
+    /// Returns true if the parameter has `role`.
     pub fn has(&self, role: Role) -> bool {
         self.roles.contains(&role)
     }

@@ -50,7 +50,7 @@ impl Parameter {
         }
     }
 
-    /// Returns the schema of its numbers; `None` for words.
+    /// Returns the schema of the numbers of a range; `None` for words.
     fn end_schema(&self) -> Option<Value> {
         Some(match &self.kind {
             ParameterKind::Number { range, .. }

@@ -38,7 +38,7 @@ fn invalid_keys_are_refused() {
     insta::assert_snapshot!(refused("", &[]));
 }
 
-/// Lengths and moduli of 1e-30 and 1e30 used to end in internal errors.
+/// Lengths and moduli of 1e-30 and 1e30 are refused without internal errors.
 #[test]
 fn extreme_lengths_and_moduli_are_refused() {
     let mut count = 0;

@@ -65,7 +65,9 @@ pub fn missed(missed: &[MissedRequirement]) -> String {
     if parts.is_empty() { String::new() } else { format!("{}.\n", parts.join(", ")) }
 }
 
-/// Lists the distance of the nearest design from each requirement, and those that its samples miss.
+/// Lists the distance of the nearest design from each requirement.
+///
+/// Adds the requirements that the samples of this design miss.
 pub fn shortfalls(unmet: &Unmet, of_samples: &[MissedRequirement]) -> String {
     let header = ["requirement", "nearest", "short by"].map(str::to_owned);
     let rows: Vec<_> =

@@ -112,7 +112,9 @@ impl RankReport<'_> {
         text
     }
 
-    /// Returns the rows of designs that are best by some criterion, each with a note that names it.
+    /// Returns the rows of designs that are best by some criterion.
+    ///
+    /// A note for each row names the criterion.
     fn notes(&self) -> Vec<(usize, String)> {
         let criteria = &self.preferences().criteria;
         let mut notes = Vec::new();

@@ -54,7 +54,9 @@ pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<(PageFront,
     Ok((front, failed.collect()))
 }
 
-/// Returns the nominal objectives; for a goal on yield only, the column of the first requirement.
+/// Returns the nominal objectives.
+///
+/// For a goal on yield only, returns the column of the first requirement.
 fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
     let objectives: Vec<Criterion> = nominal
         .objectives
@@ -111,7 +113,9 @@ fn differences(goal: &DesignGoal, grid: &FolderContents) -> Vec<String> {
     .collect()
 }
 
-/// Returns the value of a parameter that all designs of a sweep share; `None` if it varies.
+/// Returns the value of a parameter that all designs of a sweep share.
+///
+/// `None` if it varies.
 fn only_value(sweep: &Sweep, parameter: &Parameter) -> Option<Scalar> {
     match sweep.grid().axis(parameter.key) {
         Some(axis) => (axis.len() == 1).then(|| axis.value(0)),

@@ -65,7 +65,7 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
     text
 }
 
-/// Returns the first failure of the nominal design, if it was sought.
+/// Returns the first failure of the nominal design, if the sweep requests it.
 pub fn first_failure(design: &DesignTolerance) -> Option<&'static str> {
     Some(design.nominal.result.puncture?.measures.failure.mode?.name())
 }

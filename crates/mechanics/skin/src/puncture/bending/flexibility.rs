@@ -6,7 +6,7 @@ use geometry::Vec2;
 use super::Beam;
 use crate::contacts::{PairCoordinate, TouchingEdge};
 
-/// Value with its first and second derivative by the coordinate of a load.
+/// Value with its first and second derivative with respect to the position of a load.
 type Varying = [f64; 3];
 
 /// Force on a scale, which is a beam.
@@ -26,7 +26,9 @@ pub(super) struct BeamLoad {
     pub(super) curvature: [[f64; COORDINATES]; COORDINATES],
 }
 
-/// Flexibility `C_kl` of a scale with derivatives by the coordinates of the loads `k` and `l`.
+/// Flexibility `C_kl` of a scale.
+///
+/// Includes the derivatives with respect to the positions of the loads `k` and `l`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Flexibility {
     pub(super) value: f64,
@@ -226,7 +228,7 @@ fn integral([low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     half * (f(middle - offset) + f(middle + offset))
 }
 
-/// Integral of the product of two shear forces, with derivatives by their positions.
+/// Integral of the product of two shear forces, with derivatives in their positions.
 #[derive(Clone, Copy, Debug, Default)]
 struct Overlap {
     value: f64,

@@ -535,7 +535,7 @@ fn add_law(
     }
 }
 
-/// Adds `factor` times the slopes by the coordinates of a touch to a row.
+/// Adds `factor` times the slopes with respect to the coordinates of a touch to a row.
 pub(super) fn add_row(
     row: usize,
     columns: [usize; COORDINATES],

@@ -46,7 +46,9 @@ impl HistoryObserver {
     }
 }
 
-/// A history variable with its derivative by each parameter; `None` if unknown.
+/// A history variable and its derivative with respect to each parameter.
+///
+/// `None` if the derivative is unknown.
 pub(in crate::puncture) struct Anchor {
     kept: HistoryVariable,
     rates: Vec<Option<f64>>,

@@ -37,9 +37,9 @@ pub struct Passage {
     ///
     /// The needle then touches a corner or another scale, too. `None` if it never does.
     pub passing_force: Option<f64>,
-    /// `u*` there.
+    /// `u*` at the passing force.
     pub passing_displacement: Option<f64>,
-    /// Tilt of the punctured scale there, degrees.
+    /// Tilt of the punctured scale at the passing force, degrees.
     pub passing_tilt_deg: Option<f64>,
     /// Inward displacement of the needle on that face, over `t`.
     ///

@@ -179,7 +179,7 @@ fn stiff_elastic_scales_converge_to_rigid_ones() {
 
 /// The strongest design of the paper bends far before it tilts.
 #[test]
-fn a_slender_scale_ends_by_bending() {
+fn a_slender_scale_fails_by_bending() {
     let design = Design { gap: 0.1, length: 0.1, slant_deg: 75.0, base: Base::L, width: 1.0 };
     let solved = solve(&design, &elastic(9677.0));
     assert_eq!(solved.status, Status::Bent);

@@ -50,7 +50,7 @@ fn tangent_of_a_round_tip_matches_finite_differences() {
     assert_eq!(tip_states.len(), 4);
 }
 
-/// Compares derivatives by radius, position, length with solution differences.
+/// Compares derivatives in radius, position and length with differences of solutions.
 ///
 /// The tips are on a face, on a corner, and on two or three scales.
 #[test]
