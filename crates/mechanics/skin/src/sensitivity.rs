@@ -231,7 +231,7 @@ impl<S: Skin> Linearised<'_, S> {
             moved = here.moved(self.system, neighbours, self.turns);
             violated = here.violated(at_side, &moved[side]);
         }
-        // No equilibrium behind the changes, so no derivative on this side.
+        // No equilibrium exists after the changes, so there is no derivative on this side.
         SideMotion { moved: None, change: name }
     }
 

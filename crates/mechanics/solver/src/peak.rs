@@ -211,7 +211,7 @@ struct Segment<'a, S: System, F> {
     f: &'a F,
     /// Solved points by their fraction of the segment, including both ends.
     known: Vec<(f64, Equilibrium<S::Mode>)>,
-    /// Largest value inside and the index of its point in `known`.
+    /// Largest value inside the segment, and the index of its point in `known`.
     highest: Option<(f64, usize)>,
 }
 

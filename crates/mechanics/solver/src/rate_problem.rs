@@ -42,7 +42,7 @@ const MOST_REVERSALS: usize = 20;
 /// 0 ≤ ż_c  ⟂  ∂r_c/∂z ż ≥ 0     for those that meet,                                  (N6)
 /// ```
 ///
-/// in the mode behind the event. The solver uses principal pivoting (Cottle, Pang & Stone 2009,
+/// in the mode after the event. The solver uses principal pivoting (Cottle, Pang & Stone 2009,
 /// *The Linear Complementarity Problem*, ch. 4, isbn 978-0-89871-686-3):
 ///
 /// 1. A single monotone constraint that turns back needs no search (`end_growth`).
@@ -279,7 +279,7 @@ impl<S: System> Continuation<S> {
             valid.push(self.pivot(&mut next, change)?);
         }
         let leaving = self.direction(&mut next, arriving, valid.first().copied()).ok()?;
-        // Every change must be valid behind the event, even if its guard is not zero.
+        // Every change must be valid after the event, even if its guard is not zero.
         // Counterexample: two corners reach the ends of their edges within round-off. If both
         // change, stiff contacts turn this round-off into a decreasing force.
         for &constraint in &valid {
@@ -503,7 +503,7 @@ impl<S: System> Continuation<S> {
                 violated.push((constraint, slope));
             }
         }
-        // A monotone unknown must not decrease behind a kink, even if it is not zero.
+        // A monotone unknown must not decrease after a kink, even if it is not zero.
         for &constraint in self.system.monotone() {
             let rate = direction[self.system.constraints()[constraint]];
             if state.active[constraint] && rate < -FLOOR {
@@ -546,7 +546,7 @@ struct OutgoingBranch<M> {
     leaving: Vec<f64>,
     /// Constraints that have changed sides.
     changes: Vec<Change>,
-    /// Orientation (N7) behind the event.
+    /// Orientation (N7) after the event.
     is_positive: bool,
     /// Cosine of the angle by which the path turns.
     along: f64,

@@ -1,7 +1,7 @@
 //! Coverage branches: parts of the space in which the coverage is smooth.
 //!
 //! With the reach `S = tan α`, the pitch `p` and the gap `d`, all over `t`, the coverage rises to
-//! each peak `k` and falls behind it,
+//! each peak `k` and falls beyond it,
 //!
 //! ```text
 //! λ = 1 − k d/S,   (k − 1) p + d ≤ S ≤ k p;     λ = k (p − d)/S,   k p ≤ S ≤ k p + d     (O8)

@@ -158,7 +158,7 @@ impl Judge {
             return Judgement::Missing(bounds.all[missing].column.name().to_owned());
         }
         let margin = bounds.margin(values.iter().copied());
-        // As for sampled designs: other shortfalls are reported first.
+        // Check the fold last, as for sampled designs, so that other shortfalls are reported first.
         if margin >= 0.0 && self.requires_unfolded() && has_folded(row) {
             return Judgement::Folded;
         }

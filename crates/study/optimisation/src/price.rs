@@ -24,17 +24,18 @@ use crate::space::{Interval, SpacePoint};
 /// Distance, relative to its size, within which a limit counts as binding.
 const NEAR: f64 = 1e-5;
 
-/// As [`NEAR`], for a statistic: a search over samples converges less far.
+/// Like [`NEAR`], but for a statistic: a search over samples converges less accurately.
 const NEAR_SAMPLES: f64 = 1e-3;
 
 /// Fraction of the gradient that the multipliers may leave unbalanced.
 const BALANCED: f64 = 1e-3;
 
-/// As [`BALANCED`], for a certain optimum.
+/// Like [`BALANCED`], but for an optimum that needs no confirmation by further searches.
 const CERTAIN: f64 = 1e-5;
 
-/// As [`BALANCED`], for the nominal design of a sampled optimum: deviations keep it away from its
-/// limits.
+/// Like [`BALANCED`], but for the nominal design of a sampled optimum.
+///
+/// Deviations keep this design away from its limits.
 const ROUGHLY: f64 = 0.2;
 
 /// Fraction of the samples above which a missed requirement limits a sampled design.
@@ -95,7 +96,7 @@ pub(crate) fn bindings(
     Ok(bindings.collect())
 }
 
-/// Returns the limits of the nominal design behind a sampled optimum, with rough multipliers.
+/// Returns the limits of the nominal design of a sampled optimum, with rough multipliers.
 ///
 /// They are the requirements that samples miss, and ends of intervals. `nominal` judges nominal
 /// designs.

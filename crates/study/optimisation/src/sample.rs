@@ -111,7 +111,7 @@ impl SampleJudge {
     pub fn missed(&self, samples: &Samples) -> Vec<MissedRequirement> {
         let bounds = &self.bounds.all;
         let mut valid: Vec<&Vec<Option<f64>>> = samples.0.iter().collect();
-        // An impossible sample misses no bound in particular.
+        // An impossible sample has no values, so count it separately and not for each bound.
         valid.retain(|v| bounds.is_empty() || v[..bounds.len()].iter().any(Option::is_some));
         let mut counts = vec![(None, samples.0.len() - valid.len())];
         for (k, Bound { requirement, .. }) in bounds.iter().enumerate() {

@@ -339,7 +339,7 @@ impl Limits<'_> {
     /// Returns why a best design is best, by its limits and their multipliers.
     fn reason(&self, search: &Search<'_>, best: &BestDesign) -> Result<Option<String>, Halt> {
         let goal = &self.tightened;
-        // A yield has no multiplier, but the requirements behind it have.
+        // A yield has no multiplier, but the requirements that define the yield have.
         let Some(made) = best.confirmation.as_ref().filter(|_| goal.requires_yield()) else {
             return Ok(reason(goal, best, &best.bindings, false));
         };
@@ -465,7 +465,7 @@ fn sample_rows(
 fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     let Some(fitness) = &goal.fitness else { return Vec::new() };
     let judge = Judge::rescaling(&goal.nominal(), &fitness.ends);
-    // Invalid designs would stretch the scale beyond the values that a search can reach.
+    // Invalid designs would extend the ends beyond the values that a search can reach.
     rows.retain(|row| judge.is_whole(row));
     ends_over(fitness, goal.space.sweep(), &rows)
 }

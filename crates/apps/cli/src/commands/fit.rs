@@ -389,7 +389,7 @@ fn event_text(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String
         ),
         CurveEventKind::Drops => {
             format!(
-                "the {y} drops after line {line}, but the curve continues; the points are kept, to = … leaves them out"
+                "the {y} drops after line {line}, but the curve continues; the later points are kept (to = … leaves them out)"
             )
         }
         CurveEventKind::Held => {

@@ -49,7 +49,7 @@ fn any_number_of_threads_writes_the_same_bytes() {
 }
 
 #[test]
-fn the_record_of_a_run_repeats_it() {
+fn a_run_is_repeated_from_its_record() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --set contact.c1=0.7 --out a").assert().code(0);
     place.squama("run a/run.toml -q --out b").assert().code(0);

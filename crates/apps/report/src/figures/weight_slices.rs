@@ -241,7 +241,7 @@ fn short(weight: f64) -> f64 {
 mod tests {
     use super::{Dot, WeightSlices};
 
-    /// Returns slices of a grid in which each weighting has a best design of its own.
+    /// Returns slices of a grid in which each weighting has a different best design.
     fn slices(resolution: u32) -> WeightSlices {
         let all = (0..=resolution).flat_map(|m| {
             (0..=resolution - m).flat_map(move |n| {

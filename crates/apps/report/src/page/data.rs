@@ -88,7 +88,7 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
     })
 }
 
-/// Returns a criterion; only the criteria of the paper have a name of their own.
+/// Returns a criterion. Only the criteria of the paper have names.
 fn named_criterion(criterion: &Criterion) -> Value {
     let name = CRITERIA.contains(criterion).then_some(&criterion.name);
     json!({"column": criterion.column, "goal": criterion.goal.key(), "name": name})

@@ -149,7 +149,7 @@ fn a_force_that_has_vanished_before_changes_nothing() {
 }
 
 #[test]
-fn forces_that_cannot_act_next_do_not() {
+fn a_contact_does_not_start_a_force_that_its_next_state_lacks() {
     let forces = [0.3, 0.0, 0.0];
     for (contact, force) in
         [(Open, Force::Partner), (Open, Force::Flush), (Corner(BottomLeftOnBase), Force::Flush)]

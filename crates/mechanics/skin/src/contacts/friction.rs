@@ -20,7 +20,7 @@
 //! If the sides of a pair lie on each other, its two contacts slide along one line and only the sum
 //! of their friction matters. One of them, the *carrier*, then carries the friction of both; the
 //! other one is *shared*. Coinciding corners are *locked*: they keep the ratio `T/Λ` with which
-//! they met, which is the ratio for sliding on along the edge behind the corner. A corner at the
+//! they met, which is the ratio for sliding on along the edge beyond the corner. A corner at the
 //! position of a needle tip moves with the tip. While both slide the corner is locked with the
 //! ratio of sliding in that direction; while both stick only the sum of their friction matters, and
 //! tip and corner take equal fractions of their limits ([`TipFriction`]).
@@ -31,7 +31,7 @@ use solver::{Residual, Tangent};
 
 use super::{Contacts, LEVELS, SkinMode, SkinState};
 
-/// Slots of the friction constraints of a contact, behind the force constraints.
+/// Slots of the friction constraints of a contact, after the force constraints.
 pub(super) const STICK_MULTIPLIER: usize = FORCES;
 pub(super) const SLIP_DISTANCE: usize = FORCES + 1;
 

@@ -24,7 +24,7 @@ use super::beam::Beam;
 use super::system::Chain;
 use crate::contacts::SkinState;
 
-/// Unknowns of a free needle on an elastic scale, behind the load: depth and total tilt.
+/// Unknowns of a free needle on an elastic scale, after the load: depth and total tilt.
 pub(super) const BENDING_UNKNOWNS: usize = 2;
 
 /// Half-length over which a shear force is distributed, over the depth of the beam.

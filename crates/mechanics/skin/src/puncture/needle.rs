@@ -253,7 +253,7 @@ impl GuidedNeedle {
         })
     }
 
-    /// Returns the number of the tilt constraint, the first one behind the touches.
+    /// Returns the number of the tilt constraint, the first one after the touches.
     fn tilt_number(&self) -> usize {
         self.constraints_per_touch * self.slots
     }

@@ -267,7 +267,7 @@ impl<'a> Problem<'a> {
         RowLayout { needle: self.needle_unknowns(), contacts, ..layout }
     }
 
-    /// Counts the unknowns of the needle behind the load.
+    /// Counts the unknowns of the needle after the load.
     fn needle_unknowns(&self) -> usize {
         match self.reach() {
             Some(reach) => needle::unknowns(reach, self.parameters.needle.has_friction()),

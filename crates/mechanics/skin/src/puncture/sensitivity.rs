@@ -199,7 +199,7 @@ impl Problem<'_> {
             // Without a known point there is no derivative.
             let Some(state) = state else { continue };
             let system = path.system();
-            // Perturbed rows reach these points with histories of their own.
+            // Each perturbed row reaches these points with a different history.
             found.extend(match with(&anchors, state, &variations) {
                 Some(varied) => derivatives(system, spots, &varied, &self.settings),
                 None => missing(system, &spots, variations.len()),

@@ -156,7 +156,7 @@ impl FoldObserver {
         crossings
     }
 
-    /// Notes the stretch of a gap that stops narrowing, within or behind a segment.
+    /// Records the stretch of a gap that stops narrowing, within or beyond a segment.
     fn note_dip(
         &mut self,
         chain: &Chain,

@@ -37,7 +37,7 @@ fn a_path_stops_at_zero_load() {
     );
 }
 
-/// The peak does not depend on the end of the path behind it.
+/// The peak does not depend on the end of the path beyond the peak.
 #[test]
 fn the_peak_does_not_depend_on_the_end_of_the_path() {
     let design = design(0.1, 0.5, 45.0, Base::L);

@@ -137,7 +137,7 @@ fn a_stopped_path_keeps_its_initial_measures() {
 ///
 /// Beyond the end of the path it is the final force.
 #[test]
-fn force_at_a_depth_matches_a_snapshot_there() {
+fn force_at_a_depth_matches_the_snapshot_at_that_depth() {
     let design = design(0.2, 0.5, 60.0, Base::L);
     let end = solve(&design, &PunctureParameters::default()).measures;
     assert_eq!(end.force_at_depth, None);

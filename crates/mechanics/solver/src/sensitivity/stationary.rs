@@ -61,7 +61,9 @@ impl<M: Clone> AnchoredPoint<M> {
         None
     }
 
-    /// Solves for the point at a distance along the path, and returns it behind the slope of `f`.
+    /// Solves for the point at a distance along the path.
+    ///
+    /// Returns the slope of `f` at the point, and the point.
     fn with_slope<S: System<Mode = M>>(
         &self,
         system: &S,

@@ -86,7 +86,7 @@ fn a_thin_wall_within_one_step_is_not_missed() {
     }
 }
 
-/// By the secant of its guard, the nearer wall would lie behind the farther one.
+/// The secant of the guard of the nearer wall would predict it beyond the farther wall.
 #[test]
 fn the_nearer_of_two_walls_is_met_first() {
     let near: fn(f64) -> [f64; 2] =

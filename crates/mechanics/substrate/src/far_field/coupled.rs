@@ -14,7 +14,7 @@ const SETTLED: f64 = 1e-15;
 /// Infinite row of free scales coupled with `m` neighbours per side.
 ///
 /// Its blocks have `m` scales. Each block has the stiffness `D` for itself and `U` for the next
-/// block. A block with `n` more behind it has the stiffness `D − R_n`,
+/// block. A block followed by `n` more has the stiffness `D − R_n`,
 ///
 /// ```text
 /// R_0 = 0,   R_{n+1} = U (D − R_n)⁻¹ Uᵀ  →  R,      X_{j+1} = −(D − R)⁻¹ Uᵀ X_j         (S17)

@@ -61,7 +61,7 @@ fn a_required_yield_moves_the_gap_by_its_quantile() {
     let [low, high] = of.interval.map(|end| end.expect("an end"));
     assert!(low < high && (low..=high).contains(&of.value.expect("a yield")));
     assert!((of.value.expect("a yield") - 0.9).abs() < 4.0 * (0.09_f64 / 1000.0).sqrt() + 0.01);
-    // A yield has no multiplier. The limits behind it have, here S/(1 + d)² · λ/m = 0.47 %.
+    // A yield has no multiplier, but its limits have, here S/(1 + d)² · λ/m = 0.47 %.
     let reason = "coverage and slant_deg at its upper end 60 limit this design: \
                   with 1 % less required coverage, areal_mass_kg_m2 falls by about 0.47 %.";
     assert_eq!(best.reason.as_deref(), Some(reason));

@@ -331,7 +331,7 @@ fn preferences_are_written_beside_the_tables() {
 
 proptest! {
     #[test]
-    fn shares_sum_to_one(
+    fn winning_fractions_sum_to_one(
         rows in prop::collection::vec(prop::array::uniform4(1_u32..9), 1..30),
         resolution in 1_u32..9,
     ) {

@@ -526,7 +526,7 @@ fn add_law(
                 _ => 0.0,
             };
             // This sign keeps the sign of the determinant where a sliding tip stops. With the other
-            // sign the solver would take the equilibria behind that point for another branch and
+            // sign the solver would take the equilibria beyond that point for another branch and
             // stop.
             residual.add(row, at);
             residual.add(row, -meeting.xi());

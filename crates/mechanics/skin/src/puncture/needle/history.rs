@@ -5,7 +5,8 @@
 //! that event:
 //!
 //! ```text
-//! da/dq = ∂a/∂q + ∂a/∂z dz/dq   at the event,     dz/dq = −J⁻¹ (∂r/∂q + ∂r/∂a da/dq) + s v   behind it      (L6)
+//! da/dq = ∂a/∂q + ∂a/∂z dz/dq                            at the event
+//! dz/dq = −J⁻¹ (∂r/∂q + ∂r/∂a da/dq) + s v               after the event                     (L6)
 //! ```
 //!
 //! The second equation is (D2), applied to the systems for `q ± h` with their own history

@@ -230,7 +230,7 @@ impl Chain {
             let face =
                 place.next(onward).and_then(|next| seen(if is_corner { next } else { place }));
             let Some(face) = face else { return HOLDS };
-            // A corner is the end of the face before it and the start of the face behind it.
+            // A corner is the end of the face before it and the start of the face after it.
             let inside = if is_corner == onward { face.xi } else { face.length - face.xi };
             if is_corner { -inside } else { inside }
         })

@@ -18,7 +18,7 @@ pub(crate) struct RowLayout {
     pub(crate) left: usize,
     /// Scales to the right of the punctured one.
     pub(crate) right: usize,
-    /// Unknowns of a guided needle, behind the load; 0 for a free needle on rigid scales.
+    /// Number of unknowns of a guided needle after the load; 0 for a free needle on rigid scales.
     pub(crate) needle: usize,
     /// Contact unknowns of a scale with scales on its right.
     ///
