@@ -58,7 +58,7 @@ pub struct CheckedClaim {
 /// A statement of a claim, checked against the two studies.
 #[derive(Clone, Debug)]
 pub struct CheckedStatement {
-    /// Text of the statement; empty if the claim has no other statement.
+    /// Text of the statement; empty if the statement is the claim itself.
     pub says: String,
     /// The measured quantity.
     pub measured: String,

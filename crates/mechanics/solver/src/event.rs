@@ -303,7 +303,7 @@ impl<S: System> Continuation<S> {
         let condition = self.condition(from);
         let span = condition.measure(&beyond.state.z) - condition.value;
         let start = from.leaving[unknown];
-        // The patient rule reproduces the load extrema of earlier versions to the last digit.
+        // Another bracketing rule would change the last digits of load extrema in stored tables.
         let mut bracket = Bracket::patient((0.0, start), (span, beyond.direction[unknown]));
         for _ in 0..MAX_ROUNDS {
             let distance = bracket.secant();

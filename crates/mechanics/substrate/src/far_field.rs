@@ -78,7 +78,7 @@ impl FarField {
     }
 }
 
-/// Returns `u_k/u_0` of (S13), or of (S16) if the row ends after `scales` more.
+/// Returns `u_k/u_0` of (S13), or of (S16) if the row ends after `scales` further scales.
 fn decayed(r: f64, scales: Option<usize>, k: usize) -> f64 {
     // A row is always shorter than the range of `i32`.
     let decay = r.powi(k as i32);

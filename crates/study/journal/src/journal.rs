@@ -40,8 +40,7 @@ pub enum Start {
     /// Continues from existing results if definition, designs and program are the same.
     ///
     /// Lines with a valid checksum are trusted. An incomplete last line is cut off, and its design
-    /// is solved again; a damaged
-    /// line before intact ones is an error.
+    /// is solved again. A damaged line before intact lines is an error.
     Resume,
     /// Discards existing results.
     Fresh,

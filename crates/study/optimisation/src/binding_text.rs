@@ -96,7 +96,9 @@ impl<'a> BindingText<'a> {
         })
     }
 
-    /// Describes the gain by one step beyond an end of interval `j`; `sense` is more or less.
+    /// Describes the gain by one step beyond an end of interval `j`.
+    ///
+    /// `sense` is the word "more" or "less".
     fn wider(&self, j: usize, sense: &str, price: f64, objective: &Criterion) -> String {
         let interval = &self.goal.space.intervals()[j];
         let step = step(interval.length());

@@ -80,7 +80,7 @@ fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
             .or_else(|| (is_compliance && requirement.direction() > 0.0).then_some(open))
             .map_or(0.0, |value| requirement.margin(value).min(0.0))
     });
-    // A design with scales in contact at rest has no compliance at all.
+    // Contact in bending reduces the compliance, so a lower limit on it needs slack before contact.
     let touching = judge
         .requirements()
         .find(|r| r.column == COMPLIANCES[0] && r.direction() > 0.0)

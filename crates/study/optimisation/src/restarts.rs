@@ -254,7 +254,7 @@ impl BindingSurface {
                 },
                 _ => Some(contact_margin(&search.space.case(&point))),
             });
-            // A design without margins cannot be moved, so evaluate it where it is.
+            // A design without margins cannot be moved, so evaluate the unmoved point.
             let Some(margins) = margins.collect::<Option<Vec<f64>>>() else { break };
             let missing = DVector::from_iterator(margins.len(), margins.iter().map(|m| INSIDE - m));
             if missing.amax() < 0.9 * INSIDE {

@@ -305,8 +305,8 @@ impl ResultsFolder {
 
     /// Refuses to let `maker` write into a folder with files of other origin.
     ///
-    /// These are the journal of another maker, and files with its names but no journal.
-    /// [`Start::Fresh`] discards the latter.
+    /// Such files are the journal of another maker, and files with the names of results but without
+    /// a journal. [`Start::Fresh`] discards files without a journal.
     ///
     /// # Errors
     ///

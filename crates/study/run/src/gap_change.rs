@@ -21,7 +21,7 @@ const CLIFF: f64 = 1.5;
 /// Maximum number of paths per design, so that users do not have to wait.
 const MOST_WORK: u64 = 500;
 
-/// How long the solution of a design again may take.
+/// Limit on the time to solve a design with a changed gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Patience {
     /// Designs that take longer are not solved, because users wait, for example for a ranking.

@@ -29,7 +29,8 @@ pub(crate) fn sample(
         };
         let mut random = random(case, number, deviation.parameter().key);
         // Drawing again at a bound truncates the distribution there.
-        // Apply to the case so far: whether a load position is valid depends on earlier deviations.
+        // Apply each deviation to the case with the earlier ones, because they determine whether a
+        // load position is valid.
         let (moved, by) = (0..DRAWS).find_map(|_| {
             let by = draw(batch, &mut random);
             Some((deviation.applied(&made, by)?, by))

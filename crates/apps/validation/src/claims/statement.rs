@@ -14,7 +14,7 @@ use super::verdict::{Limits, Optimum, Verdict};
 pub(crate) struct Statement {
     /// The number of the claim, with a letter if it has several statements.
     pub(crate) id: String,
-    /// Text of the statement; empty if the claim has no other statement.
+    /// Text of the statement; empty if the statement is the claim itself.
     pub(crate) says: String,
     /// The measured quantity.
     pub(crate) measured: String,

@@ -51,7 +51,7 @@ pub struct BentSample {
     pub closing_range: Option<f64>,
     /// Number of equilibria on the path of the strip, or on the paths of its gaps.
     pub points: usize,
-    /// Number of Newton iterations along the paths of all gaps.
+    /// Number of Newton iterations that computed these equilibria.
     pub iterations: usize,
 }
 

@@ -430,7 +430,7 @@ impl Chain {
     /// Returns derivatives of depth and total tilt.
     ///
     /// For each, the derivatives with respect to motions and contact forces, then the derivative
-    /// with respect to the load of the scale itself.
+    /// with respect to the conjugate load: the needle force or a moment at the tip.
     pub(super) fn bending_loads(&self, state: &SkinState) -> [(Vec<(usize, f64)>, f64); 2] {
         let Some(rows) = self.bending_unknowns() else { return Default::default() };
         let mut entries: [Vec<(usize, f64)>; 2] = Default::default();

@@ -59,7 +59,7 @@ fn a_path_without_end_has_too_many_points() {
     assert_eq!(path.termination(), Some(Termination::TooManyPoints));
 }
 
-/// The limit is for the default steps, and these are a thousand times smaller.
+/// `max_work` holds for the default step size; steps a thousand times smaller raise the limit.
 #[test]
 fn smaller_steps_raise_the_limit_on_work() {
     let (first_step, max_step, max_work) = (2e-4, 2e-4, 3000);

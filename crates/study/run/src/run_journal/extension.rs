@@ -78,7 +78,7 @@ fn numbers(archive: &Archive, sweep: &Sweep) -> Option<Vec<(u64, u64)>> {
     let (old, new) = (archive.sweep().grid(), sweep.grid());
     let numbers = archive.finished().map(|index| {
         let case = old.case(index);
-        // Exactly equal, so that a fresh run would give the same tables.
+        // Require bitwise equal cases, so that a fresh run would give the same tables.
         let found = new.find(&case).filter(|found| new.case(*found) == case)?;
         Some((index, found))
     });
