@@ -79,8 +79,9 @@ pub struct Solids {
 }
 
 impl Patch {
-    /// Creates a patch from rows like `row` (lengths over `thickness`), with `scales` along and
-    /// across.
+    /// Creates a patch from rows like `row`, with `scales` along and across.
+    ///
+    /// The lengths of `row` are over `thickness`.
     ///
     /// # Errors
     /// If a length is out of range, or the number of scales is out of range.
@@ -321,7 +322,9 @@ impl Patch {
     }
 }
 
-/// Returns true if two convex polygons do not overlap: an edge of one of them separates them.
+/// Returns true if two convex polygons do not overlap.
+///
+/// An edge of one of them then separates them.
 fn are_apart(one: &[Vec2; 4], other: &[Vec2; 4]) -> bool {
     [(one, other), (other, one)].into_iter().any(|(polygon, points)| {
         (0..4).any(|k| {

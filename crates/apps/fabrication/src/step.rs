@@ -7,8 +7,9 @@ use nalgebra::Vector3;
 
 use crate::{Patch, Prism, Solids};
 
-/// The header: a product in millimetres with an accuracy of 1e-7 mm. Its representation (#20)
-/// follows the solids.
+/// The header of a product in millimetres with an accuracy of 1e-7 mm.
+///
+/// The representation (#20) of the product follows the solids.
 // The date is fixed, so that equal designs give equal files.
 const PRODUCT: &str = "ISO-10303-21;
 HEADER;

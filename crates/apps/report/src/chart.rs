@@ -30,8 +30,9 @@ impl Area {
         self.top + self.height
     }
 
-    /// Returns panel `k` of a grid that starts with this one, with the given spacing across and
-    /// down.
+    /// Returns panel `k` of a grid that starts with this one.
+    ///
+    /// The spacing is across and down.
     pub(crate) fn panel(self, k: usize, columns: usize, between: [f64; 2]) -> Self {
         let [column, row] = [k % columns, k / columns].map(|place| place as f64);
         let left = self.left + column * (self.width + between[0]);

@@ -50,15 +50,17 @@ const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 pub struct DesignCurves<'a> {
     /// The number of the design.
     pub number: String,
-    /// Parameters of the design. Curves are in mm and N if all designs have a thickness and a
-    /// modulus.
+    /// Parameters of the design.
+    ///
+    /// Curves are in mm and N if all designs have a thickness and a modulus.
     pub case: &'a Case,
     /// The path in puncture, if it was solved.
     pub puncture: Option<&'a Puncture>,
     /// The path in bending, if it was solved.
     pub flexure: Option<&'a Flexure>,
-    /// Curvature `t/R` of several bodies and the critical force on each; `None` without a critical
-    /// tilt.
+    /// Curvature `t/R` of several bodies and the critical force on each.
+    ///
+    /// `None` without a critical tilt.
     pub on_bodies: &'a [(f64, Option<f64>)],
     /// The limits of failure that are marked on the curve of the puncture.
     pub limits: &'a [FailureLimit],
@@ -67,8 +69,9 @@ pub struct DesignCurves<'a> {
 /// Measured curves, overlaid on the curves of designs.
 #[derive(Clone, Debug)]
 pub struct MeasuredCurves {
-    /// True for bending (moment against curvature), false for puncture (force against
-    /// displacement).
+    /// True for bending, false for puncture.
+    ///
+    /// Bending: moment against curvature. Puncture: force against displacement.
     pub bending: bool,
     /// True for physical units (mm and N, or 1/mm and N mm), false for dimensionless curves.
     pub is_physical: bool,

@@ -169,7 +169,9 @@ impl Designs {
         Self { table: Arc::new(self.table.only(rows)) }
     }
 
-    /// Returns the different texts of a column. Numbers that are equal up to round-off have one.
+    /// Returns the different texts of a column.
+    ///
+    /// Numbers that are equal up to round-off have one text.
     pub(crate) fn texts(&self, column: &str) -> BTreeSet<Cow<'_, str>> {
         self.groups(column).into_iter().collect()
     }

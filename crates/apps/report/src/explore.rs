@@ -113,8 +113,9 @@ const DEFAULT_THICKNESS: f64 = 1.0;
 /// Largest curvatures of a concave and a convex body with a control, in 1/mm and in 1/t.
 const BODIES: [[f64; 2]; 2] = [[-1.0 / 40.0, 1.0 / 8.0], [-1.0 / 20.0, 1.0 / 4.0]];
 
-/// The controls, with overlapping scales as the initial design. The page shows the first four, and
-/// the others on request.
+/// The controls, with overlapping scales as the initial design.
+///
+/// The page shows the first four, and the others on request.
 const OFFERED: [Offered; 14] = [
     (key::GAP, "Gap", [0.02, 1.0], 0.1, false),
     (key::LENGTH, "Length", [0.05, 2.0], 0.5, false),

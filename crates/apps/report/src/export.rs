@@ -240,7 +240,9 @@ fn unwritable(folder: &ResultsFolder, name: &str, reason: &str) -> ExportError {
     OutputError::file(&folder.file(name), &io::Error::other(reason.to_owned())).into()
 }
 
-/// Returns the message of a panic in one line; for a system error only its original message.
+/// Returns the message of a panic in one line.
+///
+/// For a system error, only its original message.
 fn said(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());

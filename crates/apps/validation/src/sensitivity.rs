@@ -45,8 +45,9 @@ pub struct Headlines {
     pub force: String,
     /// The best design with equal weights.
     pub balanced: String,
-    /// The best designs by each single criterion: coverage, critical force, penetration resistance,
-    /// compliance.
+    /// The best designs by each single criterion.
+    ///
+    /// The criteria are coverage, critical force, penetration resistance and compliance.
     pub corners: [String; 4],
 }
 

@@ -22,8 +22,9 @@ pub struct SurfaceFolds {
 }
 
 impl SurfaceFolds {
-    /// Compares studies on a linear and a neo-Hookean substrate, each with a base of `L` and of
-    /// `2L`.
+    /// Compares studies on a linear and a neo-Hookean substrate.
+    ///
+    /// Each study has bases of `L` and of `2L`.
     ///
     /// `claims` are the checked claims on either substrate.
     pub(crate) fn compare(

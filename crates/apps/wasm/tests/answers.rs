@@ -211,8 +211,9 @@ fn slopes_report_the_improving_direction() {
     assert_eq!(better("contact_curvature", "gap_over_t"), Some(1));
 }
 
-/// Solves a design of slant 60° and gap 0.2 with a further parameter, and returns its force and its
-/// last setting.
+/// Solves a design with a further parameter, and returns its force and its last setting.
+///
+/// The design has a slant of 60° and a gap of 0.2.
 fn on_body(definition: &str, key: &str, value: f64) -> (f64, String) {
     let mut set = json!({ "slant_deg": 60, "gap_over_t": 0.2 });
     set[key] = json!(value);

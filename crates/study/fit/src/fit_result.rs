@@ -199,8 +199,9 @@ const TOGETHER: f64 = 0.9;
 ///
 /// Independent residuals exceed it in one of 44 curves.
 const BEYOND_CHANCE: f64 = 2.0;
-/// Threshold for a rise of the fitted curve above the measured force before contact, in standard
-/// errors.
+/// Threshold for a rise of the fitted curve before contact, in standard errors.
+///
+/// The rise is relative to the measured force.
 const ABOVE_NOISE: f64 = 4.0;
 /// Minimum of such a rise, as a fraction of the largest force.
 const ABOVE_TOE: f64 = 0.01;

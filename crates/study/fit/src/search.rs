@@ -224,8 +224,9 @@ impl<'a> Residuals<'a> {
         found
     }
 
-    /// Searches for a local minimum from `start`, with the unknown `fixed` kept at its value in
-    /// `start`.
+    /// Searches for a local minimum from `start`.
+    ///
+    /// The unknown `fixed` keeps its value in `start`.
     pub(crate) fn minimise(
         &self,
         start: Vec<f64>,

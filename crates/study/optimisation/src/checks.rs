@@ -21,8 +21,9 @@ use crate::best::BestDesign;
 use crate::column::NumberColumn;
 use crate::goal::DesignGoal;
 
-/// Factor by which a tightened limit exceeds the predicted one, because the ratio of both models
-/// differs at the next best design.
+/// Factor by which a tightened limit exceeds the predicted limit.
+///
+/// The ratio of both models differs at the next best design.
 const SAFETY: f64 = 1.005;
 
 /// A best design solved with finer models.
@@ -43,8 +44,9 @@ pub struct DesignChecks {
 pub enum Check {
     /// Full substrate coupling.
     Coupling,
-    /// Other load positions with full coupling; the weakest of them, or one where the path ended
-    /// early, with its outcome.
+    /// Other load positions with full coupling.
+    ///
+    /// Holds the weakest position, or one where the path ended early, with its outcome.
     Places(f64, Outcome),
     /// New samples, and their number.
     Samples(usize),

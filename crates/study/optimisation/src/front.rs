@@ -200,7 +200,9 @@ impl Spacing {
     }
 }
 
-/// Searches the points of a curve: its ends and the quarters between, then ever finer halves.
+/// Searches the points of a curve in ever finer intervals.
+///
+/// The ends and the quarters come first, then halves of each interval.
 ///
 /// The first points search every region of the space. The others continue from the points on both
 /// sides, because the designs of a front change gradually along most of it.

@@ -18,14 +18,17 @@ const CHANGE: f64 = 0.01;
 struct Effect {
     name: String,
     is_requirement: bool,
-    /// The relaxed limit, e.g. `1 % less required coverage`; `None` where a percentage of the
-    /// limit has no meaning.
+    /// The relaxed limit, e.g. `1 % less required coverage`.
+    ///
+    /// `None` where a percentage of the limit has no meaning.
     relaxed: Option<String>,
     /// Gain over the value of the objective; `None` if the multiplier is unknown.
     gain: Option<f64>,
 }
 
-/// Returns a sentence with the limits of a best design, and the gain if the costliest is relaxed.
+/// Returns a sentence with the limits of a best design.
+///
+/// It also states the gain from a relaxation of the costliest limit.
 ///
 /// `goal` has the limits of the search, for nominal designs if `bindings` are rough.
 pub(crate) fn reason(

@@ -102,8 +102,9 @@ pub(crate) fn met(search: &Search<'_>, candidate: &Candidate, target: &Target) -
     }
 }
 
-/// Restarts near the best design of `history` until the best two searches agree, at most `most`
-/// times.
+/// Restarts near the best design of `history` until the best two searches agree.
+///
+/// At most `most` times.
 ///
 /// `ends` contains the objectives of earlier searches; objectives of restarts are appended. Returns
 /// all evaluated designs.

@@ -77,8 +77,9 @@ impl Interval {
         ((value - self.from) / self.length()).clamp(0.0, 1.0)
     }
 
-    /// Returns the multiples of the step in the interval, as factors of the step; `None` without a
-    /// step.
+    /// Returns the multiples of the step in the interval, as factors of the step.
+    ///
+    /// `None` without a step.
     pub(crate) fn multiples(&self) -> Option<RangeInclusive<i64>> {
         let step = self.step?;
         let first = (self.from / step - ROUND_OFF).ceil() as i64;

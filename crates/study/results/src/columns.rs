@@ -89,7 +89,9 @@ pub fn is_along_path(name: &str) -> bool {
     about(name).is_some_and(|(value, _)| value.is_along_path())
 }
 
-/// Returns true if a column has values only with the parameter `key`, or with an alternative to it.
+/// Returns true if a column has values only with the parameter `key`.
+///
+/// An alternative to the parameter also counts.
 ///
 /// The name may also be a derived one, such as a quantile.
 pub fn needs_parameter(name: &str, key: &str) -> bool {

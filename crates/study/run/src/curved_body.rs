@@ -44,8 +44,9 @@ pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
     })
 }
 
-/// Describes how much less force design `number` of `sweep` withstands on curved bodies; see
-/// [`curved_body_warning`].
+/// Describes the loss of force of design `number` of `sweep` on curved bodies.
+///
+/// See [`curved_body_warning`].
 pub fn flat_design_warning(sweep: &Sweep, number: &str) -> Option<String> {
     let grid = sweep.grid();
     // A design without a warning is not solved.

@@ -24,8 +24,9 @@ pub struct WeakestPlace {
     ///
     /// `None` if a path ended before it was reached.
     pub weakest: Option<f64>,
-    /// The weakest position, or the one where the path ended: 0 is the left corner of the top, 1
-    /// the right corner.
+    /// Weakest position, or the position at which the path ended early.
+    ///
+    /// 0 is the left corner of the top, 1 the right corner.
     pub place: f64,
     /// How the path at that position ended.
     pub outcome: Outcome,
@@ -55,8 +56,9 @@ impl WeakestPlace {
     }
 }
 
-/// Returns a design with full coupling at the requested load position, then at [`PLACES`]
-/// positions.
+/// Returns a design with full coupling at several load positions.
+///
+/// The requested position comes first, then [`PLACES`] positions.
 fn coupled_cases(case: &Case) -> Vec<Case> {
     let mut coupled = Case { coupling: Coupling::Full, ..*case };
     coupled.puncture.places = None;

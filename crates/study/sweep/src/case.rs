@@ -42,11 +42,13 @@ pub struct Case {
     pub flexure: flexure::FlexureParameters,
     /// Thickness of the substrate over the scale thickness. `None` for a half-space.
     pub tissue_thickness: Option<f64>,
-    /// Radius of the body below the skin over the scale thickness, negative for a concave body.
-    /// `None` if the curvature is given.
+    /// Radius of the body below the skin, over the scale thickness.
+    ///
+    /// Negative for a concave body. `None` if the curvature is given.
     pub body_radius: Option<f64>,
-    /// Other end of the range of radii over the scale thickness, if forces on several bodies are
-    /// compared.
+    /// Other end of the range of radii, over the scale thickness.
+    ///
+    /// Used if forces on several bodies are compared.
     pub body_radius_to: Option<f64>,
     /// Neighbours coupled to a scale by the substrate.
     pub coupling: Coupling,
@@ -155,8 +157,9 @@ impl Case {
         Some(self.for_critical_force(from + fraction * (to - from)))
     }
 
-    /// Returns this case on a body with the given curvature, without requests other than the
-    /// critical force.
+    /// Returns this case on a body with the given curvature.
+    ///
+    /// Only the critical force is requested.
     ///
     /// Lengths in mm are dropped, because they refer to this case.
     fn for_critical_force(&self, curvature: f64) -> Self {

@@ -97,8 +97,10 @@ impl NameKey {
     }
 }
 
-/// Keys that name materials or a body. The first key of a section may also be given as the value
-/// of the whole section, as in `material = "PLA"`.
+/// Keys that name materials or a body.
+///
+/// The first key of a section may also be given as the value of the whole section. An example is
+/// `material = "PLA"`.
 pub(crate) const NAME_KEYS: [NameKey; 3] = [
     NameKey { section: "material", key: "scale", known: SCALE_MATERIALS },
     NameKey { section: "material", key: "tissue", known: TISSUE_MATERIALS },

@@ -60,7 +60,9 @@ const HELD: usize = 25_000;
 
 /// Maximum number of designs solved again for their curves and their sensitivity to the gap.
 const SOLVED: usize = 120;
-/// Maximum number of designs drawn at the critical tilt: the best, and the best by each criterion.
+/// Maximum number of designs drawn at the critical tilt.
+///
+/// They are the best design and the best by each criterion.
 ///
 /// The page itself solves and draws all others.
 // Five, to keep the page of the paper below 2 MB, including the solver.
@@ -170,8 +172,9 @@ fn judged_modes(sweep: &Sweep) -> Vec<Fact> {
     facts.collect()
 }
 
-/// Describes how much less force a leading design withstands on curved bodies, if the sweep was
-/// solved flat.
+/// Describes the loss of force of a leading design on curved bodies.
+///
+/// Only for a sweep that was solved flat.
 ///
 /// Returns `None` if no leading design withstands less force.
 fn flat_body(sweep: &Sweep, rankings: &[Ranking<'_>]) -> Option<String> {

@@ -93,8 +93,9 @@ fn incomplete_unloading_is_explained() {
     assert_eq!(told, ["complete", "none", "jumps"], "{text}");
 }
 
-/// A round tip between two scales presses on both; the components along the load add up to the
-/// force.
+/// A round tip between two scales presses on both.
+///
+/// The components along the load add up to the force.
 #[test]
 fn design_writes_the_forces_of_a_round_tip() {
     let place = Place::with(FEW);

@@ -110,8 +110,9 @@ fn curves_mark_the_limits_of_a_design() {
     assert!(!figure.contains("class=\"limits\""), "{figure}");
 }
 
-/// Searches with the goal for a strong skin, and solves the result again to check every failure
-/// mode.
+/// Searches with the goal for a strong skin, and checks every failure mode.
+///
+/// The result is solved again for the check.
 #[test]
 fn the_advised_skin_fails_in_no_mode_below_its_failure_force() {
     let place = Place::new();

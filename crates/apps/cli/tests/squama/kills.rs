@@ -76,8 +76,9 @@ impl Campaign {
     }
 }
 
-/// Returns the number of runs: one for each number of threads and shards, or fifty in a long
-/// campaign.
+/// Returns the number of runs.
+///
+/// One for each number of threads and shards, or fifty in a long campaign.
 fn runs() -> usize {
     if crate::long_campaigns() { 50 } else { 9 }
 }

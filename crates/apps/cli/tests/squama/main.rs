@@ -102,8 +102,9 @@ impl Place {
         command
     }
 
-    /// Runs `squama` with a file size limit of `blocks` (512 or 1024 bytes each), and returns its
-    /// error.
+    /// Runs `squama` with a file size limit, and returns its error.
+    ///
+    /// The limit is `blocks` of 512 or 1024 bytes each.
     ///
     /// The command must fail.
     fn refused_on_a_full_disk(&self, blocks: u32, arguments: &str) -> String {

@@ -27,8 +27,9 @@ fn calibrate_prints_six_coefficients() {
     }
 }
 
-/// On a layer twice as thick as the scales, forces along the row couple with rotation and normal
-/// force.
+/// On a thin layer, forces along the row couple with rotation and normal force.
+///
+/// The layer is twice as thick as the scales.
 #[test]
 fn calibrate_prints_the_couplings_of_a_layer() {
     let place = Place::new();

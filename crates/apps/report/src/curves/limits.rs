@@ -13,8 +13,9 @@ use crate::svg::{Element, Spot, circle, line};
 pub struct FailureLimit {
     /// The mode of failure.
     pub mode: FailureMode,
-    /// `u*` at which the path first reaches the limit; `None` for a limit across the row, which has
-    /// a force alone.
+    /// `u*` at which the path first reaches the limit.
+    ///
+    /// `None` for a limit across the row, which has only a force.
     pub displacement: Option<f64>,
     /// `F*` at the limit.
     pub force: f64,

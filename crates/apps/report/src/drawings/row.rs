@@ -330,8 +330,9 @@ impl<'a> RowSheet<'a> {
         placed.collect()
     }
 
-    /// Returns the current position of the loaded point of the punctured scale; `None` without a
-    /// load.
+    /// Returns the current position of the loaded point of the punctured scale.
+    ///
+    /// `None` without a load.
     fn loaded_point(&self, state: &RowSnapshot) -> Option<Vec2> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();

@@ -20,7 +20,9 @@ pub(super) struct ColumnProfile {
     decimals: usize,
 }
 
-/// Numbers with at most this many decimals are shown as written; others are computed values.
+/// Numbers with at most this many decimals are shown as written.
+///
+/// Other numbers are computed values.
 const WRITTEN: usize = 4;
 /// Significant digits shown for the smallest number of a column.
 const DIGITS: i32 = 3;

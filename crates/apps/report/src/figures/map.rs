@@ -44,8 +44,9 @@ pub struct MapRequest {
     pub y: String,
     /// Column to show.
     pub of: String,
-    /// Fixed parameters by column name, with their values. A parameter may have several values.
-    /// The remaining ones have a map for each value.
+    /// Fixed parameters by column name, with their values.
+    ///
+    /// A parameter may have several values. The remaining parameters have a map for each value.
     pub at: Vec<(String, String)>,
     /// The paper of the figure.
     pub paper: Paper,

@@ -200,8 +200,9 @@ impl WeightSlices {
         names.into_iter().zip(spots).map(|(name, spot)| middle(name, spot, 12.0))
     }
 
-    /// Draws the letter of each listed design on its dot with the largest clearance from other
-    /// designs.
+    /// Draws the letter of each listed design on one of its dots.
+    ///
+    /// The dot has the largest clearance from other designs.
     fn letters(&self, dots: &[Dot], looks: &[RegionLook]) -> Element {
         Element::group("letters").containing(looks.iter().filter_map(|look| {
             let own = dots.iter().filter(|dot| dot.row == look.row);

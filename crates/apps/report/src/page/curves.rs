@@ -62,7 +62,9 @@ pub(super) fn figure(page: &Page, is_log: bool) -> Option<String> {
     (!inside.is_empty()).then(|| sheet(width, height, "Curves", inside))
 }
 
-/// Draws the curves of one kind, each scaled to the full panel, with all axes that may be needed.
+/// Draws the curves of one kind, each scaled to the full panel.
+///
+/// Includes all axes that may be needed.
 ///
 /// The page selects the axes for two curves and scales both curves to them. A logarithmic vertical
 /// axis is the same for all.
@@ -110,7 +112,9 @@ fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) 
     vec![whole.containing(drawn).containing([curves])]
 }
 
-/// Returns axes from 0 to `high`; the vertical one is replaced by a logarithmic axis, if any.
+/// Returns axes from 0 to `high`.
+///
+/// A logarithmic axis, if any, replaces the vertical axis.
 fn axes(labels: [&str; 2], logarithmic: Option<&ChartAxis>, high: f64) -> [ChartAxis; 2] {
     let [x, y] = labels.map(|label| ChartAxis::exact(label, 0.0, high));
     [x, logarithmic.cloned().unwrap_or(y)]

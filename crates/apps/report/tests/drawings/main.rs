@@ -127,7 +127,9 @@ fn the_passage_of_a_needle_is_marked_on_its_curve() {
     assert_eq!(marks, [[1, 1], [0, 0]]);
 }
 
-/// With friction, slipping contacts have rings, sticking ones discs; the caption counts both.
+/// With friction, slipping contacts have rings and sticking contacts discs.
+///
+/// The caption counts both.
 #[test]
 fn contacts_that_slip_have_rings() {
     let design = design(60.0);

@@ -5,7 +5,9 @@ use substrate::{Footprint, Springs, calibrate, extrapolated};
 
 use super::Benchmark;
 
-/// A gap (over `a`) at which the coupling of rectangles is below the precision of the references.
+/// Gap (over `a`) at which the coupling of rectangles is negligible.
+///
+/// The coupling is below the precision of the references.
 const ALONE: f64 = 1e5;
 
 /// Names of the six coefficients.

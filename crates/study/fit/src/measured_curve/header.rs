@@ -22,7 +22,9 @@ pub(super) struct Header {
 }
 
 impl Header {
-    /// Finds the header of the table below `above`: the given names, or the nearest row of names.
+    /// Finds the header of the table below `above`.
+    ///
+    /// The header is the given names, or the nearest row of names.
     ///
     /// Units in the row below are appended to the names.
     pub fn find(rows: &Rows, above: Range<usize>, given: Option<&[String]>) -> Self {

@@ -71,7 +71,9 @@ pub(crate) struct Branches {
     pub(crate) events: Vec<CurveEvent>,
 }
 
-/// Detects axes with reversed signs, for example of machines that count compression as negative.
+/// Detects axes with reversed signs.
+///
+/// Some machines count compression as negative.
 ///
 /// The displacement is reversed if it decreases from the start, and is negative or the force grows
 /// meanwhile, as for the position of a crosshead that moves down. The force is reversed if it

@@ -184,8 +184,9 @@ impl VerifiedFolder {
         Ok(file)
     }
 
-    /// Accepts tables that a spreadsheet saved again with the same values, and reports them to
-    /// `warn`.
+    /// Accepts tables that a spreadsheet saved again with the same values.
+    ///
+    /// Reports these tables to `warn`.
     #[must_use]
     pub fn warning(self, warn: fn(&str)) -> Self {
         Self { warn: Some(warn), ..self }

@@ -50,8 +50,9 @@ pub enum Outcome {
     Bent,
     /// The scales of a strip locked.
     Locked,
-    /// No quasi-static continuation: contacts can neither stick nor slip, or the path goes to and
-    /// fro without progress.
+    /// The path has no quasi-static continuation.
+    ///
+    /// Contacts can neither stick nor slip, or the path oscillates without progress.
     Jumps,
 }
 

@@ -16,8 +16,9 @@ use super::{Archive, Journal, JournalHeader, Line, edited};
 /// File in which the journal is rewritten.
 const REWRITTEN: &str = "journal.jsonl.new";
 
-/// Rewrites the journal in `folder` for the definition in `header`, if it contains all solved
-/// designs.
+/// Rewrites the journal in `folder` for the definition in `header`.
+///
+/// Only if the definition contains all solved designs.
 ///
 /// Returns a message if it did. Otherwise the journal stays, and the caller reports the difference.
 ///
@@ -72,8 +73,9 @@ fn axis_keys(sweep: &Sweep) -> BTreeSet<&'static str> {
     sweep.grid().axes().iter().map(|axis| axis.parameter().key).collect()
 }
 
-/// Returns the indices of the solved designs in the old and in the new grid, or `None` if the new
-/// grid lacks one.
+/// Returns the indices of the solved designs in the old and in the new grid.
+///
+/// `None` if the new grid lacks one.
 fn numbers(archive: &Archive, sweep: &Sweep) -> Option<Vec<(u64, u64)>> {
     let (old, new) = (archive.sweep().grid(), sweep.grid());
     let numbers = archive.finished().map(|index| {

@@ -133,8 +133,9 @@ impl Evaluator {
         self.row_of(number, case, wanted, &WorkMeter::default())
     }
 
-    /// Solves a design like [`Self::row_and_end`], with the puncture from the `end` of a similar
-    /// design.
+    /// Solves a design like [`Self::row_and_end`], but from a known path end.
+    ///
+    /// The puncture starts from the `end` of a similar design.
     ///
     /// `None` if the path must be followed from rest.
     pub fn row_near(

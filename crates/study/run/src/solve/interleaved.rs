@@ -7,14 +7,17 @@ use std::ops::Range;
 /// Remaining times are estimated from a few blocks.
 const BLOCKS: u64 = 1024;
 
-/// Maximum number of designs in a block. Neighbours share springs, which a cache holds only for a
-/// limited number of footprints.
+/// Maximum number of designs in a block.
+///
+/// Neighbours share springs, which a cache holds only for a limited number of footprints.
 const LARGEST: u64 = 64;
 
 /// Golden section: multiples of it, modulo 1, fill the interval evenly.
 const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
 
-/// Returns the positions in `ranges`, block by block, with consecutive blocks far from each other.
+/// Returns the positions in `ranges`, block by block.
+///
+/// Consecutive blocks are far from each other.
 ///
 /// The costliest designs of a grid are neighbours. The designs solved so far are a sample of all of
 /// them, so the remaining time can be extrapolated. The order depends on `ranges` alone.

@@ -77,8 +77,9 @@ fn the_load_across_is_as_far_from_the_edge_as_along() {
     assert!(inset > 1.02 * edge, "{inset} {edge}");
 }
 
-/// Beyond its bifurcation, round-off would decide in which direction a balanced block tilts, or
-/// whether it does.
+/// Round-off must not determine the tilt of a balanced block beyond its bifurcation.
+///
+/// Without a rule, round-off would determine whether and in which direction the block tilts.
 #[test]
 fn a_load_in_the_middle_tilts_blocks_across_but_not_along() {
     let text = "name = 'x'\nmeasures = 'puncture'\nsubstrate.coupling = 'full'\n[designs]\n\

@@ -165,7 +165,7 @@ fn forces(case: &Case, max_step: f64) -> (Outcome, [Option<f64>; 3]) {
     (punctured.outcome, [measures.critical_force, measures.fold_force, measures.failure.force])
 }
 
-/// Solves a design with the default step and with small steps, and asserts that the forces agree.
+/// Asserts that the forces with default steps and with small steps agree.
 ///
 /// Returns false, without a comparison, if a path ended for a numeric reason.
 fn compare_with_small_steps(seed: u64) -> bool {

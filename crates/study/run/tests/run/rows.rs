@@ -161,8 +161,9 @@ fn a_column_solved_alone_equals_the_column_of_a_whole_row() {
     assert!(compared > 100 && left_out > 500, "{compared} {left_out}");
 }
 
-/// `GapChange::beside` returns the same changes as `GapChange::solve`, which also solves the
-/// nominal design.
+/// `GapChange::beside` returns the same changes as `GapChange::solve`.
+///
+/// The latter also solves the nominal design.
 #[test]
 fn gap_changes_reuse_the_values_of_a_known_design() {
     for_each_skin(|sweep, index| {

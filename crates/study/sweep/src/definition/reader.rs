@@ -391,7 +391,9 @@ impl Reader {
         })
     }
 
-    /// Returns an error for every numerator of a ratio without the modulus that is its denominator.
+    /// Returns an error for every numerator of a ratio without its denominator.
+    ///
+    /// The denominator is a modulus.
     ///
     /// Measures use the ratios of a modulus or strength of the scales to the modulus of the
     /// substrate or of the membrane.

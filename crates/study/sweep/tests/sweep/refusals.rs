@@ -317,8 +317,9 @@ fn a_definition_with_millions_of_values_is_refused_before_parsing() {
     assert_eq!(error.lines().count(), 1);
 }
 
-/// Cases: no thickness, the same length in both units, all three of gap, length and pitch, out of
-/// bounds.
+/// Cases of invalid lengths in mm.
+///
+/// No thickness, the same length in both units, all of gap, length and pitch, out of bounds.
 #[test]
 fn invalid_scale_moduli_are_refused() {
     let scales = "material.scale_modulus_MPa = 3000\n";
