@@ -71,11 +71,17 @@ impl DesignChecks {
         let alone = goal.space.sweep().at(&best.row.case);
         let number = alone.grid().number(0).to_string();
         let columns = measures_among(goal.columns());
-        Self {
-            coupling: CouplingChange::solve(&alone, &number, &columns, Patience::Unlimited),
-            gaps: GapChange::solve(&alone, &number, &columns, Patience::Unlimited),
-            places: WeakestPlace::solve(&alone, &number, &columns),
-        }
+        let patience = Patience::Unlimited;
+        let ((coupling, gaps), places) = rayon::join(
+            || {
+                rayon::join(
+                    || CouplingChange::solve(&alone, &number, &columns, patience),
+                    || GapChange::solve(&alone, &number, &columns, patience),
+                )
+            },
+            || WeakestPlace::solve(&alone, &number, &columns),
+        );
+        Self { coupling, gaps, places }
     }
 }
 

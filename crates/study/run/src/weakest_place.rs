@@ -2,6 +2,7 @@
 
 use results::columns::{design_columns, is_invalid_after_fold, mode_column, name};
 use results::{Column, DesignRow, Outcome, Quantity};
+use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 use serde::Serialize;
 use skin::Status;
 use substrate::Coupling;
@@ -48,11 +49,15 @@ impl WeakestPlace {
             return Vec::new();
         }
         let evaluator = Evaluator::new(&sweep.plain_measures());
-        let requested = evaluator.row(own, &case);
-        let coupled: Vec<_> =
-            coupled_cases(&case).iter().map(|case| evaluator.row(own, case)).collect();
+        let mut rows: Vec<_> = [vec![case], coupled_cases(&case)]
+            .concat()
+            .par_iter()
+            .map(|case| evaluator.row(own, case))
+            .collect();
+        let coupled = rows.split_off(1);
+        let requested = &rows[0];
         let known = design_columns(sweep);
-        columns.iter().filter_map(|column| weakest(column, &requested, &coupled, &known)).collect()
+        columns.iter().filter_map(|column| weakest(column, requested, &coupled, &known)).collect()
     }
 }
 
