@@ -368,8 +368,10 @@ impl LocalSearch<'_> {
     ///
     /// Returns true if it converged to a design with a required yield.
     fn climb(&self, effort: Effort) -> Result<bool, Halt> {
-        if let Some(required) = self.required_yield() {
-            return self.yield_search(required, effort.yield_evaluations);
+        if let Some(required) = self.required_yield()
+            && let Some(converged) = self.yield_search(required, effort.yield_evaluations)?
+        {
+            return Ok(converged);
         }
         self.gradient_search(effort)?;
         Ok(false)

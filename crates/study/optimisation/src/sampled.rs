@@ -12,5 +12,4 @@
 //! design, but the margin `m₍ₖ₎` is continuous.
 
 pub(crate) mod confirmation;
-pub(crate) mod margins;
 pub(crate) mod search;

@@ -35,7 +35,6 @@ use crate::restarts::restart_evaluations;
 use crate::rounding::{self, Rounding};
 use crate::sample::MissedRequirement;
 use crate::sampled::confirmation::FRESH;
-use crate::sampled::margins;
 use crate::sampled::search::{NOMINAL_POINTS, REFINED, SEEDS, Searches};
 use crate::space::SpacePoint;
 use crate::space_filling;
@@ -216,9 +215,6 @@ fn region_count(search: &Search<'_>, history: &[Candidate]) -> usize {
 /// Number of searches with tighter limits after the first.
 const TIGHTER: usize = 3;
 
-/// Number of nominal searches with margins; deviations differ from design to design.
-const SAFER: usize = 2;
-
 /// The limits of the requirements in a search.
 struct Limits<'a> {
     /// The goal with the limits of the user.
@@ -310,30 +306,7 @@ impl Limits<'_> {
             .map(|goal| Judge::rescaling(goal, self.rescaled));
         let [nominal, sampled, finer] = judges.each_ref().map(|judge| Search { judge, ..*search });
         let searches = Searches { nominal: &nominal, sampled: &sampled, finer: &finer };
-        let first = self.with_margins(&searches, history, first)?;
         searches.answer(goal, history, first, plan)
-    }
-
-    /// Moves a nominal optimum away from its limits, towards the yield that the goal requires.
-    fn with_margins(
-        &self,
-        searches: &Searches<'_>,
-        history: &mut Vec<Candidate>,
-        first: Answer,
-    ) -> Result<Answer, Halt> {
-        let mut answer = first;
-        for _ in 0..SAFER {
-            let Answer::Optimum(best) = &answer else { break };
-            let safer = margins::with_margins(searches.sampled, &self.tightened, best)?;
-            let Some(safer) = safer else { break };
-            let mut known = history.clone();
-            let next = self.nominal_again(&safer, searches.nominal, &mut known, NOMINAL_POINTS)?;
-            if matches!(next, Answer::Infeasible(_)) {
-                break;
-            }
-            (answer, *history) = (next, known);
-        }
-        Ok(answer)
     }
 
     /// Returns why a best design is best, by its limits and their multipliers.

@@ -1,8 +1,8 @@
 //! Solves a design again at more load positions, with full coupling of the substrate.
 
+use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 use results::columns::{design_columns, is_invalid_after_fold, mode_column, name};
 use results::{Column, DesignRow, Outcome, Quantity};
-use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 use serde::Serialize;
 use skin::Status;
 use substrate::Coupling;

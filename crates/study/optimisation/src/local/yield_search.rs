@@ -6,7 +6,7 @@
 //! program, in which `e_k` is the largest excess over requirement `k` among the kept samples:
 //!
 //! ```text
-//! min ∇f·d    subject to    e_k + ∇c_k·d ≤ 0,    |d| ≤ r                                 (O12)
+//! min ∇f·d    subject to    e_k + ∇c_k·d ≤ 0,    |d| ≤ r                                 (O11)
 //! ```
 //!
 //! This is the scenario approach with discarded constraints (Campi & Garatti 2011, doi
@@ -61,35 +61,34 @@ const OVERSHOOT: [f64; 2] = [0.5, 4.0];
 const ROUNDS: usize = 10;
 
 impl LocalSearch<'_> {
-    /// Returns the index of the requirement of a yield, if no other statistic matters.
+    /// Returns the index of the requirement of a yield, if there is one.
     pub(super) fn required_yield(&self) -> Option<usize> {
-        let mut uses = self.search.judge.uses();
-        match (uses.next(), uses.next()) {
-            (Some((of @ StatisticUse::Requirement(k), _)), None) => {
-                self.search.judge.is_yield(of).then_some(k)
-            }
-            _ => None,
-        }
+        let judge = self.search.judge;
+        judge.uses().find_map(|(of, _)| match of {
+            StatisticUse::Requirement(k) => judge.is_yield(of).then_some(k),
+            StatisticUse::Objective(_) => None,
+        })
     }
 
     /// Improves the best design with at most `most` evaluations.
     ///
-    /// Returns true if no step promises a gain.
-    pub(super) fn yield_search(&self, required: usize, most: usize) -> Result<bool, Halt> {
+    /// Returns whether it converged: no step promises a gain. `None` if the design has no valid
+    /// judgement, or lacks a derivative, as a yield as the objective does.
+    pub(super) fn yield_search(&self, required: usize, most: usize) -> Result<Option<bool>, Halt> {
         let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, None, None) else {
-            return Ok(false);
+            return Ok(None);
         };
         let [mut radius, mut overshoot] = [REACH, OVERSHOOT[0]];
         let mut centre = self.best_shares();
         let Some(mut model) = YieldModel::at(self, &problem, &centre, required)? else {
-            return Ok(false);
+            return Ok(None);
         };
         let mut gain = f64::INFINITY;
         for _ in 0..most {
-            let Some(step) = model.step(&centre, radius, overshoot) else { return Ok(false) };
+            let Some(step) = model.step(&centre, radius, overshoot) else { break };
             gain = model.merit() - step.merit;
             if gain <= GAIN && model.excess() <= 0.0 {
-                return Ok(true);
+                return Ok(Some(true));
             }
             let next = YieldModel::at(self, &problem, &step.to, required)?;
             let gained =
@@ -115,7 +114,7 @@ impl LocalSearch<'_> {
                 break;
             }
         }
-        Ok(gain <= STALLED_GAIN && matches!(self.best_merit(), Merit::Met(_)))
+        Ok(Some(gain <= STALLED_GAIN && matches!(self.best_merit(), Merit::Met(_))))
     }
 }
 
