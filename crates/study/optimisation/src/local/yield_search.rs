@@ -57,6 +57,11 @@ const MARGINS: [f64; 2] = [1e-6, 1e-3];
 /// each step leaves about a quarter of the excess.
 const OVERSHOOT: [f64; 2] = [0.5, 4.0];
 
+/// Excess of the deciding sample from which the linear model is not used.
+///
+/// Such samples have usually jumped, as the compliance does at contact.
+const FAR: f64 = 0.5;
+
 /// Number of rounds in which samples are discarded.
 const ROUNDS: usize = 10;
 
@@ -72,23 +77,25 @@ impl LocalSearch<'_> {
 
     /// Improves the best design with at most `most` evaluations.
     ///
-    /// Returns whether it converged: no step promises a gain. `None` if the design has no valid
-    /// judgement, or lacks a derivative, as a yield as the objective does.
-    pub(super) fn yield_search(&self, required: usize, most: usize) -> Result<Option<bool>, Halt> {
+    /// Returns true if it converged: no step promises a gain.
+    pub(super) fn yield_search(&self, required: usize, most: usize) -> Result<bool, Halt> {
         let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, None, None) else {
-            return Ok(None);
+            return Ok(false);
         };
         let [mut radius, mut overshoot] = [REACH, OVERSHOOT[0]];
         let mut centre = self.best_shares();
         let Some(mut model) = YieldModel::at(self, &problem, &centre, required)? else {
-            return Ok(None);
+            return Ok(false);
         };
+        if model.excess() > FAR {
+            return Ok(false);
+        }
         let mut gain = f64::INFINITY;
         for _ in 0..most {
             let Some(step) = model.step(&centre, radius, overshoot) else { break };
             gain = model.merit() - step.merit;
             if gain <= GAIN && model.excess() <= 0.0 {
-                return Ok(Some(true));
+                return Ok(true);
             }
             let next = YieldModel::at(self, &problem, &step.to, required)?;
             let gained =
@@ -114,7 +121,7 @@ impl LocalSearch<'_> {
                 break;
             }
         }
-        Ok(Some(gain <= STALLED_GAIN && matches!(self.best_merit(), Merit::Met(_))))
+        Ok(gain <= STALLED_GAIN && matches!(self.best_merit(), Merit::Met(_)))
     }
 }
 
