@@ -368,10 +368,15 @@ impl LocalSearch<'_> {
     ///
     /// Returns true if it converged to a design with a required yield.
     fn climb(&self, effort: Effort) -> Result<bool, Halt> {
-        if let Some(required) = self.required_yield()
-            && self.yield_search(required, effort.yield_evaluations)?
-        {
-            return Ok(true);
+        if let Some(required) = self.required_yield() {
+            let converged = match self.yield_search(required, effort.yield_evaluations) {
+                // Its steps no longer move.
+                Err(Halt::Stalled) => matches!(self.best_merit(), Merit::Met(_)),
+                converged => converged?,
+            };
+            if converged {
+                return Ok(true);
+            }
         }
         // Where samples jump, the linear model of the yield search fails.
         self.gradient_search(effort)?;
