@@ -282,8 +282,8 @@ impl Patch {
                 rungs.extend([-half_base, half_base].map(|along| self.rung(&frame, along)));
             }
             rungs.push(self.rung(&self.frame(length), 0.0));
-            // A shifted row bends the membrane at different positions than its neighbours, so each row
-            // has its own strip.
+            // A shifted row bends the membrane at different positions than its neighbours, so each
+            // row has its own strip.
             let rows = if self.is_brick { self.scales[1] } else { 1 };
             if j < rows {
                 let from = if j == 0 { 0.0 } else { self.middle_before(j) };

@@ -13,16 +13,16 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// Creates a bracket that halves the value at the other end in every replacement.
+    /// Creates a bracket from two points with values of opposite signs.
     ///
-    /// The values have opposite signs.
+    /// Each replacement of one end halves the value at the other end.
     pub fn new(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { ends: [low, high], last: None }
     }
 
-    /// Creates a bracket that halves the value at the other end with delay.
+    /// Creates a bracket that halves values less often (Dowell and Jarratt).
     ///
-    /// It does so only after two successive replacements of the same end, as Dowell and Jarratt do.
+    /// The value at one end is halved after two successive replacements of the other end.
     pub fn patient(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { last: Some(1), ..Self::new(low, high) }
     }

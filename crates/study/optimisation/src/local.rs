@@ -1,7 +1,7 @@
 //! Local search: gradient steps, bundle steps and derivative-free steps.
 //!
 //! The bundle method follows ridges, where the gradient search stops at kinks. The derivative-free
-//! search handles jumps.
+//! search handles jumps. For a required yield, linear programs over the samples come first.
 
 mod bundle;
 mod certainty;

@@ -254,7 +254,8 @@ fn met(margins: &[f64]) -> usize {
 
 /// Returns the index of the sample that decides a required yield.
 ///
-/// The `count` samples are sorted by margin.
+/// The `count` samples are sorted by margin, so the index is also the number of samples that may
+/// miss a requirement.
 pub(crate) fn needed(requirement: &Requirement, count: usize) -> usize {
     let wanted = requirement.limit * count as f64;
     // The product may miss an integer by round-off.

@@ -39,7 +39,8 @@ class Result:
     def __init__(self, skin, solved):
         self.skin, self._solved = skin, solved
 
-    # Each property copies its values from the solver on first access. Pickling accesses all of them.
+    # Each property copies its values from the solver on first access. Pickling accesses all of
+    # them.
     @cached_property
     def _tables(self):
         return self._solved.tables()
