@@ -4,8 +4,6 @@ use std::hash::{Hash, Hasher};
 
 use geometry::OutOfRange;
 
-use crate::FootprintParameter;
-
 /// Bases of a row of scales as loaded areas of the substrate.
 ///
 /// They are rectangles `2a × b` at gaps `d`, with all lengths over the half-width `a`, on a
@@ -43,6 +41,21 @@ pub struct Bases {
     pub poisson_ratio: f64,
     /// Thickness `h` of the substrate; `None` for a half-space.
     pub thickness: Option<f64>,
+}
+
+/// Parameters of a footprint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FootprintParameter {
+    /// `d/a`.
+    Gap,
+    /// `b/a`.
+    Width,
+    /// `ν`.
+    PoissonRatio,
+    /// `h/a`.
+    Thickness,
+    /// The logarithm of all lengths over `a`, as for shrinking bases.
+    Size,
 }
 
 impl Bases {

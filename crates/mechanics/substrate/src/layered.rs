@@ -8,11 +8,10 @@
 //! it.
 
 use crate::boundary_element::{ARM, CellColumns, Load, ONE, Profile, Unresolved, row_reactions};
+use crate::extrapolation::{CAUTION, extrapolation};
 use crate::half_space::{CornerLine, Influence};
 use crate::layer::{Displacements, Layer};
 use crate::mesh::{GradedAxis, Mesh};
-use crate::row_stiffness::CAUTION;
-use crate::springs::extrapolation;
 use crate::{Coupling, Footprint, FootprintParameter, NEIGHBOURS, Neighbour, RowStiffness};
 
 use nalgebra::DMatrix;

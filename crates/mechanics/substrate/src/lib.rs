@@ -50,12 +50,14 @@
 pub mod boundary_element;
 mod cache;
 mod calibrations;
+mod extrapolation;
 mod far_field;
 mod footprint;
 pub mod half_space;
 pub mod layer;
 mod layered;
 pub mod mesh;
+mod row_solution;
 mod row_stiffness;
 mod springs;
 mod stiffness_slopes;
@@ -64,11 +66,11 @@ mod strip;
 pub mod table;
 
 pub use boundary_element::Unresolved;
-pub use calibrations::Calibrations;
+pub use calibrations::{Calibrations, calibrate};
 pub use far_field::{FarField, Relief};
-pub use footprint::{Bases, Footprint};
+pub use footprint::{Bases, Footprint, FootprintParameter};
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
-pub use springs::{Springs, calibrate, extrapolated};
-pub use stiffness_slopes::{FootprintParameter, StiffnessSlopes};
+pub use springs::{Springs, extrapolated};
+pub use stiffness_slopes::StiffnessSlopes;
 
 pub use strip::{SubstrateLaw, SurfaceStrip, neo_hookean};

@@ -3,22 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::table::{self, Differentiated};
-use crate::{Bases, Coupling, Footprint, RowStiffness, Unresolved, layered};
-
-/// Parameters of a footprint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FootprintParameter {
-    /// `d/a`.
-    Gap,
-    /// `b/a`.
-    Width,
-    /// `ν`.
-    PoissonRatio,
-    /// `h/a`.
-    Thickness,
-    /// The logarithm of all lengths over `a`, as for shrinking bases.
-    Size,
-}
+use crate::{Bases, Coupling, Footprint, FootprintParameter, RowStiffness, Unresolved, layered};
 
 /// Stiffness of a row with its derivatives with respect to the parameters of the footprint.
 ///
