@@ -8,7 +8,6 @@ use contact::{CornerEdge, Corners, Level, Pair, Pose};
 use geometry::{OutOfRange, Parallelogram, Row, UnevenRow, Vec2};
 use solver::Neighbours;
 
-use super::problem::FlexureProblem;
 use super::{FlexureInput, FlexureParameters};
 use crate::{Derivative, Design};
 
@@ -40,8 +39,13 @@ pub fn contact_curvature(
     design: &Design,
     parameters: &FlexureParameters,
 ) -> Result<Option<f64>, OutOfRange> {
-    let gap = BareGap::from_row(&design.row()?, parameters);
-    Ok(gap.closing_rotation(LARGEST_ROTATION).map(|rotation| rotation / gap.pair.offset().x))
+    Ok(contact_curvature_of_row(&design.row()?, parameters))
+}
+
+/// Returns the curvature `κ₁*` at which neighbours in this row first touch.
+pub(super) fn contact_curvature_of_row(row: &Row, parameters: &FlexureParameters) -> Option<f64> {
+    let gap = BareGap::from_row(row, parameters);
+    gap.closing_rotation(LARGEST_ROTATION).map(|rotation| rotation / gap.pair.offset().x)
 }
 
 /// Returns the curvature at which the first gap of an imperfect strip closes.
@@ -61,16 +65,6 @@ pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> 
         closing.map_or(first, |rotation| first.min(rotation / gap.width))
     });
     arc.is_finite().then(|| arc * row.gaps().iter().sum::<f64>() / row.length())
-}
-
-/// Returns true if the scales of a strip touch before its bending ends.
-pub(super) fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
-    let (gap, FlexureInput { design, common, parameters }) = (BareGap::from_input(input)?, input);
-    let row = design.leaning_row()?;
-    let end = FlexureProblem::of_row(row, design, common, parameters)?.end_curvature();
-    Ok(gap
-        .closing_rotation(LARGEST_ROTATION)
-        .is_some_and(|rotation| rotation / gap.pair.offset().x <= end))
 }
 
 /// Returns the derivatives of [`contact_curvature`] from the gap `g(θ, q)` that vanishes there:

@@ -3,7 +3,7 @@
 use geometry::OutOfRange;
 use solver::{Continuation, Neighbours};
 
-use super::first_contact::{curvature_derivatives, touches};
+use super::first_contact::{contact_curvature_of_row, curvature_derivatives};
 use super::measures::larger;
 use super::mesh::Resolution;
 use super::problem::{Bent, FlexureProblem};
@@ -248,6 +248,15 @@ impl FlexureProblem<'_> {
         ];
         points.map(|(point, quantity)| MeasuredPoint::new(point, [quantity])).into()
     }
+}
+
+/// Returns true if the scales of a strip touch before its bending ends.
+fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
+    let FlexureInput { design, common, parameters } = input;
+    let row = design.leaning_row()?;
+    let touching = contact_curvature_of_row(&row, parameters);
+    let end = FlexureProblem::of_row(row, design, common, parameters)?.end_curvature();
+    Ok(touching.is_some_and(|curvature| curvature <= end))
 }
 
 /// Fills unknown derivatives at sticking points by differences of whole solutions.
