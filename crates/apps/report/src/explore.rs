@@ -8,7 +8,7 @@ use serde_json::Value;
 use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key};
 
 use crate::packed::in_sevens;
-use crate::page::{ELEMENTS, escaped, fill, fill_head, fill_json};
+use crate::template::{ELEMENTS, escaped, fill, fill_head, fill_json};
 
 const PAGE: &str = concat!(
     include_str!("../assets/page/head.html"),

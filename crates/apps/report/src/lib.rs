@@ -61,6 +61,7 @@ mod png;
 mod search_page;
 mod spreads;
 mod svg;
+mod template;
 
 pub use curves::{DesignCurves, FailureLimit, MeasuredCurves, curves};
 pub use designs::Designs;

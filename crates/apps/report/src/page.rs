@@ -14,10 +14,10 @@ use std::io::{self, Write};
 
 use ranking::Criterion;
 use serde::Serialize;
-use text::visible;
 
 use crate::designs::Designs;
 use crate::explore::{self, Explorer};
+use crate::template::{ELEMENTS, fill, fill_head, fill_json};
 pub use front::PageFront;
 
 const PAGE: &str =
@@ -30,8 +30,6 @@ const STYLES: [&str; 5] = [
     include_str!("../assets/page/styles/table.css"),
     include_str!("../assets/page/styles/media.css"),
 ];
-/// Basic functions for elements, on every page.
-pub(crate) const ELEMENTS: &str = include_str!("../assets/page/scripts/elements.js");
 /// The script that unpacks the table.
 const UNPACKING: &str = include_str!("../assets/page/scripts/table-data.js");
 /// The scripts that need the table, in the order in which they run.
@@ -153,41 +151,4 @@ impl Page {
             _ => fill_head(out, place, &self.name, &self.version),
         })
     }
-}
-
-/// Writes `template`; the function `filled` writes the content of each `{{place}}`.
-pub(crate) fn fill<W: Write>(
-    out: &mut W,
-    template: &str,
-    mut filled: impl FnMut(&mut W, &str) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut parts = template.split("{{");
-    out.write_all(parts.next().unwrap_or_default().as_bytes())?;
-    for part in parts {
-        let (place, text) = part.split_once("}}").unwrap_or((part, ""));
-        filled(out, place)?;
-        out.write_all(text.as_bytes())?;
-    }
-    Ok(())
-}
-
-/// Writes a part of the head or foot of a page.
-pub(crate) fn fill_head(
-    out: &mut impl Write,
-    place: &str,
-    title: &str,
-    version: &str,
-) -> io::Result<()> {
-    let text = if place == "title" { escaped(&visible(title)) } else { escaped(version) };
-    out.write_all(text.as_bytes())
-}
-
-/// Writes data as JSON, with `</script` and `<!--` escaped.
-pub(crate) fn fill_json(out: &mut impl Write, data: &impl Serialize) -> io::Result<()> {
-    out.write_all(serde_json::to_string(data)?.replace('<', "\\u003c").as_bytes())
-}
-
-pub(crate) fn escaped(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-    text.replace('"', "&quot;").replace('\'', "&#39;")
 }

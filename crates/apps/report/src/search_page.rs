@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use crate::page::{escaped, fill, fill_head};
+use crate::template::{escaped, fill, fill_head};
 
 const PAGE: &str =
     concat!(include_str!("../assets/page/head.html"), include_str!("../assets/page/search.html"));
