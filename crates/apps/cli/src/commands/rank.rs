@@ -2,6 +2,7 @@
 
 mod answer;
 mod checks;
+mod columns;
 mod gap_changes;
 mod record;
 mod report;

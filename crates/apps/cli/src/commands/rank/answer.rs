@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use sweep::Sweep;
 
 use super::super::answer::{DesignAnswer, limit_text};
+use super::columns::preferred_columns;
 use super::gap_changes::{cell, missed, words};
-use super::report::preferred_columns;
 use crate::print::{FOLDED, aligned, digits, marked};
 
 /// Headers of the table; a column without a value is left out.

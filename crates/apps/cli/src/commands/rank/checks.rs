@@ -5,8 +5,7 @@ use results::Results;
 use results::columns::is_invalid_after_fold;
 use run::{CouplingChange, GapChange, Patience};
 
-use super::gap_changes::measured_columns;
-use super::report::is_folded;
+use super::columns::{is_folded, measured_columns};
 
 /// Maximum number of designs that are checked, so that users do not have to wait.
 const MOST: usize = 50;

@@ -1,10 +1,11 @@
 //! Sensitivity of the best designs to their gaps, as text.
 
-use ranking::{Preferences, RankedDesign, Ranking, Requirement, Weights};
+use ranking::{RankedDesign, Ranking, Requirement, Weights};
 use rayon::prelude::*;
 use results::Results;
-use results::columns::measures_among;
 use run::{CouplingChange, GapChange, MeasureChange, Patience};
+
+use super::columns::measured_columns;
 
 /// Changes by this factor or its inverse are printed as factors.
 const LARGE: f64 = 2.0;
@@ -58,12 +59,6 @@ pub fn couplings(
     }
     let patience = Patience::Milliseconds;
     numbers.iter().filter_map(|n| CouplingChange::solve(sweep, n, &columns, patience)).collect()
-}
-
-/// Returns the measured columns among the criteria and requirements.
-pub fn measured_columns(preferences: &Preferences) -> Vec<&str> {
-    let criteria = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
-    measures_among(criteria.chain(preferences.requirements.iter().map(|r| r.column.as_str())))
 }
 
 /// Formats both changes of a measure.

@@ -6,7 +6,8 @@ use results::columns::mode_column;
 use run::GapChange;
 use serde_json::{Map, Value, json};
 
-use super::report::{RankReport, judged_modes, preferred_columns};
+use super::columns::preferred_columns;
+use super::report::{RankReport, judged_modes};
 use crate::json;
 
 /// Returns the ranking with the checks of the best designs as JSON.

@@ -6,12 +6,13 @@ use ranking::{
     CRITERIA, Preferences, RankedDesign, Ranking, Scale, Unmet, UnmetRequirement, Weights,
 };
 use results::Results;
-use results::columns::{is_invalid_after_fold, mode_column, name, parameter_of};
+use results::columns::{is_invalid_after_fold, mode_column, parameter_of};
 use run::{CouplingChange, GapChange};
 use sweep::JudgedModes;
 
 use super::answer::RankedAnswer;
 use super::checks::Checks;
+use super::columns::{is_folded, preferred_columns};
 use crate::print::{FAILED, FOLDED, aligned, counted, digits, shortfall};
 
 /// Maximum number of named designs that are best for some weights.
@@ -221,12 +222,6 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     columns
 }
 
-/// Returns the columns of criteria and requirements.
-pub fn preferred_columns(preferences: &Preferences) -> impl Iterator<Item = &str> {
-    let criteria = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
-    criteria.chain(preferences.requirements.iter().map(|requirement| &*requirement.column))
-}
-
 /// Returns the failure modes that the best design is judged by, if a failure force is shown.
 pub fn judged_modes(results: &Results, ranking: &Ranking<'_>) -> Option<JudgedModes> {
     let preferences = ranking.preferences();
@@ -234,11 +229,6 @@ pub fn judged_modes(results: &Results, ranking: &Ranking<'_>) -> Option<JudgedMo
     let best = ranking.winner(preferences.weights);
     let grid = results.definition()?.grid();
     grid.case(grid.parse_number(best.design()).ok()?).judged_modes()
-}
-
-/// Returns true if the surface of the substrate folds before the puncture ends.
-pub fn is_folded(results: &Results, row: usize) -> bool {
-    results.column(name::FOLD_FORCE).is_ok_and(|fold| !results.table().is_empty(row, fold))
 }
 
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
