@@ -4,6 +4,7 @@ mod critical_force;
 mod evidence;
 mod flexure;
 mod gather;
+mod measured_number;
 mod measurements;
 mod puncture;
 mod statement;

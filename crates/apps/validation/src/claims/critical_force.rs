@@ -2,7 +2,7 @@
 
 use super::digits;
 use super::evidence::Evidence;
-use super::statement::Measured;
+use super::measured_number::Measured;
 use super::statistics::{DesignValue, GAP, LENGTH, SLANT, explained};
 use crate::study::MeasuredDesign;
 

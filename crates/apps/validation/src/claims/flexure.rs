@@ -2,7 +2,7 @@
 
 use super::digits;
 use super::evidence::{BentStrip, BestDesigns, Evidence};
-use super::statement::Measured;
+use super::measured_number::Measured;
 
 /// A strip softens if its slope falls below this fraction of its maximum.
 const SOFTENS: f64 = 0.9;

@@ -1,14 +1,23 @@
 //! The measurement for each statement.
 
+use Measurement::{Best, Number};
 use critical_force::{FORCE, INITIAL_STIFFNESS, LARGEST_STIFFNESS};
 use puncture::trend;
 
-use super::evidence::{Evidence, LoadedRow, PunctureCurve};
-use super::statement::Measured;
-use super::statement::Measurement::{self, Best, Number};
+use super::evidence::{BestDesigns, Evidence, LoadedRow, PunctureCurve};
+use super::measured_number::Measured;
 use super::statistics::{GAP, LENGTH, SLANT, TrendSteps};
 use super::{critical_force, digits, flexure, named, puncture};
 use crate::study::MeasuredDesign;
+
+/// The measurement that decides a statement.
+#[derive(Clone, Copy)]
+pub(crate) enum Measurement {
+    /// A number that must lie within limits.
+    Number(fn(&Evidence) -> Option<Measured>),
+    /// The designs with a largest value, which must be the paper's.
+    Best(fn(&Evidence) -> Option<BestDesigns>),
+}
 
 /// Returns the measurement for the statement with this number.
 pub(super) fn measurement(id: &str) -> Option<Measurement> {

@@ -2,7 +2,7 @@
 
 use super::digits;
 use super::evidence::{Evidence, PunctureCurve};
-use super::statement::Measured;
+use super::measured_number::Measured;
 use super::statistics::TrendSteps;
 
 pub(super) fn at_slant(evidence: &Evidence, slant: f64) -> Option<&PunctureCurve> {

@@ -3,10 +3,8 @@
 use anyhow::Context as _;
 use serde::Deserialize;
 
-use super::digits;
-use super::evidence::{BestDesigns, Evidence};
-use super::measurements::measurement;
-use super::statistics::TrendSteps;
+use super::evidence::Evidence;
+use super::measurements::{Measurement, measurement};
 use super::verdict::{Limits, Optimum, Verdict};
 
 /// A statement of a claim, as in the table.
@@ -20,35 +18,6 @@ pub(crate) struct Statement {
     pub(crate) measured: String,
     /// The limits for reproduction in full and in part.
     pub(crate) limits: String,
-}
-
-/// The measurement that decides a statement.
-#[derive(Clone, Copy)]
-pub(crate) enum Measurement {
-    /// A number that must lie within limits.
-    Number(fn(&Evidence) -> Option<Measured>),
-    /// The designs with a largest value, which must be the paper's.
-    Best(fn(&Evidence) -> Option<BestDesigns>),
-}
-
-/// A measured number, with its text for the page.
-pub(crate) struct Measured {
-    pub(crate) value: f64,
-    pub(crate) shown: String,
-}
-
-impl Measured {
-    /// Returns the percentage of steps in the expected direction.
-    pub(crate) fn steps(steps: TrendSteps) -> Option<Self> {
-        let value = steps.percent()?;
-        Some(Self { value, shown: format!("{} %: {steps}", digits(value)) })
-    }
-}
-
-impl From<f64> for Measured {
-    fn from(value: f64) -> Self {
-        Self { value, shown: digits(value) }
-    }
 }
 
 /// The verdict on a statement, with the result behind it.
