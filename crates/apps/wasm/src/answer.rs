@@ -3,12 +3,11 @@
 pub(crate) mod definition;
 
 use ranking::Requirement;
-use results::columns::{Goal, plain_goal};
+use results::columns::{Goal, design_columns, plain_goal};
 use results::{Cell, Column, DesignRow, ParameterDerivative, Quantity};
 use serde::Serialize;
-use sweep::Case;
+use sweep::{Case, Sweep};
 
-use crate::follow::Followed;
 use crate::path::{BentStrip, PuncturedRow};
 
 /// A solved design.
@@ -107,9 +106,28 @@ pub struct Closest {
     pub values: Vec<(&'static str, f64)>,
 }
 
+/// The end of following a parameter.
+#[derive(Clone, Debug, Serialize)]
+pub struct Followed {
+    /// The key of the parameter.
+    pub key: String,
+    /// The last value before the limit.
+    pub value: f64,
+    /// A short description of the limit.
+    pub reason: String,
+}
+
 impl Value {
+    /// Returns the columns of a design that have a value.
+    pub(crate) fn all(sweep: &Sweep, row: &DesignRow) -> Vec<Self> {
+        design_columns(sweep)
+            .iter()
+            .filter_map(|column| Self::new(column, &column.cell(row)))
+            .collect()
+    }
+
     /// Creates the value of a column; `None` for an empty cell.
-    pub(crate) fn new(column: &Column<DesignRow>, cell: &Cell) -> Option<Self> {
+    fn new(column: &Column<DesignRow>, cell: &Cell) -> Option<Self> {
         let (name, text) = (column.name.clone().into_owned(), cell.to_string());
         let value =
             Self { name, unit: column.unit, meaning: column.meaning, value: cell.number(), text };

@@ -3,28 +3,15 @@
 use ranking::Requirement;
 use results::columns::{Goal, name, plain_goal};
 use run::Evaluator;
-use serde::Serialize;
 use sweep::{Case, Sweep};
 
-use crate::answer::{Required, Value};
+use crate::answer::{Followed, Required, Value};
 use crate::request::{Follow, Setting, put};
-use crate::solver::values;
 
 /// Number of steps over the whole range; features narrower than a step may be missed.
 const STEPS: u32 = 24;
 /// Number of bisections of the last step, down to less than the resolution of a slider.
 const HALVINGS: u32 = 10;
-
-/// The end of following a parameter.
-#[derive(Clone, Debug, Serialize)]
-pub struct Followed {
-    /// The key of the parameter.
-    pub key: String,
-    /// The last value before the limit.
-    pub value: f64,
-    /// A short description of the limit.
-    pub reason: String,
-}
 
 /// An evaluated design.
 struct Look {
@@ -53,7 +40,7 @@ pub(crate) fn follow(
     let look = |value: f64| -> Result<Look, String> {
         let case = put(case, &walk.key, &Setting::Number(value))?;
         let sweep = sweep.at(&case);
-        let values = values(&sweep, &evaluator.row(sweep.grid().number(0), &case));
+        let values = Value::all(&sweep, &evaluator.row(sweep.grid().number(0), &case));
         let sign = if plain_goal(&walk.measure) == Some(Goal::Minimize) { -1.0 } else { 1.0 };
         Ok(Look {
             worth: Value::number(&values, &walk.measure).map(|value| sign * value),

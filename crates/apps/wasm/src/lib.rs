@@ -35,8 +35,7 @@ mod path;
 mod request;
 mod solver;
 
-pub use answer::{Answer, Closest, Required, Slope, Units, Value};
-pub use follow::Followed;
+pub use answer::{Answer, Closest, Followed, Required, Slope, Units, Value};
 pub use path::{BentStrip, PuncturedRow};
 pub use request::{Follow, Request, Setting};
 pub use solver::Solver;

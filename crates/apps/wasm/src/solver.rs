@@ -1,7 +1,7 @@
 //! The solver that answers requests.
 
 use ranking::Requirement;
-use results::columns::{design_columns, name};
+use results::columns::name;
 use results::{DesignRow, SolvedDesign};
 use run::{Evaluator, GapChange, Patience, validity_warnings};
 use skin::Imperfection;
@@ -77,7 +77,7 @@ impl Solver {
         let flexure =
             solved.flexure.as_ref().map(|path| bent(&smooth, request.fine, path, drawn[1]));
         let row = &solved.row;
-        let values = values(&own, row);
+        let values = Value::all(&own, row);
         let change = request.fine.then(|| gap_change(&own, row)).flatten();
         let walk =
             request.follow.as_ref().map(|walk| follow(&own, &case, walk, &requirements, evaluator));
@@ -155,12 +155,4 @@ fn bent(case: &Case, is_fine: bool, path: &Flexure, drawn: f64) -> BentStrip {
     BentStrip::new(case, fine.as_ref().unwrap_or(path), drawn, |rotation| {
         flexure::snapshots(design, common, parameters, &[rotation]).ok()?.pop()?
     })
-}
-
-/// Returns the columns of a design that have a value.
-pub(crate) fn values(sweep: &Sweep, row: &DesignRow) -> Vec<Value> {
-    design_columns(sweep)
-        .iter()
-        .filter_map(|column| Value::new(column, &column.cell(row)))
-        .collect()
 }
