@@ -300,7 +300,7 @@ impl Skin {
         } else {
             watched(py, None, move |_| evaluator.solve(number, &case))?
         };
-        let solved = Solved { skin: slf.clone().unbind(), design: solved };
+        let solved = Solved { sweep: skin.sweep.clone(), design: solved };
         RESULT.import(py, "squama._result", "Result")?.call1((slf, solved))
     }
 

@@ -6,12 +6,10 @@ use pyo3::prelude::*;
 use ranking::{Criterion, Relation};
 use results::columns::{design_columns, measure_of, measures_among};
 use results::{DesignRow, PathTable, SolvedDesign, path_tables};
-
 use run::{GapChange, Patience, design_warnings};
+use sweep::Sweep;
 
-use crate::skin::Skin;
-use crate::study::requirements;
-use crate::value::{NamedCells, PythonCell, table};
+use crate::value::{NamedCells, PythonCell, requirements, table};
 
 /// Name, unit, meaning, value, and the reason for a missing value.
 type Value = (String, &'static str, &'static str, PythonCell, Option<&'static str>);
@@ -22,7 +20,8 @@ type Required = (String, Option<f64>, f64, Option<f64>);
 /// A solved skin with its paths.
 #[pyclass(frozen, module = "squama._squama")]
 pub struct Solved {
-    pub skin: Py<Skin>,
+    /// The sweep of the skin.
+    pub sweep: Sweep,
     pub design: SolvedDesign,
 }
 
@@ -38,7 +37,7 @@ impl Solved {
     /// Returns every value of `designs.csv`.
     fn values(&self) -> Vec<Value> {
         let row = &self.design.row;
-        design_columns(&self.skin.get().sweep)
+        design_columns(&self.sweep)
             .iter()
             .skip(1)
             .map(|column| {
@@ -50,7 +49,7 @@ impl Solved {
 
     /// Returns every warning about the design, in the words of the commands.
     fn warnings(&self) -> Vec<String> {
-        design_warnings(&self.skin.get().sweep, &self.design.row, None, None)
+        design_warnings(&self.sweep, &self.design.row, None, None)
     }
 
     /// Returns requirements with value, limit and margin, and every warning.
@@ -58,7 +57,7 @@ impl Solved {
     /// Solves the design again with gaps 10 % smaller and larger.
     fn answer(&self, require: Vec<String>) -> PyResult<(Vec<Required>, Vec<String>)> {
         let requirements = requirements(&require)?;
-        let (sweep, row) = (&self.skin.get().sweep, &self.design.row);
+        let (sweep, row) = (&self.sweep, &self.design.row);
         let columns = design_columns(sweep);
         let mut rows = Vec::new();
         for requirement in &requirements {

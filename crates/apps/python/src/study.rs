@@ -16,16 +16,14 @@ use optimisation::{
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use ranking::{
-    Criterion, Goal, Preferences, Ranking, Requirement, TetrahedralGrid, Weights, ranking_columns,
-};
+use ranking::{Criterion, Goal, Preferences, Ranking, TetrahedralGrid, Weights, ranking_columns};
 use rayon::prelude::*;
 use results::{Completeness, Results, ResultsFolder, VerifiedFolder};
 use sweep::{Setting, Subset, Sweep};
 
 use crate::error::{self, OrFailed as _};
 use crate::skin::Skin;
-use crate::value::{Cells, NamedCells, table, text, value};
+use crate::value::{Cells, NamedCells, requirements, table, text, value};
 use crate::work::{interrupted, pool, threads as threads_of, watched, whole};
 
 /// This program, recorded in results folders.
@@ -174,10 +172,6 @@ pub fn rank(
     let parameters: Vec<_> = results.parameters().collect();
     let columns = ranking_columns(&parameters, ranking.preferences());
     Ok(table(&columns, ranking.by_fitness(ranking.preferences().weights)))
-}
-
-pub fn requirements(texts: &[String]) -> PyResult<Vec<Requirement>> {
-    texts.iter().map(|text| text.parse().or_failed(text)).collect()
 }
 
 /// Searches for the best designs of a goal.

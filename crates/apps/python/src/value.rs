@@ -10,6 +10,7 @@ use arrow_array::{
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBool, PyCapsule, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use ranking::Requirement;
 use results::{Cell, Column};
 use text::number;
 use text::toml_source::{KeyValue, Place, Value};
@@ -27,6 +28,11 @@ pub fn place() -> Place {
 /// Converts an object to text; unlike `to_string`, propagates interrupts.
 pub fn text(of: &Bound<'_, PyAny>) -> PyResult<String> {
     of.str()?.extract()
+}
+
+/// Parses requirements, such as `coverage >= 0.6`.
+pub fn requirements(texts: &[String]) -> PyResult<Vec<Requirement>> {
+    texts.iter().map(|text| text.parse().or_failed(text)).collect()
 }
 
 /// Maximum depth of nested lists and tables; definitions need at most three levels.
