@@ -1,6 +1,7 @@
 //! Fits parameters of a skin to curves from a testing machine.
 
 mod definition;
+mod error;
 mod fit_result;
 mod measured_curve;
 mod model;
@@ -8,7 +9,8 @@ mod profile;
 mod search;
 
 pub use definition::{FitDefinition, InvalidFit, PER_SPECIMEN, Unknown, curves_schema};
-pub use fit_result::{Estimate, FitError, Fitted, FittedCurve, Scatter};
+pub use error::FitError;
+pub use fit_result::{Estimate, Fitted, FittedCurve, Scatter};
 pub use measured_curve::{
     CurveEvent, CurveEventKind, InvalidMeasured, MeanCurve, MeasuredCurve, Test,
 };

@@ -7,7 +7,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::fit_result::FitError;
+use crate::error::FitError;
 use crate::search::{Minimum, Residuals};
 
 /// Ratio of successive distances from the estimate at which the profile is sampled.

@@ -11,7 +11,7 @@ use basin::{
 use run::{Evaluator, WorkMeter, WorkPiece, uninterrupted};
 
 use crate::definition::FitDefinition;
-use crate::fit_result::FitError;
+use crate::error::FitError;
 use crate::model::ModelCurve;
 
 /// Number of starting points per unknown, and number of the best that are improved.
