@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use crate::atomic_file::OutputError;
-use crate::header::FORMAT;
 
 /// A journal that cannot be used.
 ///
@@ -85,12 +84,14 @@ pub enum JournalError {
         problem: String,
     },
     /// The journal has the format of another version of the program.
-    #[error("{}:1: a journal of format {found}, this squama reads format {}; squama {by} wrote it and still reads it; --fresh or another folder with --out DIR solves everything again", path.display(), FORMAT)]
+    #[error("{}:1: a journal of format {found}, this squama reads format {expected}; squama {by} wrote it and still reads it; --fresh or another folder with --out DIR solves everything again", path.display())]
     OtherFormat {
         /// Path of the journal.
         path: PathBuf,
         /// Format of the journal.
         found: u64,
+        /// Format that this program reads.
+        expected: u64,
         /// Name and version of the program that wrote the journal.
         by: String,
     },

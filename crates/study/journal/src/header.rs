@@ -11,11 +11,10 @@ use text::toml_source::{self, Value};
 
 use crate::digest::sha256;
 use crate::error::JournalError;
-use crate::reader::Records;
 use crate::seal::Seal;
 
 /// Format of journals: 2 has typed results, 1 had rows of text.
-pub(crate) const FORMAT: u64 = 2;
+const FORMAT: u64 = 2;
 
 /// The program that wrote a journal.
 #[derive(Clone, Copy, Debug)]
@@ -65,24 +64,22 @@ impl<D: Designs> JournalHeader<D> {
         }
     }
 
-    /// Returns the first line of a journal, including its line end.
-    pub(crate) fn line<R: Records<Designs = D>>(&self) -> Vec<u8> {
-        Seal::default().seal(&BTreeMap::from([(R::KEY, self)]))
+    /// Returns the first line of a journal, including its line end, with the header under `key`.
+    pub(crate) fn line(&self, key: &str) -> Vec<u8> {
+        Seal::default().seal(&BTreeMap::from([(key, self)]))
     }
 
-    /// Parses the first line of the journal at `path`.
-    pub(crate) fn read<R: Records<Designs = D>>(
-        bytes: &mut [u8],
-        path: &Path,
-    ) -> Result<Self, JournalError> {
+    /// Parses the first line of the journal at `path`, with the header under `key`.
+    pub(crate) fn read(bytes: &mut [u8], key: &str, path: &Path) -> Result<Self, JournalError> {
         let refuse = |problem: String| JournalError::NoHeader { path: path.to_owned(), problem };
         let object = Seal::default().open(bytes).map_err(refuse)?;
-        if let Some((found, by)) = other_format::<R>(object) {
-            return Err(JournalError::OtherFormat { path: path.to_owned(), found, by });
+        if let Some((found, by)) = other_format(object, key) {
+            let (path, expected) = (path.to_owned(), FORMAT);
+            return Err(JournalError::OtherFormat { path, found, expected, by });
         }
         let read: Result<BTreeMap<String, Self>, _> = serde_json::from_slice(object);
         let mut read = read.map_err(|error| refuse(one_line(&error.to_string())))?;
-        let header = read.remove(R::KEY).filter(Self::is_sound);
+        let header = read.remove(key).filter(Self::is_sound);
         header.ok_or_else(|| refuse("expected the header that squama writes".to_owned()))
     }
 
@@ -165,9 +162,9 @@ impl<D: Designs> JournalHeader<D> {
 /// Returns format and program of a first line if its format is another one.
 ///
 /// In format 1, searches stated format and program side by side.
-fn other_format<R: Records>(object: &[u8]) -> Option<(u64, String)> {
+fn other_format(object: &[u8], key: &str) -> Option<(u64, String)> {
     let line: serde_json::Value = serde_json::from_slice(object).ok()?;
-    let header = line.get(R::KEY)?;
+    let header = line.get(key)?;
     let found = header.as_u64().or_else(|| header.get("format")?.as_u64())?;
     let texts = [&line["program"], &header["version"], &header["revision"]];
     let program = match texts.map(serde_json::Value::as_str) {

@@ -118,7 +118,7 @@ impl<R: Records> Journal<R> {
         mut file: File,
         header: JournalHeader<R::Designs>,
     ) -> Result<Self, JournalError> {
-        let bytes = header.line::<R>();
+        let bytes = header.line(R::KEY);
         let written =
             file.set_len(0).and_then(|()| file.write_all(&bytes)).and_then(|()| file.sync_all());
         if let Err(error) = written {

@@ -97,7 +97,7 @@ fn intact_from<R: Records>(
     // A writer that was killed while writing the first line left no results.
     let Some(first) = first.filter(|bytes| bytes.ends_with(b"\n")) else { return Ok(None) };
     let mut length = first.len() as u64;
-    let header = JournalHeader::read::<R>(first, path)?;
+    let header = JournalHeader::read(first, R::KEY, path)?;
     let seal = header.seal();
     let mut records = R::begin(header, length, path)
         .map_err(|problem| JournalError::NoHeader { path: path.to_owned(), problem })?;
