@@ -23,7 +23,7 @@ mod tests;
 
 use std::iter;
 
-use super::linear_model::{Cut, Model};
+use super::linear_model::{Cut, Model, Piece};
 use crate::space_filling::Sequence;
 
 /// Fraction of the predicted gain from which a step is accepted.
@@ -40,13 +40,6 @@ const SHRUNK: f64 = 0.1;
 
 /// Maximum points of the bundle, per corner of a simplex.
 const KEPT: usize = 4;
-
-/// Value with gradient; the gradient is `None` at a kink.
-#[derive(Clone, Debug)]
-pub(super) struct Piece {
-    pub value: f64,
-    pub gradient: Option<Vec<f64>>,
-}
 
 /// Values and gradients of cost and limits at a point.
 #[derive(Clone, Debug)]

@@ -8,8 +8,6 @@ use basin::{
     SelectedFirstOrderState, Slsqp, State as _,
 };
 
-use super::bundle::Piece;
-
 /// Weight of the linear cost against the quadratic term with which SLSQP starts.
 const WEIGHT: f64 = 1e3;
 
@@ -18,6 +16,13 @@ const MARGIN: f64 = 1e-10;
 
 /// Maximum iterations for the linear program.
 const ITERATIONS: u64 = 20;
+
+/// Value with gradient; the gradient is `None` at a kink.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub value: f64,
+    pub gradient: Option<Vec<f64>>,
+}
 
 /// Function to which a tangent belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,8 @@
 //! Ridge search by the bundle method, where the gradient search ends at kinks.
 
 use super::LocalSearch;
-use super::bundle::{BundleOptions, Piece, Pieces, PiecewiseSmooth, descend};
+use super::bundle::{BundleOptions, Pieces, PiecewiseSmooth, descend};
+use super::linear_model::Piece;
 use super::problem::LocalProblem;
 use crate::candidate::SearchStage;
 use crate::evaluated_row::StatisticUse;
