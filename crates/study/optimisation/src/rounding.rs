@@ -98,7 +98,7 @@ fn refined(
     let confirmation = confirm(finer, &candidate.point)?;
     let mut rounded = BestDesign { candidate, row, confirmation, ..best.clone() };
     if goal.confirm {
-        rounded.checks = DesignChecks::solve(goal, &rounded);
+        rounded.checks = DesignChecks::solve(goal, &rounded.row.case);
     }
     Ok(Some(rounded))
 }

@@ -17,8 +17,9 @@ use run::{Program, Start};
 use crate::answer::{Answer, answer};
 use crate::best::{BestDesign, Region, region};
 use crate::candidate::{Candidate, SearchStage};
-use crate::checks::{self, DesignChecks};
+use crate::checks::DesignChecks;
 use crate::column::ends_over;
+use crate::contradiction;
 use crate::coverage_peaks::points_on_peaks;
 use crate::error::OptimisationError;
 use crate::evaluations::{Evaluations, Halt};
@@ -150,7 +151,7 @@ fn find(
     if let Answer::Optimum(best) = &mut answer {
         best.reason = limits.reason(&nominal, best)?;
         rounding = limits.round(&nominal, best, &mut history)?;
-        best.checks = DesignChecks::solve(goal, best);
+        best.checks = DesignChecks::solve(goal, &best.row.case);
     }
     // The search measures only the columns of the goal.
     answer.best_mut().par_iter_mut().try_for_each(|best| {
@@ -360,9 +361,9 @@ impl Limits<'_> {
     fn tighten(&mut self, answer: &mut Answer) -> Option<DesignGoal> {
         let Answer::Optimum(best) = answer else { return None };
         self.goal.confirm.then_some(())?;
-        best.checks = DesignChecks::solve(self.goal, best);
+        best.checks = DesignChecks::solve(self.goal, &best.row.case);
         let before = self.tightened.clone();
-        checks::tighten(&mut self.tightened, self.goal, best).then_some(before)
+        contradiction::tighten(&mut self.tightened, self.goal, best).then_some(before)
     }
 }
 
