@@ -6,7 +6,6 @@ use text::number;
 
 use crate::filter::RequirementFilter;
 use crate::preferences::Preferences;
-use crate::ranking::InvalidRanking;
 use crate::requirement::{Relation, Requirement};
 
 /// A criterion that was measured under different conditions in different designs.
@@ -36,23 +35,6 @@ fn remedy(parameter: &str) -> &'static str {
         ", e.g. --minimize flexural_rigidity_N_mm2 with a [material]"
     } else {
         ""
-    }
-}
-
-/// Checks that all criteria are comparable.
-///
-/// Only designs that meet the requirements count.
-///
-/// # Errors
-///
-/// If a column is missing or not numeric, or if designs are incomparable.
-pub fn check_comparable(
-    results: &Results,
-    preferences: &Preferences,
-) -> Result<(), InvalidRanking> {
-    match differing(results, preferences)?.into_iter().next() {
-        Some(incomparable) => Err(incomparable.into()),
-        None => Ok(()),
     }
 }
 
@@ -96,7 +78,7 @@ pub fn comparable_groups(
 }
 
 /// Returns the conditions in which designs that meet the requirements differ.
-fn differing(
+pub(crate) fn differing(
     results: &Results,
     preferences: &Preferences,
 ) -> Result<Vec<Incomparable>, InvalidResults> {

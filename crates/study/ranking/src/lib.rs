@@ -66,12 +66,12 @@ pub use compare::{
 pub use criterion::{CRITERIA, Criterion, InvalidCriterion};
 pub use fitness::{CriterionEnds, FitnessGoal, RescaledCriterion};
 pub use front::{dominates, pareto_front};
-pub use incomparable::{Incomparable, check_comparable, comparable_groups};
+pub use incomparable::{Incomparable, comparable_groups};
 pub use pain::{PAIN_LIMITS, PAIN_MEANING, PainLimit};
 pub use preferences::{InvalidPreferences, Preferences};
 pub use ranking::{
-    InvalidRanking, RankedDesign, Ranking, pareto_columns, quaternary_columns, ranking_columns,
-    winner_columns, write_ranking, write_unmet,
+    InvalidRanking, RankedDesign, Ranking, check_comparable, pareto_columns, quaternary_columns,
+    ranking_columns, winner_columns, write_ranking, write_unmet,
 };
 pub use requirement::{InvalidRequirement, Relation, Requirement};
 pub use results::columns::Goal;

@@ -14,7 +14,7 @@ use results::{
 };
 
 use crate::criterion::Criterion;
-use crate::incomparable::Incomparable;
+use crate::incomparable::{Incomparable, differing};
 use crate::preferences::Preferences;
 use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
 use crate::unmet::Unmet;
@@ -369,6 +369,23 @@ fn best(contenders: &Contenders, weights: Weights) -> usize {
     let mut scores = contenders.terms().map(|terms| weights.score(terms));
     let largest = scores.clone().fold(f64::NEG_INFINITY, f64::max);
     scores.position(|score| is_as_good(score, largest)).unwrap_or(0)
+}
+
+/// Checks that all criteria are comparable.
+///
+/// Only designs that meet the requirements count.
+///
+/// # Errors
+///
+/// If a column is missing or not numeric, or if designs are incomparable.
+pub fn check_comparable(
+    results: &Results,
+    preferences: &Preferences,
+) -> Result<(), InvalidRanking> {
+    match differing(results, preferences)?.into_iter().next() {
+        Some(incomparable) => Err(incomparable.into()),
+        None => Ok(()),
+    }
 }
 
 /// Writes the tables and preferences of `ranking` to `folder`.
