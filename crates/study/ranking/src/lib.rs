@@ -52,6 +52,7 @@ mod pain;
 mod preferences;
 mod ranking;
 mod requirement;
+mod requirement_text;
 mod scale;
 mod standard;
 mod tetrahedral_grid;
@@ -73,7 +74,8 @@ pub use ranking::{
     InvalidRanking, RankedDesign, Ranking, check_comparable, pareto_columns, quaternary_columns,
     ranking_columns, winner_columns, write_ranking, write_unmet,
 };
-pub use requirement::{InvalidRequirement, Relation, Requirement};
+pub use requirement::{Relation, Requirement};
+pub use requirement_text::InvalidRequirement;
 pub use results::columns::Goal;
 pub use scale::{Scale, UnknownScale};
 pub use standard::{STANDARDS, Standard, TILTING_ONLY};
