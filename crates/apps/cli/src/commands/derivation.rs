@@ -22,7 +22,7 @@ pub fn record(
     names: &[impl AsRef<str>],
 ) -> anyhow::Result<()> {
     // Without checksums of the tables, later changes could not be detected.
-    let Some(mut derivation) = Derivation::new(results, product, command()) else { return Ok(()) };
+    let Some(mut derivation) = results.derive(product, command()) else { return Ok(()) };
     let inside = path_within(results.path(), folder);
     for name in names.iter().map(AsRef::as_ref) {
         let path = folder.join(name);

@@ -7,7 +7,6 @@ use std::path::{Component, Path, PathBuf};
 use journal::{OutputError, read_text, sha256};
 use serde::{Deserialize, Serialize};
 
-use super::verified_folder::VerifiedFolder;
 use crate::folder::ResultsFolder;
 
 /// A product of the tables of a results folder: ranking, workbook, figures, page.
@@ -32,14 +31,6 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// Creates a product of `results` made by `command`.
-    ///
-    /// `None` if the folder has no contents.
-    pub fn new(results: &VerifiedFolder, product: &str, command: String) -> Option<Self> {
-        let (from, made_from) = (results.digest()?, results.shortfall());
-        Some(Self { product: product.to_owned(), command, from, made_from, files: BTreeMap::new() })
-    }
-
     /// Writes the product to `folder` under the name `record`.
     ///
     /// # Errors

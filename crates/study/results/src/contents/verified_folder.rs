@@ -1,6 +1,6 @@
 //! A results folder with verified contents. Every command reads results through it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{Cursor, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
@@ -323,6 +323,15 @@ impl VerifiedFolder {
     pub fn problems(&self) -> Vec<InvalidFolder> {
         let names = self.contents.iter().flat_map(|contents| contents.files.keys());
         names.filter_map(|name| self.file(name).err()).collect()
+    }
+
+    /// Creates the record of a product of this folder made by `command`.
+    ///
+    /// `None` if the folder has no contents.
+    pub fn derive(&self, product: &str, command: String) -> Option<Derivation> {
+        let (from, made_from) = (self.digest()?, self.shortfall());
+        let (product, files) = (product.to_owned(), BTreeMap::new());
+        Some(Derivation { product, command, from, made_from, files })
     }
 
     /// Returns the outdated products of the folder.
