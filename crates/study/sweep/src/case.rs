@@ -7,7 +7,7 @@ use skin::{Base, Common, Design, Imperfection};
 use substrate::{Bases, Coupling, Footprint};
 
 use crate::material::Material;
-use crate::parameter::Scalar;
+use crate::scalar::Scalar;
 
 /// All parameters of the solution of one design.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::case::Case;
 use crate::parameter::Parameter;
-use crate::parameter::Scalar;
+use crate::scalar::Scalar;
 
 /// A parameter with several values.
 #[derive(Clone, Debug)]

@@ -53,6 +53,7 @@ mod judged_modes;
 mod material;
 mod named_values;
 mod parameter;
+mod scalar;
 mod subset;
 mod variable;
 
@@ -68,6 +69,7 @@ pub use input::{read_input, read_input_bytes};
 pub use judged_modes::JudgedModes;
 pub use material::Material;
 pub use named_values::{BODIES, NamedValues, SCALE_MATERIALS, TISSUE_MATERIALS};
-pub use parameter::{PARAMETERS, Parameter, Role, Scalar, WrongValue, key};
+pub use parameter::{PARAMETERS, Parameter, Role, WrongValue, key};
+pub use scalar::Scalar;
 pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};
 pub use variable::{Variable, VariableValues};

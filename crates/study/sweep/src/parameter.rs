@@ -6,7 +6,6 @@ pub(crate) mod length;
 mod list;
 mod modulus;
 mod role;
-mod scalar;
 mod schema;
 
 use std::fmt;
@@ -15,12 +14,12 @@ use skin::puncture::{MOST_NUMBERS, NumberList};
 
 use crate::case::Case;
 use crate::decimal::Decimal;
+use crate::scalar::Scalar;
 use text::number;
 use text::toml_source::Value;
 
 pub use list::PARAMETERS;
 pub use role::Role;
-pub use scalar::Scalar;
 
 /// A scalar parameter of a sweep definition, set in its section or as an axis.
 #[derive(Clone, Copy, Debug)]

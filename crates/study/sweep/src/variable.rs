@@ -1,7 +1,8 @@
 //! A variable: a parameter searched over or drawn, within bounds or from a list.
 
 use crate::case::Case;
-use crate::parameter::{Parameter, Scalar};
+use crate::parameter::Parameter;
+use crate::scalar::Scalar;
 use text::number;
 
 /// A parameter of `[variables]`.

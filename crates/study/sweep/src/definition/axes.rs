@@ -6,7 +6,8 @@ use super::invalid::Problem;
 use crate::case::Case;
 use crate::decimal::{self, Decimal};
 use crate::grid::Axis;
-use crate::parameter::{Parameter, Scalar, WrongValue};
+use crate::parameter::{Parameter, WrongValue};
+use crate::scalar::Scalar;
 use text::number;
 use text::toml_source::{self, KeyValues, Value};
 

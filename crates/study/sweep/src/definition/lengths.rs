@@ -5,7 +5,8 @@
 
 use super::invalid::Problem;
 use crate::grid::{Axis, Grid};
-use crate::parameter::{Parameter, Scalar, WrongValue, key};
+use crate::parameter::{Parameter, WrongValue, key};
+use crate::scalar::Scalar;
 use crate::variable::{Variable, VariableValues};
 use text::number;
 

@@ -1,8 +1,9 @@
 //! Continuous parameters: neighbouring cases and step sizes for derivatives.
 
 use super::Bound::{Excluded, Included};
-use super::{Parameter, ParameterKind, Scalar, key, length};
+use super::{Parameter, ParameterKind, key, length};
 use crate::case::Case;
+use crate::scalar::Scalar;
 
 /// Minimum friction for derivatives.
 ///

@@ -6,8 +6,9 @@
 
 use std::sync::LazyLock;
 
-use super::{PARAMETERS, Parameter, Role, Scalar, key, modulus};
+use super::{PARAMETERS, Parameter, Role, key, modulus};
 use crate::case::{Case, Millimetres};
+use crate::scalar::Scalar;
 use text::number;
 
 /// Each length in mm, with the parameter of the same length over the thickness.

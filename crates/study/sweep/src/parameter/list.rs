@@ -32,7 +32,8 @@ use crate::parameter::Role::{
     Continuous, EndsBending, EndsPuncture, Geometry, InMm, InsteadOf, Made, MovesSprings,
     Scattered, UnitOfBending,
 };
-use crate::parameter::{CountRange, Parameter, ParameterKind, Range, Scalar, key};
+use crate::parameter::{CountRange, Parameter, ParameterKind, Range, key};
+use crate::scalar::Scalar;
 
 // Beyond these ranges, differences of lengths and stiffnesses are dominated by round-off.
 const LENGTH: Range = Range::closed(1e-3, 1e3);

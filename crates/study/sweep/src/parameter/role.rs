@@ -119,7 +119,7 @@ impl Parameter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter::Scalar;
+    use crate::scalar::Scalar;
 
     #[test]
     fn roles_agree_with_each_other() {

@@ -3,7 +3,8 @@
 use serde_json::{Map, Value, json};
 use skin::puncture::MOST_NUMBERS;
 
-use super::{Bound, CountRange, Parameter, ParameterKind, Range, Scalar};
+use super::{Bound, CountRange, Parameter, ParameterKind, Range};
+use crate::scalar::Scalar;
 
 impl Parameter {
     /// Returns the schema of a value in the section of the parameter.
