@@ -4,6 +4,7 @@ mod across;
 pub mod curve;
 pub mod evaluator;
 pub mod groups;
+mod guard;
 pub mod interleaved;
 mod parts;
 mod samples;

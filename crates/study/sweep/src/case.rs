@@ -3,7 +3,7 @@
 use geometry::{Body, OutOfRange};
 use skin::flexure;
 use skin::puncture::{self, Needle, PunctureParameters, Strengths};
-use skin::{Base, Common, Design, Imperfection};
+use skin::{Base, Common, Design, Imperfection, PathDetail};
 use substrate::{Bases, Coupling, Footprint};
 
 use crate::material::Material;
@@ -146,6 +146,12 @@ impl Case {
     /// Returns the body below the skin. Lengths are over the thickness.
     pub fn body(&self) -> Body {
         Body { curvature: self.body_radius.map_or(self.puncture.curvature, f64::recip) }
+    }
+
+    /// Returns the case with another detail of its recorded paths.
+    #[must_use]
+    pub fn with_detail(&self, detail: PathDetail) -> Self {
+        Self { common: Common { detail, ..self.common }, ..*self }
     }
 
     /// Returns this case on a body between the two ends of the range of radii, if there is one.

@@ -3,7 +3,8 @@
 use skin::{CurvePoint, Neighbours, flexure, puncture};
 use sweep::{Case, Parameter};
 
-use super::evaluator::{Evaluator, solved};
+use super::evaluator::Evaluator;
+use super::guard::solved;
 use super::sensitivity::{Varied, bent, punctured};
 use results::Outcome;
 

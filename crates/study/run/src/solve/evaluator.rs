@@ -1,22 +1,20 @@
 //! Solves one design.
 
-use std::collections::VecDeque;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
-use geometry::OutOfRange;
 use results::columns::is_along_path;
 use results::{
     DesignResult, DesignRow, Failure, FlexureResult, Outcome, ParameterDerivative, PathEnd,
     PunctureResult, SampleStatistics, SolvedDesign, finite,
 };
+use skin::PathDetail;
 use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, Puncture, PunctureEnd};
-use skin::{Common, PathDetail};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
 use sweep::{Case, DesignNumber, Measure, Parameter};
 
-use super::across::AcrossForces;
+use super::across::{AcrossCache, AcrossForces};
+use super::guard::{guarded, solved};
 use super::parts::Parts;
 use super::sensitivity::Wanted;
 use super::work::{DesignWork, WorkMeter};
@@ -37,8 +35,7 @@ pub struct Evaluator {
     /// Parts of the designs to solve. `None`: every part, with full detail.
     parts: Option<Parts>,
     calibrations: Calibrations,
-    /// Cache of the rows across that were solved last.
-    pub(super) across: Mutex<VecDeque<(Case, AcrossForces)>>,
+    across: AcrossCache,
 }
 
 /// An evaluated measure: result and path, or the reason for the failure.
@@ -52,7 +49,7 @@ impl Evaluator {
             detail: PathDetail::Measures,
             parts: None,
             calibrations: Calibrations::default(),
-            across: Mutex::default(),
+            across: AcrossCache::default(),
         }
     }
 
@@ -86,7 +83,7 @@ impl Evaluator {
         let Some(parts) = self.parts else {
             return self.solved(number, case, Wanted::All, &WorkMeter::default());
         };
-        let needed = recorded(&parts.of_case(case), self.detail);
+        let needed = parts.of_case(case).with_detail(self.detail);
         let solved = self.solved(number, &needed, Wanted::All, &WorkMeter::default());
         SolvedDesign { row: DesignRow { case: *case, ..solved.row }, ..solved }
     }
@@ -112,7 +109,7 @@ impl Evaluator {
     ///
     /// `None` if no other design can start from it ([`PunctureEnd`]).
     pub fn puncture_end(&self, case: &Case) -> Option<PunctureEnd> {
-        let Case { design, common, .. } = &recorded(case, PathDetail::Critical);
+        let Case { design, common, .. } = &case.with_detail(PathDetail::Critical);
         let substrate = guarded(|| self.substrate(case)).flatten().ok()?;
         let parameters = case.punctured();
         solved(|| puncture::solve(design, &*substrate, common, &parameters)).ok()?.end
@@ -146,7 +143,7 @@ impl Evaluator {
         end: &PunctureEnd,
     ) -> Option<DesignRow> {
         let (wanted, mut derivatives) = (Wanted::Only(parameters), Vec::new());
-        let solved = recorded(case, self.detail);
+        let solved = case.with_detail(self.detail);
         let punctured = self.puncture_near(&solved, wanted, end, &mut derivatives)?;
         let (meter, punctured) = (WorkMeter::default(), (Some(Ok(punctured)), derivatives));
         let row = self.with_puncture(number, &solved, wanted, &meter, punctured).row;
@@ -171,7 +168,7 @@ impl Evaluator {
         meter: &WorkMeter,
     ) -> (DesignRow, Option<PunctureEnd>) {
         let needed = self.parts.map_or(*case, |parts| parts.of_case(case));
-        let solved = self.solved(number, &recorded(&needed, self.detail), wanted, meter);
+        let solved = self.solved(number, &needed.with_detail(self.detail), wanted, meter);
         let end = solved.puncture.and_then(|puncture| puncture.end);
         (DesignRow { case: *case, ..solved.row }, end)
     }
@@ -254,7 +251,7 @@ impl Evaluator {
     fn punctured_sample(&self, case: &Case, sample: u64) -> Result<PunctureResult, Outcome> {
         let substrate = guarded(|| self.substrate(case)).flatten()?;
         let punctured = || {
-            let case = recorded(case, self.detail);
+            let case = case.with_detail(self.detail);
             samples::common(&case, sample)
                 .and_then(|row| samples::punctured(&case, &substrate, &row))
         };
@@ -350,6 +347,32 @@ impl Evaluator {
         Some((result, puncture))
     }
 
+    /// Punctures the row across, if requested, and adds its force and derivatives.
+    fn differentiate_across(
+        &self,
+        case: &Case,
+        wanted: Wanted<'_>,
+        result: &mut PunctureResult,
+        derivatives: &mut Vec<ParameterDerivative>,
+    ) {
+        let Some(across) = case.across() else { return };
+        let punctured = guarded(|| self.slopes(&across)).flatten().and_then(|slopes| {
+            let (puncture, of_across) = solved(|| sensitivity::across(case, wanted, &slopes))?;
+            derivatives.extend(of_across);
+            Ok(puncture)
+        });
+        AcrossForces::new(&punctured).add_to(case, result);
+        sensitivity::choose_direction(&result.measures, derivatives);
+    }
+
+    /// Punctures the row across, if requested, and adds its force to a result.
+    fn puncture_across(&self, case: &Case, result: &mut PunctureResult) {
+        if let Some(across) = case.across() {
+            let across = across.with_detail(PathDetail::Critical);
+            self.across.forces(&across, || self.substrate(&across)).add_to(case, result);
+        }
+    }
+
     /// Punctures the row on bodies between two radii, if requested.
     ///
     /// Adds the smallest force to a result, and returns the body, if all have a force.
@@ -369,7 +392,7 @@ impl Evaluator {
     ///
     /// The outcome of a puncture without a critical force.
     pub fn critical_force(&self, case: &Case) -> Result<f64, Outcome> {
-        let Case { design, common, .. } = &recorded(case, PathDetail::Critical);
+        let Case { design, common, .. } = &case.with_detail(PathDetail::Critical);
         if solved(|| puncture::overlaps_at_rest(design, case.body()))? {
             return Err(Outcome::Overlapping);
         }
@@ -447,12 +470,6 @@ impl Evaluator {
     }
 }
 
-/// Returns the case with another detail of its recorded path.
-pub(super) fn recorded(case: &Case, detail: PathDetail) -> Case {
-    let common = Common { detail, ..case.common };
-    Case { common, ..*case }
-}
-
 fn coverage(case: &Case) -> Option<f64> {
     let coverage = guarded(|| case.coverage().ok());
     coverage.ok().flatten().and_then(finite)
@@ -518,34 +535,4 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
     };
     let failure = Failure { measure, outcome, end: end.unwrap_or_default() };
     is_missing(&outcome).then_some(failure)
-}
-
-/// Returns a solution, or the outcome of a refused input.
-///
-/// Validation of a definition refuses invalid parameters. It cannot predict how many scales a tip
-/// reaches, or whether displacements in the tissue decay; any other refusal is an internal error.
-pub(super) fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, Outcome> {
-    guarded(f)?.map_err(|refused| match refused.quantity {
-        puncture::TIP_REACH => Outcome::RowLimit,
-        puncture::DIRECT_STIFFNESS => Outcome::Calibration,
-        _ => Outcome::Internal,
-    })
-}
-
-/// Calls `f`; returns [`Outcome::Internal`] if it panics.
-pub(super) fn guarded<T>(f: impl FnOnce() -> T) -> Result<T, Outcome> {
-    // Data of a failed design is not used again, except for the calibrations,
-    // which hold complete entries only.
-    catch_unwind(AssertUnwindSafe(f)).map_err(|_| Outcome::Internal)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_panic_ends_a_single_design() {
-        assert_eq!(guarded(|| 1), Ok(1));
-        assert_eq!(guarded(|| -> u32 { panic!("on purpose") }), Err(Outcome::Internal));
-    }
 }

@@ -7,7 +7,6 @@ use skin::{PathDetail, Sample};
 use substrate::RowStiffness;
 use sweep::Case;
 
-use super::evaluator::recorded;
 use super::work::DesignWork;
 
 /// Punctures the samples of `case` on `substrate`.
@@ -20,7 +19,7 @@ pub(super) fn puncture(
     work: &DesignWork<'_>,
 ) {
     let (mut force, mut penetration) = (Vec::new(), Vec::new());
-    let case = &recorded(case, PathDetail::Critical);
+    let case = &case.with_detail(PathDetail::Critical);
     for number in 1..=case.samples.count as u64 {
         // A sample with overlapping scales counts as failed. Drawing again would distort the
         // distribution.

@@ -9,8 +9,6 @@ use skin::{Derivative, Neighbours, PathDetail};
 use substrate::{RowStiffness, StiffnessSlopes};
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
 
-use super::evaluator::recorded;
-
 /// Relative step of finite differences of explicit functions.
 // The optimum for central differences is the cube root of the rounding error, 6e-6; a third of it
 // avoids nearby kinks.
@@ -165,7 +163,7 @@ impl ForceDerivatives {
         let (parameters, variations) = variations(case, wanted, Measure::Puncture, |parameter| {
             Varied { case, parameter, slopes: Some(slopes) }.variation(&vary)
         });
-        let solved = recorded(solved, PathDetail::Critical);
+        let solved = solved.with_detail(PathDetail::Critical);
         let input = punctured(&solved, slopes.stiffness.clone());
         let (puncture, mut derivatives) = puncture::differentiate(&input, &variations)?;
         derivatives.retain(|derivative| derivative.measure == name::CRITICAL_FORCE);
