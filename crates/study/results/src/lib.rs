@@ -66,11 +66,12 @@ pub use contents::claim::Claim;
 pub use contents::derivation::Derivation;
 pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
 pub use contents::{Contents, JournalExtent};
-pub use design::design_result::{DesignResult, FlexureResult, PunctureResult, SEPARATOR};
+pub use design::design_result::{DesignResult, SEPARATOR};
 pub use design::extrapolated::{SlopeSide, changed_parameters, neighbours};
 pub use design::failure::{Failure, PathEnd, finite};
 pub use design::outcome::Outcome;
 pub use design::parameter_derivative::ParameterDerivative;
+pub use design::path_result::{FlexureResult, PunctureResult};
 pub use design::rerun_change::RerunChange;
 pub use design::row::{DerivativeRow, DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{

@@ -8,7 +8,7 @@ use super::measured_value::{
     Goal, MeasuredValue, PathPoint, Physical, SampledValue, Shown, TiltValue, Value,
 };
 use super::name;
-use crate::design::design_result::DesignResult;
+use crate::design::path_result::{FlexureResult, PunctureResult};
 use crate::design::sample_statistics::{SampleStatistics, Statistics};
 use crate::quantity::Quantity;
 
@@ -64,13 +64,22 @@ pub(super) const fn value(
     MeasuredValue { name, tables, value, ..BLANK }
 }
 
-/// Builds an entry for a count, a text, or a number without derivatives.
-pub(super) const fn other(
+/// Builds an entry for a count, a text, or a number without derivatives of a puncture.
+pub(super) const fn of_puncture(
     name: &'static str,
     tables: &'static [&'static str],
-    cell: fn(&DesignResult) -> Cell,
+    cell: fn(&PunctureResult) -> Cell,
 ) -> MeasuredValue {
-    value(name, tables, Value::Other(cell))
+    value(name, tables, Value::OfPuncture(cell))
+}
+
+/// Builds an entry for a count, a text, or a number without derivatives of bending.
+pub(super) const fn of_bending(
+    name: &'static str,
+    tables: &'static [&'static str],
+    cell: fn(&FlexureResult) -> Cell,
+) -> MeasuredValue {
+    value(name, tables, Value::OfBending(cell))
 }
 
 /// Builds an entry for a number of a puncture.

@@ -11,6 +11,7 @@ use super::cell::Cell;
 use super::column::Column;
 use super::measured_value::{Goal, MeasuredValue, Physical, Value};
 use super::values::VALUES;
+use crate::design::design_result::DesignResult;
 use crate::design::row::DesignRow;
 use crate::design::sample_statistics::{QUANTILES, Statistics};
 use crate::quantity::{MASS_NEEDS, Quantity, areal_mass};
@@ -135,6 +136,25 @@ impl MeasuredValue {
     pub(super) fn good_as(&self, quantity: Option<Quantity>) -> Option<Goal> {
         let is_inverse = quantity.is_some_and(Quantity::is_inverse);
         self.good.map(|goal| if is_inverse { goal.inverse() } else { goal })
+    }
+
+    /// Returns the cell of the value in a result; empty if the result lacks it.
+    fn cell(&self, result: &DesignResult) -> Cell {
+        match self.value {
+            Value::Coverage => result.coverage.into(),
+            // Copying the measures, a few hundred bytes, avoids a second accessor for each of them.
+            Value::Puncture(field) => {
+                result.puncture.and_then(|mut p| *field(&mut p.measures)).into()
+            }
+            Value::Flexure(field) => {
+                result.flexure.and_then(|mut f| *field(&mut f.measures)).into()
+            }
+            Value::OfPuncture(cell) => result.puncture.as_ref().map(cell).into(),
+            Value::OfBending(cell) => result.flexure.as_ref().map(cell).into(),
+            Value::Settings => result.settings.clone().into(),
+            Value::Samples(count) => count(&result.samples).into(),
+            Value::SamplesAlone | Value::ArealMass => Cell::Empty,
+        }
     }
 
     /// Returns true if the value needs neither imperfections nor a material.

@@ -7,7 +7,7 @@ use skin::puncture::{PunctureMeasures, TiltMeasures};
 use sweep::{Measure, Parameter, Role};
 
 use super::cell::Cell;
-use crate::design::design_result::DesignResult;
+use crate::design::path_result::{FlexureResult, PunctureResult};
 use crate::design::sample_statistics::{SampleStatistics, Statistics};
 use crate::folder::MEASURE_TABLES;
 use crate::quantity::Quantity;
@@ -26,7 +26,7 @@ pub struct MeasuredValue {
     /// Point of the path at which the value is measured.
     pub(super) point: PathPoint,
     /// Accessor of the value in a result.
-    pub(super) value: Value,
+    pub(crate) value: Value,
     /// Conversions to physical units.
     ///
     /// Statistics of samples are written for the first one.
@@ -51,14 +51,18 @@ pub struct MeasuredValue {
 
 /// Accessor of a measured value in a result.
 #[derive(Debug)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Coverage,
     /// A number of a puncture, with derivatives.
     Puncture(fn(&mut PunctureMeasures) -> &mut Option<f64>),
     /// A number of bending, with derivatives.
     Flexure(fn(&mut FlexureMeasures) -> &mut Option<f64>),
-    /// A count, a text, or a number without derivatives.
-    Other(fn(&DesignResult) -> Cell),
+    /// A count, a text, or a number without derivatives of a puncture.
+    OfPuncture(fn(&PunctureResult) -> Cell),
+    /// A count, a text, or a number without derivatives of bending.
+    OfBending(fn(&FlexureResult) -> Cell),
+    /// The settings of a rerun design.
+    Settings,
     /// A count of imperfect samples.
     Samples(fn(&SampleStatistics) -> Option<usize>),
     /// A value that exists only as statistics over imperfect samples.
@@ -175,43 +179,6 @@ impl Goal {
 }
 
 impl MeasuredValue {
-    /// Returns the cell of the value in a result; empty if the result lacks it.
-    pub(super) fn cell(&self, result: &DesignResult) -> Cell {
-        match self.value {
-            Value::Coverage => result.coverage.into(),
-            // Copying the measures, a few hundred bytes, avoids a second accessor for each of them.
-            Value::Puncture(field) => {
-                result.puncture.and_then(|mut p| *field(&mut p.measures)).into()
-            }
-            Value::Flexure(field) => {
-                result.flexure.and_then(|mut f| *field(&mut f.measures)).into()
-            }
-            Value::Other(cell) => cell(result),
-            Value::Samples(count) => count(&result.samples).into(),
-            Value::SamplesAlone | Value::ArealMass => Cell::Empty,
-        }
-    }
-
-    /// Returns the number in a result, if it has one.
-    pub fn number(&self, result: &DesignResult) -> Option<f64> {
-        self.cell(result).number()
-    }
-
-    /// Returns a mutable reference to the number in a result.
-    ///
-    /// `None` if it has no derivatives or was not measured.
-    pub(crate) fn number_mut<'r>(
-        &self,
-        result: &'r mut DesignResult,
-    ) -> Option<&'r mut Option<f64>> {
-        match self.value {
-            Value::Coverage => Some(&mut result.coverage),
-            Value::Puncture(field) => result.puncture.as_mut().map(|p| field(&mut p.measures)),
-            Value::Flexure(field) => result.flexure.as_mut().map(|f| field(&mut f.measures)),
-            _ => None,
-        }
-    }
-
     /// Returns true unless this is a number of a puncture that is not finite.
     pub(crate) fn is_finite_in_puncture(&self, measures: &mut PunctureMeasures) -> bool {
         let Value::Puncture(field) = self.value else { return true };

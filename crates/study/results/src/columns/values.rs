@@ -15,23 +15,20 @@
 //! With `"sensitivity"` a value with derivatives also needs its point of the path in
 //! `skin/src/puncture/sensitivity.rs` or `skin/src/flexure/sensitivity.rs`.
 
-use skin::flexure::FlexureMeasures;
-use skin::puncture::{CriticalEvent, FailureMode, PunctureMeasures};
+use skin::puncture::{CriticalEvent, FailureMode};
 
 use sweep::key;
 
 use super::builders::{
-    BOTH, COMPLIANCE, COVERAGE, DEPTH, FORCE, NONE, bending, depth, force, number, other, renamed,
-    same, stiffness, value,
+    BOTH, COMPLIANCE, COVERAGE, DEPTH, FORCE, NONE, bending, depth, force, number, of_bending,
+    of_puncture, renamed, same, stiffness, value,
 };
-use super::cell::Cell;
 use super::measured_value::MeasuredValue;
 use super::measured_value::PathPoint::{
     Anywhere, Contact, End, Fold, FoldOrEnd, Instability, Nowhere, Peak, Rest,
 };
-use super::measured_value::Value::{ArealMass, Coverage, Samples, SamplesAlone};
+use super::measured_value::Value::{ArealMass, Coverage, Samples, SamplesAlone, Settings};
 use super::name;
-use crate::design::design_result::{DesignResult, PunctureResult};
 use crate::design::outcome::Outcome;
 use crate::quantity::Quantity;
 
@@ -86,7 +83,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "depth of the deepest base corner of any scale at the critical tilt";
     value("puncture_samples_failed", BOTH, Samples(|s| s.puncture_failed)):
         "imperfect samples without puncture values, excluded from mean and quantiles";
-    other("puncture_status", BOTH, |r| punctured(r, |p| p.outcome.text())).last():
+    of_puncture("puncture_status", BOTH, |p| p.outcome.text().into()).last():
         "complete, or why the puncture has no values";
     force("peak_force", Peak, |m| &mut m.peak_force).large().then():
         "largest puncture force up to the critical tilt, or up to the end of the path";
@@ -101,11 +98,11 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "displacement of the punctured point when scales first touch";
     // Contact counts depend on the end of the path: counts at tilts of 5° and 10° must not be
     // compared.
-    other(name::CONTACTS, BOTH, |r| measured(r, |m| m.contacts)).at(End).then():
+    of_puncture(name::CONTACTS, BOTH, |p| p.measures.contacts.into()).at(End).then():
         "closed contacts at the critical tilt";
-    other("engaged_scales", BOTH, |r| measured(r, |m| m.engaged_scales)).at(End).large():
+    of_puncture("engaged_scales", BOTH, |p| p.measures.engaged_scales.into()).at(End).large():
         "scales in contact with a neighbour at the critical tilt, including the punctured one";
-    other(name::CRITICAL_EVENT, BOTH, |r| measured(r, |m| m.passage.critical_event.map(CriticalEvent::name)))
+    of_puncture(name::CRITICAL_EVENT, BOTH, |p| p.measures.passage.critical_event.map(CriticalEvent::name).into())
         .guided():
         "event that ended the path of a guided needle: tilt, a scale in contact with it is critically tilted; through, it has reached the soft surface";
     force("passing_force", Anywhere, |m| &mut m.passage.passing_force).large().guided():
@@ -118,7 +115,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "tilt of the punctured scale where a guided needle first touches a corner or another scale";
     depth("needle_shift", Anywhere, |m| &mut m.passage.needle_shift).within(BOTH).guided():
         "inward movement of a guided needle on its face, at the end of the path or where it first touches a corner or another scale";
-    other("scales", BOTH, |r| measured(r, |m| (m.scales > 0).then_some(m.scales))):
+    of_puncture("scales", BOTH, |p| (p.measures.scales > 0).then_some(p.measures.scales).into()):
         "number of scales in the solved row";
     stiffness(name::INITIAL_STIFFNESS, Rest, |m| &mut m.initial_stiffness):
         "puncture stiffness at rest";
@@ -126,25 +123,25 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "largest puncture stiffness on the path";
     stiffness(name::SECANT_STIFFNESS, End, |m| &mut m.secant_stiffness):
         "puncture force over displacement at the critical tilt";
-    other("puncture_points", NONE, |r| punctured(r, |p| p.points)):
+    of_puncture("puncture_points", NONE, |p| p.points.into()):
         "number of equilibria of the puncture path";
-    other("puncture_iterations", NONE, |r| punctured(r, |p| p.iterations)):
+    of_puncture("puncture_iterations", NONE, |p| p.iterations.into()):
         "number of Newton iterations of the puncture path";
-    other("calibration_error", NONE, |r| punctured(r, |p| p.calibration_error)):
+    of_puncture("calibration_error", NONE, |p| p.calibration_error.into()):
         "estimated relative error of the substrate stiffness, including terms that full coupling neglects";
     bending(name::COMPLIANCE, Anywhere, |m| &mut m.compliance)
         .in_unit("1/(E_m I_m)")
         .physical(&[renamed(Quantity::Rigidity, "flexural_rigidity", "flexural rigidity: largest slope of the moment against the curvature")])
         .large().sampled("flexural compliance", |s| s.compliance).first():
         "flexural compliance: 1 over the largest slope of the moment against the curvature";
-    other("flexure_status", COMPLIANCE, |r| r.flexure.map(|f| f.outcome.text()).into()).last():
+    of_bending("flexure_status", COMPLIANCE, |f| f.outcome.text().into()).last():
         "complete, or why the bending has no values";
     bending(name::INITIAL_COMPLIANCE, Rest, |m| &mut m.initial_compliance)
         .in_unit("1/(E_m I_m)")
         .physical(&[renamed(Quantity::Rigidity, "initial_flexural_rigidity", "flexural rigidity at rest")])
         .large():
         "flexural compliance at rest";
-    other(name::FLEXURE_CONTACT, COMPLIANCE, |r| bent(r, |m| m.contact.map(yes_or_no))).then():
+    of_bending(name::FLEXURE_CONTACT, COMPLIANCE, |f| f.measures.contact.map(yes_or_no).into()).then():
         "yes or no: whether bending closes contacts";
     bending(name::FIRST_CONTACT_CURVATURE, Contact, |m| &mut m.first_contact_curvature)
         .in_unit("1/t").large():
@@ -154,15 +151,15 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "largest moment on the path";
     bending("axial_energy_share", End, |m| &mut m.axial_energy_share):
         "fraction of the elastic energy that stretches the membrane, at the largest rotation";
-    other("gaps", COMPLIANCE, |r| bent(r, |m| (m.gaps > 0.0).then_some(m.gaps))):
+    of_bending("gaps", COMPLIANCE, |f| (f.measures.gaps > 0.0).then_some(f.measures.gaps).into()):
         "number of gaps of the strip; whole only in a chain";
-    other("flexure_points", NONE, |r| r.flexure.map(|f| f.points).into()):
+    of_bending("flexure_points", NONE, |f| f.points.into()):
         "number of equilibria of the bending path";
-    other("flexure_iterations", NONE, |r| r.flexure.map(|f| f.iterations).into()):
+    of_bending("flexure_iterations", NONE, |f| f.iterations.into()):
         "number of Newton iterations of the bending path";
-    other(name::SETTINGS, NONE, |r| r.settings.clone().into()):
+    value(name::SETTINGS, NONE, Settings):
         "settings of a rerun design that differ from the sweep";
-    other("flexure_error", COMPLIANCE, |r| bent(r, |m| m.error)):
+    of_bending("flexure_error", COMPLIANCE, |f| f.measures.error.into()):
         "estimated relative error of the measures of bending, from the resolution of the membrane; empty for a given number of elements";
     bending(name::MEMBRANE_STRAIN, Anywhere, |m| &mut m.membrane_strain_max).small().then():
         "largest strain at the surface of the membrane; above 0.2 the small-strain law is outside its range";
@@ -170,15 +167,15 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "downward displacement of the punctured point at the largest force";
     number("peak_tilt_deg", Peak, |m| &mut m.peak_tilt_deg).in_unit("deg"):
         "tilt of the punctured scale at the largest force";
-    other("stable_under_load", FORCE, |r| measured(r, |m| m.stable_under_load.map(yes_or_no))).along_path():
+    of_puncture("stable_under_load", FORCE, |p| p.measures.stable_under_load.map(yes_or_no).into()).along_path():
         "yes or no: whether the row is stable at the critical tilt under a constant load";
-    other("stable_under_depth", FORCE, |r| measured(r, |m| m.stable_under_depth.map(yes_or_no))).along_path():
+    of_puncture("stable_under_depth", FORCE, |p| p.measures.stable_under_depth.map(yes_or_no).into()).along_path():
         "yes or no: whether the row is stable at the critical tilt at a constant depth of the punctured point";
     force("load_stability_force", Instability, |m| &mut m.load_stability_force):
         "puncture force at which the row becomes unstable under load control; empty if it does not";
     force("depth_stability_force", Instability, |m| &mut m.depth_stability_force):
         "puncture force at which the row becomes unstable under depth control; empty if it does not";
-    other("snaps", FORCE, |r| punctured(r, |p| p.measures.snaps)).at(Anywhere).along_path():
+    of_puncture("snaps", FORCE, |p| p.measures.snaps.into()).at(Anywhere).along_path():
         "number of snaps of the row under a needle with increasing depth";
     number(name::GAP_STRETCH_MIN, End, |m| &mut m.gap_stretch_min).large().then():
         "width of the tightest gap between bases at the critical tilt over its width at rest; 0 or less where the surface is folded";
@@ -198,9 +195,9 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     force(name::WEAKEST_FORCE, Anywhere, |m| &mut m.weakest.force)
         .large().first().needing(PLACES):
         "smallest puncture force, over the evaluated load positions, at which the scale is critically tilted or a guided needle is through";
-    other(name::WEAKEST_PLACE, FORCE, |r| measured(r, |m| m.weakest.place)).then().needing(PLACES):
+    of_puncture(name::WEAKEST_PLACE, FORCE, |p| p.measures.weakest.place.into()).then().needing(PLACES):
         "load position with that force: 0 the left corner of the top, 1 the right";
-    other("weakest_status", FORCE, |r| punctured(r, |p| p.weakest.map(Outcome::text)))
+    of_puncture("weakest_status", FORCE, |p| p.weakest.map(Outcome::text).into())
         .last().needing(PLACES):
         "complete, or why a load position that may be weaker has no force, so that the weakest is unknown";
     force(name::FORCE_ACROSS, End, |m| &mut m.across.force)
@@ -209,22 +206,22 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     force(name::FORCE_ANY_DIRECTION, End, |m| &mut m.across.any_direction)
         .large().first().needing(ACROSS):
         "smaller puncture force of both directions; along the row the weakest_force, if load positions are compared, otherwise the critical_force";
-    other("across_status", FORCE, |r| punctured(r, |p| p.across.map(Outcome::text)))
+    of_puncture("across_status", FORCE, |p| p.across.map(Outcome::text).into())
         .last().needing(ACROSS):
         "complete, or why the row across has no critical force";
     force(name::WORST_FORCE_BETWEEN, End, |m| &mut m.between.force)
         .large().first().needing(BETWEEN):
         "smallest puncture force at the critical tilt on bodies between the two radii";
-    other("worst_curvature", FORCE, |r| measured(r, |m| m.between.curvature))
+    of_puncture("worst_curvature", FORCE, |p| p.measures.between.curvature.into())
         .in_unit("1/t").needing(BETWEEN):
         "curvature of the body with that force: positive for a convex one";
-    other("between_status", FORCE, |r| punctured(r, |p| p.between.map(Outcome::text)))
+    of_puncture("between_status", FORCE, |p| p.between.map(Outcome::text).into())
         .last().needing(BETWEEN):
         "complete, or why a body between the two radii has no critical force, so that the smallest is unknown";
     force(name::FAILURE_FORCE, Anywhere, |m| &mut m.failure.force)
         .large().first().needing(FAILURE):
         "puncture force at the first failure: where a scale is critically tilted, breaks or bends by 5 deg, a bond fails, the needle is through or perforates a scale, or the surface folds; or the force across the row, if that is smaller";
-    other(name::FIRST_FAILURE, FORCE, |r| measured(r, |m| m.failure.mode.map(FailureMode::name)))
+    of_puncture(name::FIRST_FAILURE, FORCE, |p| p.measures.failure.mode.map(FailureMode::name).into())
         .at(Anywhere).then().needing(FAILURE):
         "mode of the first failure: tilt, through, fold, break, bend, debond, perforate or across; modes without a strength are not judged";
     number("scale_stress_max", Anywhere, |m| &mut m.failure.scale_stress)
@@ -244,33 +241,33 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "largest mean pressure of any base on the substrate when the needle first presses with the given force; empty for a skin that does not withstand that force";
     depth("clearance", Nowhere, |m| &mut m.failure.clearance).needing(FAILURE):
         "distance between the faces of two neighbours at rest";
-    other(name::FRICTION_WORK, BOTH, |r| measured(r, |m| m.friction_work))
+    of_puncture(name::FRICTION_WORK, BOTH, |p| p.measures.friction_work.into())
         .in_unit("E* t^3").at(End).needing(&[key::FRICTION]):
         "work dissipated by friction between scales up to the critical tilt";
-    other("loop_work", BOTH, |r| measured(r, |m| m.remains.loop_work))
+    of_puncture("loop_work", BOTH, |p| p.measures.remains.loop_work.into())
         .in_unit("E* t^3").at(End).needing(&[key::UNLOAD]):
         "work of the load that is not recovered during unloading: dissipated by friction, or stored in the remaining deformation";
-    other("remaining_displacement", BOTH, |r| measured(r, |m| m.remains.displacement))
+    of_puncture("remaining_displacement", BOTH, |p| p.measures.remains.displacement.into())
         .in_unit("t").at(End).needing(&[key::UNLOAD]):
         "displacement of the punctured point that remains after unloading";
-    other("unload_status", BOTH, |r| punctured(r, |p| p.way_back.map(Outcome::text)))
+    of_puncture("unload_status", BOTH, |p| p.way_back.map(Outcome::text).into())
         .last().needing(&[key::UNLOAD]):
         "complete, or why the load did not return to zero, so that the values of unloading are unknown";
-    other("unique", BOTH, |r| measured(r, |m| m.unique.map(yes_or_no))).needing(&[key::FRICTION]):
+    of_puncture("unique", BOTH, |p| p.measures.unique.map(yes_or_no).into()).needing(&[key::FRICTION]):
         "yes or no: whether the outgoing branch was unique at every event of the puncture path, among the evaluated combinations of sticking and slipping";
-    other("flexure_friction_work", COMPLIANCE, |r| bent(r, |m| m.friction_work))
+    of_bending("flexure_friction_work", COMPLIANCE, |f| f.measures.friction_work.into())
         .in_unit("E_m t^3").at(End).needing(&[key::FRICTION]):
         "work dissipated by friction between scales up to the largest rotation, for the whole strip";
-    other("flexure_loop_work", COMPLIANCE, |r| bent(r, |m| m.remains.loop_work))
+    of_bending("flexure_loop_work", COMPLIANCE, |f| f.measures.remains.loop_work.into())
         .in_unit("E_m t^3").at(End).needing(&[key::UNBEND]):
         "work of the moment that is not recovered during unloading, for the whole strip";
-    other("remaining_curvature", COMPLIANCE, |r| bent(r, |m| m.remains.displacement))
+    of_bending("remaining_curvature", COMPLIANCE, |f| f.measures.remains.displacement.into())
         .in_unit("1/t").at(End).needing(&[key::UNBEND]):
         "curvature that remains after unloading";
-    other("unbend_status", COMPLIANCE, |r| r.flexure.and_then(|f| f.way_back).map(Outcome::text).into())
+    of_bending("unbend_status", COMPLIANCE, |f| f.way_back.map(Outcome::text).into())
         .last().needing(&[key::UNBEND]):
         "complete, or why the moment did not return to zero, so that the values of unloading are unknown";
-    other("locking_curvature", COMPLIANCE, |r| bent(r, |m| m.locking_curvature))
+    of_bending("locking_curvature", COMPLIANCE, |f| f.measures.locking_curvature.into())
         .in_unit("1/t").needing(&[key::FRICTION]):
         "curvature above which the scales stick to each other and lock the strip; empty if it does not lock";
     bending(name::CONTACT_CURVATURE, Contact, |m| &mut m.contact_curvature)
@@ -290,21 +287,6 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "mass of the scales over the area of the skin";
 };
 
-fn measured<T: Into<Cell>>(
-    result: &DesignResult,
-    value: fn(&PunctureMeasures) -> Option<T>,
-) -> Cell {
-    result.puncture.and_then(|puncture| value(&puncture.measures)).into()
-}
-
 fn yes_or_no(holds: bool) -> &'static str {
     if holds { "yes" } else { "no" }
-}
-
-fn punctured<T: Into<Cell>>(result: &DesignResult, value: fn(&PunctureResult) -> T) -> Cell {
-    result.puncture.as_ref().map(value).into()
-}
-
-fn bent<T: Into<Cell>>(result: &DesignResult, value: fn(&FlexureMeasures) -> Option<T>) -> Cell {
-    result.flexure.and_then(|flexure| value(&flexure.measures)).into()
 }

@@ -13,6 +13,7 @@ use super::parameter_derivative::ParameterDerivative;
 use super::row::DesignRow;
 use super::sample_statistics::SampleStatistics;
 use crate::columns::measured_value;
+use crate::columns::measured_value::{MeasuredValue, Value};
 use crate::columns::values::VALUES;
 
 /// Relative step to find the parameters that follow another one.
@@ -170,7 +171,7 @@ impl DesignResult {
             let of_puncture =
                 VALUES.iter().filter(|value| value.measure() == Some(Measure::Puncture));
             for value in of_puncture {
-                if let Some(number) = value.number_mut(&mut result) {
+                if let Some(number) = result.number_mut(value) {
                     *number = None;
                 }
             }
@@ -189,6 +190,16 @@ impl DesignResult {
     ///
     /// `None` if there is none, or it was not requested.
     fn value_mut(&mut self, measure: &str) -> Option<&mut Option<f64>> {
-        measured_value(measure)?.number_mut(self)
+        self.number_mut(measured_value(measure)?)
+    }
+
+    /// Returns a continuous measure; `None` if it was not requested.
+    fn number_mut(&mut self, of: &MeasuredValue) -> Option<&mut Option<f64>> {
+        match of.value {
+            Value::Coverage => Some(&mut self.coverage),
+            Value::Puncture(field) => self.puncture.as_mut().map(|p| field(&mut p.measures)),
+            Value::Flexure(field) => self.flexure.as_mut().map(|f| field(&mut f.measures)),
+            _ => None,
+        }
     }
 }
