@@ -112,7 +112,7 @@ impl<'a> Corners<'a> {
     }
 
     /// Computes the gap between a corner and an edge of this level.
-    pub(crate) fn gap(&self, edge: CornerEdge) -> Gap {
+    pub fn gap(&self, edge: CornerEdge) -> Gap {
         let [left, right] = self.poses;
         self.pair.gap(edge, left, right)
     }

@@ -110,14 +110,46 @@ pub struct Gap {
     pub value: f64,
     /// `∇g`.
     pub gradient: [f64; 6],
-    /// `∇²g`, symmetric.
-    pub hessian: [[f64; 6]; 6],
+    /// `∇²g`, by its nonzero entries.
+    pub curvature: Curvature,
     /// Position of the foot of the corner on the edge, from 0 to 1.
     ///
     /// It is 0 at the base, or at the left end of a base or a top.
     pub foot: f64,
     /// Outward normal of the edge: the direction of the force on the corner.
     pub normal: Vec2,
+}
+
+/// Nonzero second derivatives (C3) of a gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curvature {
+    /// True if the left scale has the corner.
+    pub corner_is_left: bool,
+    /// `n'`: by the displacement of the corner's scale and the rotation of the edge's scale.
+    ///
+    /// By the displacement of the edge's scale the derivative is opposite.
+    pub normal_turned: Vec2,
+    /// `ρ·n`: by both rotations; opposite by the rotation of the corner's scale twice.
+    pub arm: f64,
+    /// `−D·n`: by the rotation of the edge's scale twice.
+    pub distance: f64,
+}
+
+impl Curvature {
+    /// Returns `∇²g`, a symmetric matrix.
+    pub fn hessian(&self) -> [[f64; 6]; 6] {
+        // First coordinates of the scale with the corner (A) and of the scale with the edge (B).
+        let (a, b) = if self.corner_is_left { (0, 3) } else { (3, 0) };
+        let mut hessian = [[0.0; 6]; 6];
+        for axis in 0..2 {
+            set(&mut hessian, a + axis, b + 2, self.normal_turned[axis]);
+            set(&mut hessian, b + axis, b + 2, -self.normal_turned[axis]);
+        }
+        set(&mut hessian, a + 2, a + 2, -self.arm);
+        set(&mut hessian, a + 2, b + 2, self.arm);
+        set(&mut hessian, b + 2, b + 2, self.distance);
+        hessian
+    }
 }
 
 /// Two neighbouring scales at rest.
@@ -318,21 +350,14 @@ impl Meeting {
     /// Evaluates the coordinate of the corner along a direction fixed to the edge.
     #[inline]
     fn along(&self, corner_edge: CornerEdge, direction: Vec2, value: f64) -> Gap {
-        let Self { arm, to_corner, foot, .. } = *self;
-        let turned = quarter(direction);
-        // Offsets of the scale with the corner (A) and the scale with the edge (B) among the six
-        // coordinates.
-        let (a, b) = if corner_edge.corner_is_left() { (0, 3) } else { (3, 0) };
-        let mut hessian = [[0.0; 6]; 6];
-        for axis in 0..2 {
-            set(&mut hessian, a + axis, b + 2, turned[axis]);
-            set(&mut hessian, b + axis, b + 2, -turned[axis]);
-        }
-        set(&mut hessian, a + 2, a + 2, -arm.dot(&direction));
-        set(&mut hessian, a + 2, b + 2, arm.dot(&direction));
-        set(&mut hessian, b + 2, b + 2, -to_corner.dot(&direction));
+        let curvature = Curvature {
+            corner_is_left: corner_edge.corner_is_left(),
+            normal_turned: quarter(direction),
+            arm: self.arm.dot(&direction),
+            distance: -self.to_corner.dot(&direction),
+        };
         let gradient = self.gradient_along(corner_edge, direction);
-        Gap { value, gradient, hessian, foot, normal: direction }
+        Gap { value, gradient, curvature, foot: self.foot, normal: direction }
     }
 }
 

@@ -51,7 +51,7 @@ mod tests;
 
 pub use corner_contact::{CornerContact, FORCES, Force, Transition};
 pub use corners::{Corners, Level};
-pub use gap::{CornerEdge, Gap, Pair, Pose, quarter};
+pub use gap::{CornerEdge, Curvature, Gap, Pair, Pose, quarter};
 pub use law::{Approach, ContactLaw, Law};
 pub use overlap::{Overlap, overlap_polygon, overlaps};
 pub use response::{COORDINATES, CornerResponse, Equation};

@@ -137,10 +137,10 @@ impl CornerResponse {
             by_coordinate: gap.gradient,
             by_force: [approach.slope, 0.0, approach.slope],
         };
-        let force = forces[Force::Own as usize];
+        let (force, hessian) = (forces[Force::Own as usize], gap.curvature.hessian());
         let balance = std::array::from_fn(|i| Equation {
             value: -force * gap.gradient[i],
-            by_coordinate: gap.hessian[i].map(|hessian| -force * hessian),
+            by_coordinate: hessian[i].map(|hessian| -force * hessian),
             by_force: [-gap.gradient[i], 0.0, 0.0],
         });
         Self { balance, conditions: [Some(condition), None, None] }
@@ -148,11 +148,11 @@ impl CornerResponse {
 
     /// Adds the balance of `ratio` times one of the forces, which acts along a gap or a slide.
     fn add_force(&mut self, which: Force, gap: &Gap, forces: [f64; FORCES], ratio: f64) {
-        let force = ratio * forces[which as usize];
+        let (force, hessian) = (ratio * forces[which as usize], gap.curvature.hessian());
         for (i, row) in self.balance.iter_mut().enumerate() {
             row.value -= force * gap.gradient[i];
             row.by_force[which as usize] -= ratio * gap.gradient[i];
-            for (slope, hessian) in row.by_coordinate.iter_mut().zip(gap.hessian[i]) {
+            for (slope, hessian) in row.by_coordinate.iter_mut().zip(hessian[i]) {
                 *slope -= force * hessian;
             }
         }

@@ -75,7 +75,7 @@ impl ContactStiffness {
     /// Adds a force that acts along a gap.
     fn add_gap(&mut self, gap: &Gap, force: f64) {
         self.by_force.push(gap.gradient.map(|slope| -slope));
-        for (row, hessian) in self.by_coordinate.iter_mut().zip(gap.hessian) {
+        for (row, hessian) in self.by_coordinate.iter_mut().zip(gap.curvature.hessian()) {
             for (entry, hessian) in row.iter_mut().zip(hessian) {
                 *entry -= force * hessian;
             }

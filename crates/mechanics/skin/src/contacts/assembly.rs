@@ -1,9 +1,10 @@
 //! Contributions of the closed contacts to residual and tangent.
 
-use contact::{CornerContact, CornerResponse, FORCES};
+use contact::{CornerContact, CornerResponse, Curvature, FORCES, Force, Gap};
 use solver::{Residual, Tangent};
 
 use super::friction::FrictionState;
+use super::pair_unknowns::PairUnknowns;
 use super::{Contacts, LEVELS, SkinState};
 
 impl Contacts {
@@ -26,6 +27,13 @@ impl Contacts {
                     continue;
                 }
                 let corners = self.corners(contact, &poses);
+                if let (CornerContact::Edge(edge), PairUnknowns::Blocks(scales)) =
+                    (*mode, self.pair_unknowns(contact))
+                {
+                    let force = self.unknowns_of(contact)[Force::Own as usize];
+                    self.add_edge(&corners.gap(edge), scales, force, &state.z, residual, matrix);
+                    continue;
+                }
                 let (forces, held) =
                     (self.forces_of(&state.z, contact), self.locked_ratio(&state.mode, contact));
                 let response = mode.acting_response(&corners, &self.law, forces, held);
@@ -43,6 +51,45 @@ impl Contacts {
                 }
             }
         }
+    }
+
+    /// Adds a corner on an edge of a row, without the derivatives that vanish.
+    ///
+    /// Most contacts are of this kind. The terms are those of [`CornerContact::acting_response`].
+    fn add_edge(
+        &self,
+        gap: &Gap,
+        scales: [usize; 2],
+        unknown: usize,
+        z: &[f64],
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        let (force, approach) = (z[unknown], self.law.approach(z[unknown]));
+        let Curvature { corner_is_left, normal_turned, arm, distance } = gap.curvature;
+        let [left, right] = scales;
+        let (corner, edge) = if corner_is_left { (left, right) } else { (right, left) };
+        let [x, y, turn, both] =
+            [normal_turned.x, normal_turned.y, arm, distance].map(|entry| -force * entry);
+        // From left to right, as for other contacts: the order of a sum decides on its last digit.
+        for is_by_corner in [corner_is_left, !corner_is_left] {
+            if is_by_corner {
+                matrix.add(corner + 2, corner + 2, -turn);
+                matrix.add_block(edge + 2, corner, &[[x, y, turn]]);
+            } else {
+                matrix.add_block(corner, edge + 2, &[[x], [y], [turn]]);
+                matrix.add_block(edge, edge, &[[0.0, 0.0, -x], [0.0, 0.0, -y], [-x, -y, both]]);
+            }
+        }
+        for (scale, &[x, y, turn]) in scales.into_iter().zip(gap.gradient.as_chunks::<3>().0) {
+            for (row, slope) in (scale..).zip([x, y, turn]) {
+                residual.add(row, -force * slope);
+            }
+            matrix.add_block(scale, unknown, &[[-x], [-y], [-turn]]);
+            matrix.add_block(unknown, scale, &[[x, y, turn]]);
+        }
+        residual.add(unknown, gap.value + approach.value);
+        matrix.add(unknown, unknown, approach.slope);
     }
 
     /// Adds the response of a closed contact with the given `acting` forces.

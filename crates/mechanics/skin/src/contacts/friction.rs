@@ -332,7 +332,7 @@ impl Contacts {
             pair.add_balance(residual, &along.map(|slope| -traction * slope));
             pair.add_square(
                 matrix,
-                &slide.hessian.map(|row| row.map(|turning| -traction * turning)),
+                &slide.curvature.hessian().map(|row| row.map(|turning| -traction * turning)),
             );
             for force in self.normal_force_unknowns(&state.mode, contact) {
                 pair.add_column(matrix, force, &along.map(|slope| -by_normal_force * slope));

@@ -116,7 +116,7 @@ impl Contacts {
         let unknowns = self.pair_unknowns(contact);
         let slide = pair.slide(edge, &left, &right);
         let (at, slopes) = unknowns.in_unknowns(&slide.gradient)?;
-        let curvature = unknowns.square_in_unknowns(&slide.hessian);
+        let curvature = unknowns.square_in_unknowns(&slide.curvature.hessian());
         let slide = PairCoordinate { value: slide.value, slopes, curvature };
         let turn = PairCoordinate {
             value: right.rotation - left.rotation,
