@@ -124,14 +124,20 @@ impl FoldObserver {
     ) -> Vec<FoldCrossing> {
         let spans = path.spans(from, to);
         let mut crossings = Vec::new();
+        let mut left = base_positions(path.system(), [from, to], 0);
         for pair in 0..path.system().layout.scales() - 1 {
-            let chain = path.system();
-            let [start, end] = [&from.state, &to.state].map(|state| chain.gap_stretch(state, pair));
-            let slopes = [
-                spans[0] * chain.gap_stretch_rate(&from.state, &from.leaving, pair),
-                spans[1] * chain.gap_stretch_rate(&to.state, &to.arriving, pair),
-            ];
-            self.note_dip(chain, to, pair, [start, end], slopes);
+            let (chain, right) =
+                (path.system(), base_positions(path.system(), [from, to], pair + 1));
+            let strip = chain.strip(pair);
+            let [start, end] = [0, 1].map(|k| {
+                let (apart, shortened) =
+                    (right[k].x - left[k].x, left[k].shortened + right[k].shortened);
+                strip.stretch_by(apart, shortened)
+            });
+            left = right;
+            if chain.is_critical_only() {
+                self.note_dip(chain, [from, to], pair, [start, end]);
+            }
             if is_folded(start) != is_folded(end) {
                 let bracket = bracket((0.0, start), (1.0, end));
                 crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket });
@@ -139,10 +145,15 @@ impl FoldObserver {
             }
             // `dip` detects minima towards zero from above, so invert the sign for a folded gap.
             let sign = if is_folded(start) { -1.0 } else { 1.0 };
-            let Some(fraction) = dip([start, end].map(|g| sign * g), slopes.map(|g| sign * g))
-            else {
+            let falling =
+                sign * spans[0] * chain.gap_stretch_rate(&from.state, &from.leaving, pair);
+            // The slope at the end matters only if the stretch dips at the start.
+            if falling >= 0.0 {
                 continue;
-            };
+            }
+            let rising = sign * spans[1] * chain.gap_stretch_rate(&to.state, &to.arriving, pair);
+            let ends = [start, end].map(|g| sign * g);
+            let Some(fraction) = dip(ends, [falling, rising]) else { continue };
             let Some(inside) = path.between(from, to, fraction) else { continue };
             let stretch = path.system().gap_stretch(&inside.state, pair);
             // The slopes only suggest a dip; the equilibrium there decides.
@@ -160,18 +171,36 @@ impl FoldObserver {
     fn note_dip(
         &mut self,
         chain: &Chain,
-        to: &SkinPoint,
+        [from, to]: [&SkinPoint; 2],
         pair: usize,
         stretch: [f64; 2],
-        slopes: [f64; 2],
     ) {
-        let stops = slopes[1] > 0.0
+        let rates = [(&from.state, &from.leaving), (&to.state, &to.arriving)]
+            .map(|(state, direction)| chain.gap_stretch_rate(state, direction, pair));
+        let stops = rates[1] > 0.0
             || (to.event.is_some()
                 && chain.gap_stretch_rate(&to.state, &to.leaving, pair) > -NO_RATE);
-        if (slopes[0] < 0.0 || slopes[1] < 0.0) && stops {
+        if (rates[0] < 0.0 || rates[1] < 0.0) && stops {
             self.least_dip = stretch.into_iter().fold(self.least_dip, f64::min);
         }
     }
+}
+
+/// Position of a base along the row, relative to its position at rest.
+#[derive(Clone, Copy)]
+struct BasePosition {
+    x: f64,
+    /// Shortening `1 − cos φ` of each half of the base, in units of this half.
+    shortened: f64,
+}
+
+/// Returns the positions of a base at both ends of a segment.
+fn base_positions(chain: &Chain, ends: [&SkinPoint; 2], scale: usize) -> [BasePosition; 2] {
+    ends.map(|point| {
+        let [x, _, rotation] = chain.displacement(&point.state.z, scale);
+        // Without cancellation.
+        BasePosition { x, shortened: 2.0 * (0.5 * rotation).sin().powi(2) }
+    })
 }
 
 pub(super) fn is_folded(stretch: f64) -> bool {
