@@ -55,7 +55,7 @@ impl Contacts {
 
     /// Adds a corner on an edge of a row, without the derivatives that vanish.
     ///
-    /// Most contacts are of this kind. The terms are those of [`CornerContact::acting_response`].
+    /// Most contacts are of this kind. The terms equal [`CornerContact::acting_response`].
     fn add_edge(
         &self,
         gap: &Gap,
