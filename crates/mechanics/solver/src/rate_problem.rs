@@ -1,7 +1,8 @@
 //! Rate complementarity problem: the outgoing branch of the path at an event.
 
 use crate::continuation::{Continuation, Equilibrium};
-use crate::event::{Change, NO_RATE};
+use crate::event::Change;
+use crate::event_location::{ELSEWHERE, NO_RATE};
 use crate::newton::{Condition, FLOOR, Newton, guard, guard_slope};
 use crate::system::{State, System};
 use crate::termination::Termination;
@@ -11,12 +12,6 @@ use crate::termination::Termination;
 /// Between nearly parallel edges, forces change by 10⁵ over a unit of the path, so even short
 /// segments between events must be followed.
 const APART: f64 = 1e-10;
-
-/// Largest relative guard of a changed constraint at the restored equilibrium.
-///
-/// It is relative to 1 plus its slope. If the guard exceeds this, Newton's method converged to a
-/// different equilibrium; likewise if any active guard is below zero by more.
-pub(crate) const ELSEWHERE: f64 = 1e-4;
 
 /// Two directions are the same branch if their cosine differs from 1 by less.
 const SAME_BRANCH: f64 = 1e-6;
