@@ -7,6 +7,7 @@ mod closed;
 mod dissipation;
 mod friction;
 mod mode;
+mod needle_mode;
 mod pair_unknowns;
 mod stick_slip;
 mod stiffness;
@@ -18,6 +19,7 @@ pub(crate) use dissipation::{Dissipation, product_integral};
 pub(crate) use friction::TipFriction;
 use friction::{FrictionState, SLIP_DISTANCE};
 pub(crate) use mode::SkinMode;
+pub(crate) use needle_mode::{NeedleMode, OutlinePart, SHARP_SLOTS, TipState, Touch};
 pub(crate) use touching::{PairCoordinate, TouchingEdge};
 
 use contact::{

@@ -38,7 +38,6 @@ use crate::{Common, Design, Sample, Status, Unloading};
 pub use failure::{FailureMeasures, FailureMode, Strengths};
 pub use load_positions::{LoadPosition, Weakest, load_positions};
 pub use measures::{AcrossMeasures, BetweenMeasures, PunctureMeasures};
-pub(crate) use needle::NeedleMode;
 pub use needle::{CriticalEvent, Needle, Passage, TipForces};
 pub use number_list::{MOST_NUMBERS, NumberList};
 pub use parameters::{Bending, PunctureParameters, RowLength};

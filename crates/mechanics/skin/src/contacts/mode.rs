@@ -3,7 +3,7 @@
 use contact::CornerContact;
 
 use super::friction::FrictionState;
-use crate::puncture::NeedleMode;
+use super::needle_mode::NeedleMode;
 
 /// Discrete state of all contacts, of their friction, and of a guided needle.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,9 +4,11 @@
 //! a face of a scale with friction, slides to the end of the face, then over the corner or into the
 //! notch formed with the face of a neighbour, and on.
 //!
+//! The parts that the needle touches, and its friction state there, belong to the discrete state of
+//! the skin (`contacts/needle_mode.rs`).
+//!
 //! | File | Content |
 //! |---|---|
-//! | `mode.rs` | discrete state: which parts the needle touches, and its friction state there |
 //! | `outline.rs` | kinematics of the tip at a face: gap, coordinate along the face, their derivatives |
 //! | `round.rs` | a tip with a radius: its own conditions and transitions |
 //! | `forces.rs` | equations, tangent, and their validity conditions |
@@ -16,7 +18,6 @@
 
 mod forces;
 mod history;
-mod mode;
 mod outline;
 mod passage;
 mod round;
@@ -30,12 +31,9 @@ use solver::{Condition, Newton};
 
 use super::PunctureParameters;
 use super::system::{Chain, RowLayout};
-use crate::contacts::{Contacts, SkinState};
+use crate::contacts::{Contacts, OutlinePart, SHARP_SLOTS, SkinState, Touch};
 
 pub(super) use history::{HistoryObserver, HistoryVariable, anchors, event_before, history, with};
-pub(crate) use mode::NeedleMode;
-pub(super) use mode::OutlinePart;
-use mode::{SHARP_SLOTS, Touch};
 use outline::{Face, Meeting, Tip};
 pub(super) use passage::PassageObserver;
 pub use passage::{CriticalEvent, Passage, TipForces};

@@ -11,11 +11,11 @@ use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
 pub(crate) use self::layout::RowLayout;
 use super::failure::Strengths;
-use super::needle::{GuidedNeedle, Needle, NeedleMode};
+use super::needle::{GuidedNeedle, Needle};
 use super::row_exterior::RowExterior;
 use super::{Bending, PunctureParameters};
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, SkinMode, SkinState};
+use crate::contacts::{Contacts, NeedleMode, SkinMode, SkinState};
 use crate::{Design, PathDetail};
 
 /// Depth unit of a guided needle as the control parameter, over `t`.

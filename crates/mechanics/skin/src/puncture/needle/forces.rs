@@ -3,11 +3,11 @@
 use geometry::Vec2;
 use solver::{Residual, Tangent};
 
-use super::mode::{OutlinePart, TipState, Touch};
 use super::outline::{COORDINATES, Meeting};
 use super::{BACKWARD, CONSTRAINTS_PER_TOUCH, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
 use crate::contacts::{
-    Contacts, Dissipation, HOLDS, SkinPoint, SkinState, TipFriction, product_integral,
+    Contacts, Dissipation, HOLDS, OutlinePart, SkinPoint, SkinState, TipFriction, TipState, Touch,
+    product_integral,
 };
 use crate::puncture::system::Chain;
 

@@ -17,8 +17,7 @@ use std::borrow::Cow;
 use solver::{AnchoredPoint, Continuation, Linearisation, Neighbours, PathAnchor};
 
 use super::GuidedNeedle;
-use super::mode::{TipState, Touch};
-use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState};
+use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState, TipState, Touch};
 use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
 use crate::sensitivity::vanished;

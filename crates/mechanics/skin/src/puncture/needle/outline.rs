@@ -3,7 +3,7 @@
 use contact::Pose;
 use geometry::{Corner, Parallelogram, Vec2};
 
-use super::mode::OutlinePart;
+use crate::contacts::OutlinePart;
 
 /// Face of a scale in its own frame.
 ///

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mode::{OutlinePart, TipState};
-use crate::contacts::{SkinPoint, SkinState};
+use crate::contacts::{OutlinePart, SkinPoint, SkinState, TipState};
 use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
 use crate::record::Skin;

@@ -10,11 +10,10 @@ use geometry::Vec2;
 use solver::{Change, Condition, Newton};
 
 use super::forces::STEP;
-use super::mode::{OutlinePart, TipState, Touch};
 use super::outline::Face;
 use super::passage::TipForces;
 use super::{ENDINGS, GuidedNeedle, NORMAL};
-use crate::contacts::{HOLDS, SkinState};
+use crate::contacts::{HOLDS, OutlinePart, SkinState, TipState, Touch};
 use crate::puncture::system::Chain;
 
 /// Largest reach of a round tip, in scales on each side of the punctured one.

@@ -2,9 +2,8 @@
 
 use solver::Change;
 
-use super::mode::{OutlinePart, TipState, Touch};
 use super::{BACKWARD, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
-use crate::contacts::SkinState;
+use crate::contacts::{OutlinePart, SkinState, TipState, Touch};
 use crate::puncture::system::Chain;
 
 /// Fractions of friction limits that differ by less are equal.

@@ -1,7 +1,8 @@
 //! Rows under a guided needle with a round tip.
 
 use super::*;
-use crate::puncture::needle::{OutlinePart, reach, unknowns};
+use crate::contacts::OutlinePart;
+use crate::puncture::needle::{reach, unknowns};
 
 /// Gap, length and slant; radius; friction; position.
 ///

@@ -83,7 +83,7 @@ impl Touch {
 }
 
 /// Slots of a sharp tip: it touches at most two neighbouring scales.
-pub(super) const SHARP_SLOTS: usize = 2;
+pub(crate) const SHARP_SLOTS: usize = 2;
 
 /// Discrete state of a guided needle, history included; empty under a free needle.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -94,19 +94,19 @@ pub(crate) struct NeedleMode {
 
 impl NeedleMode {
     /// Returns true for a round tip, which always has more slots.
-    pub(super) fn is_round(&self) -> bool {
+    pub(crate) fn is_round(&self) -> bool {
         self.touches.len() > SHARP_SLOTS
     }
 
     /// Returns the part of a scale that the tip touches.
     ///
     /// Scales are counted from the punctured one.
-    pub(in crate::puncture) fn place(&self, scale: i64) -> Option<OutlinePart> {
+    pub(crate) fn place(&self, scale: i64) -> Option<OutlinePart> {
         self.all().find(|(_, touch)| touch.scale == scale).map(|(_, touch)| touch.place)
     }
 
     /// Iterates over all touches with their slots.
-    pub(super) fn all(&self) -> impl Iterator<Item = (usize, &Touch)> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = (usize, &Touch)> {
         let slots = self.touches.iter().enumerate();
         slots.filter_map(|(slot, touch)| Some((slot, touch.as_ref()?)))
     }
