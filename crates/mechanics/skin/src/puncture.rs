@@ -35,12 +35,12 @@ use substrate::RowStiffness;
 use crate::record::{ContactEvent, Iteration};
 use crate::{Common, Design, Sample, Status, Unloading};
 
-pub use failure::{FailureMeasures, FailureMode, Strengths};
+pub use failure::{FailureMeasures, FailureMode};
 pub use load_positions::{LoadPosition, Weakest, load_positions};
 pub use measures::{AcrossMeasures, BetweenMeasures, PunctureMeasures};
 pub use needle::{CriticalEvent, Needle, Passage, TipForces};
 pub use number_list::{MOST_NUMBERS, NumberList};
-pub use parameters::{Bending, PunctureParameters, RowLength};
+pub use parameters::{Bending, PunctureParameters, RowLength, Strengths};
 pub use path_end::{PunctureEnd, differentiate_near, solve_near};
 pub use point::{PuncturePoint, ScaleState};
 pub use sensitivity::{PunctureInput, differentiate, force_curve, unloading_curve};

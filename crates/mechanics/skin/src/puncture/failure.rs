@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 use solver::{Bracket, Continuation, Peak, Summit};
 use substrate::SubstrateLaw;
 
-use super::PunctureParameters;
 use super::adaptive_row::Segment;
 use super::beam::{BaseTractions, Beam, Load, TipMotion};
 use super::needle::CriticalEvent;
+use super::parameters::{PunctureParameters, Strengths};
 use super::system::{Chain, FIRST_LIMIT_MARK};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::PathFunction;
@@ -24,15 +24,6 @@ const LARGEST_BEND_DEG: f64 = 5.0;
 ///
 /// An estimate: the indentation pressure of a rigid–plastic half-space is `3 σ_y`.
 const PERFORATION: f64 = 3.0;
-
-/// Strengths of a skin, over `E_s`. A mode without its strength is not judged.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Strengths {
-    /// Strength of the scales in bending; for perforation also their yield stress.
-    pub scale: Option<f64>,
-    /// Strength of the bond between a scale and the substrate.
-    pub bond: Option<f64>,
-}
 
 /// Mode of failure of a skin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,7 +3,7 @@
 use geometry::{Body, OutOfRange};
 use substrate::SubstrateLaw;
 
-use super::{Needle, NumberList, Strengths};
+use super::{Needle, NumberList};
 
 /// Response of the scales to the forces on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,6 +30,17 @@ pub enum RowLength {
     ///
     /// The punctured one is the middle one, or the left of the two middle ones.
     Scales(usize),
+}
+
+/// Strengths of a skin, over `E_s`.
+///
+/// A failure mode without its strength is not judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Strengths {
+    /// Strength of the scales in bending; for perforation also their yield stress.
+    pub scale: Option<f64>,
+    /// Strength of the bond between a scale and the substrate.
+    pub bond: Option<f64>,
 }
 
 /// Parameters of a puncture other than design and substrate.

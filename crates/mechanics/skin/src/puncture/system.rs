@@ -10,10 +10,9 @@ use solver::{Blocks, Change, Control, FARTHEST_LINK, Residual, System, Tangent};
 use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
 pub(crate) use self::layout::RowLayout;
-use super::failure::Strengths;
 use super::needle::{GuidedNeedle, Needle};
+use super::parameters::{Bending, PunctureParameters, Strengths};
 use super::row_exterior::RowExterior;
-use super::{Bending, PunctureParameters};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, NeedleMode, SkinMode, SkinState};
 use crate::{Design, PathDetail};
