@@ -4,6 +4,7 @@ mod adaptive_row;
 mod beam;
 mod bending;
 mod ending;
+mod exterior_motion;
 mod failure;
 mod load_positions;
 mod measures;
@@ -16,6 +17,8 @@ mod path_end;
 mod point;
 mod problem;
 mod row_exterior;
+mod row_layout;
+mod rows;
 mod sensitivity;
 mod single_scale;
 mod snap;
@@ -29,7 +32,8 @@ mod tilts;
 
 use contact::{Pose, overlaps};
 use geometry::{Body, OutOfRange};
-use problem::{Followed, Problem, Rows};
+use problem::{Followed, Problem};
+use rows::Rows;
 use substrate::RowStiffness;
 
 use crate::record::{ContactEvent, Iteration};

@@ -11,8 +11,9 @@ use solver::{Change, Continuation, Event};
 use substrate::{FarField, SubstrateLaw};
 
 use super::Problem;
-use super::row_exterior::Reach;
-use super::system::{Chain, RowLayout};
+use super::exterior_motion::Reach;
+use super::row_layout::RowLayout;
+use super::system::Chain;
 use crate::contacts::{SkinPoint, SkinState};
 
 /// Path of a part of a row, which is extended when deformation reaches its ends.

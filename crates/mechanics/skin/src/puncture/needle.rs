@@ -30,7 +30,8 @@ use geometry::{Frame, Vec2};
 use solver::{Condition, Newton};
 
 use super::PunctureParameters;
-use super::system::{Chain, RowLayout};
+use super::row_layout::RowLayout;
+use super::system::Chain;
 use crate::contacts::{Contacts, OutlinePart, SHARP_SLOTS, SkinState, Touch};
 
 pub(super) use history::{HistoryObserver, HistoryVariable, anchors, event_before, history, with};

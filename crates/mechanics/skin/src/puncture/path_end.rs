@@ -4,11 +4,12 @@ use geometry::OutOfRange;
 use solver::{Continuation, Neighbours, TargetPoint};
 use substrate::RowStiffness;
 
+use super::exterior_motion::Reach;
 use super::needle::Needle;
 use super::observers::PathObservers;
-use super::row_exterior::Reach;
+use super::row_layout::RowLayout;
 use super::surface_fold::{FoldObserver, is_folded};
-use super::system::{Chain, RowLayout};
+use super::system::Chain;
 use super::{
     Bending, Followed, LONGEST_ROW, Passage, Problem, Puncture, PunctureInput, PunctureParameters,
     Rows,

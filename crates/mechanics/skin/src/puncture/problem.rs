@@ -1,7 +1,7 @@
 //! Setup of a puncture and the solution of its path.
 
 use contact::ContactLaw;
-use geometry::{OutOfRange, Row};
+use geometry::OutOfRange;
 use solver::{Continuation, Settings, Termination};
 use substrate::{FarField, RowStiffness, SubstrateLaw};
 
@@ -11,18 +11,19 @@ use super::needle::{self, NEEDLE_UNKNOWNS};
 use super::observers::PathObservers;
 use super::point::scales;
 use super::row_exterior::{Beyond, RowExterior};
+use super::row_layout::RowLayout;
+use super::rows::Rows;
 use super::surface_fold::FoldObserver;
-use super::system::{Chain, RowLayout};
+use super::system::Chain;
 use super::{
-    At, Bending, CriticalEvent, DIRECT_STIFFNESS, FailureMode, LONGEST_ROW, Passage,
-    PerturbedScale, Puncture, PunctureEnd, PunctureMeasures, PunctureParameters, PuncturePoint,
-    RowLength, TIP_REACH, TiltMeasures, ending, failure, overlaps_at_rest,
+    At, Bending, CriticalEvent, DIRECT_STIFFNESS, FailureMode, LONGEST_ROW, Passage, Puncture,
+    PunctureEnd, PunctureMeasures, PunctureParameters, PuncturePoint, RowLength, TIP_REACH,
+    TiltMeasures, ending, failure, overlaps_at_rest,
 };
-use crate::arrangement::Arrangement;
 use crate::contacts::pair_constraints;
 use crate::path_location::PointLocator;
 use crate::record::{PathFunction, Record};
-use crate::{Common, Design, PathDetail, Sample, Status, Unloading};
+use crate::{Common, Design, PathDetail, Status, Unloading};
 
 /// Tilt below which a scale under a guided needle counts as not tilted, degrees.
 ///
@@ -39,24 +40,6 @@ const NEAR_REST: f64 = 0.01;
 ///
 /// None beyond 3 were observed, and each pitch adds six unknowns per scale.
 const FARTHEST_CONTACT: usize = 8;
-
-/// Source of rows of any length.
-#[derive(Clone, Copy)]
-pub(super) enum Rows<'a> {
-    Even(Row),
-    Odd(Row, PerturbedScale),
-    Sample(&'a Sample),
-}
-
-impl Rows<'_> {
-    pub(super) fn row(self, layout: RowLayout) -> Result<Arrangement, OutOfRange> {
-        Ok(match self {
-            Self::Even(row) => Arrangement::Even(row),
-            Self::Odd(row, odd) => Arrangement::Uneven(odd.within(&row, layout)?),
-            Self::Sample(sample) => Arrangement::Uneven(sample.row(layout.left, layout.right)?),
-        })
-    }
-}
 
 /// A path followed to its end.
 pub(super) struct Followed {

@@ -7,9 +7,10 @@ use substrate::RowStiffness;
 use super::failure::{MAXIMA, TISSUE_PRESSURE};
 use super::needle::{HistoryVariable, anchors, event_before, history, with};
 use super::observers::PathObservers;
+use super::row_layout::RowLayout;
 use super::snapshot::farther;
 use super::surface_fold::{Fold, FoldObserver};
-use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, FORCE_MARK, LOAD_RATE, RowLayout};
+use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, FORCE_MARK, LOAD_RATE};
 use super::{
     At, FailureMode, Followed, PerturbedScale, Problem, Puncture, PunctureParameters, Rows,
 };

@@ -2,7 +2,7 @@
 
 use geometry::{OutOfRange, Parallelogram, Row, UnevenRow};
 
-use super::system::RowLayout;
+use super::row_layout::RowLayout;
 
 /// Perturbation of one scale of a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

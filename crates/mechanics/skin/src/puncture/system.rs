@@ -1,7 +1,5 @@
 //! A row of scales on springs under a needle, as a mixed complementarity system.
 
-mod layout;
-
 use std::array;
 
 use contact::ContactLaw;
@@ -9,10 +7,10 @@ use geometry::{Corner, Vec2};
 use solver::{Blocks, Change, Control, FARTHEST_LINK, Residual, System, Tangent};
 use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
-pub(crate) use self::layout::RowLayout;
 use super::needle::{GuidedNeedle, Needle};
 use super::parameters::{Bending, PunctureParameters, Strengths};
 use super::row_exterior::RowExterior;
+use super::row_layout::RowLayout;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, NeedleMode, SkinMode, SkinState};
 use crate::{Design, PathDetail};

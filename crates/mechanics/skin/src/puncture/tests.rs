@@ -18,10 +18,13 @@ use solver::{BandMatrix, Continuation, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
 
 use self::needle::integral;
-use super::row_exterior::{Beyond, Reach, RowExterior};
+use super::exterior_motion::Reach;
+use super::row_exterior::{Beyond, RowExterior};
+use super::row_layout::RowLayout;
+use super::rows::Rows;
 use super::stability::Instability;
-use super::system::{Chain, RowLayout};
-use super::{Problem, PunctureParameters, Rows};
+use super::system::Chain;
+use super::{Problem, PunctureParameters};
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState, pair_constraints};
 use crate::record::Skin;

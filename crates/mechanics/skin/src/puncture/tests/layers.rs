@@ -9,7 +9,8 @@ use super::{BLOCKS, Balance, DOMINO, HARD, LIVELY, balance, law, whole};
 use crate::Design;
 use crate::contacts::SkinState;
 use crate::puncture::PunctureParameters;
-use crate::puncture::system::{Chain, RowLayout};
+use crate::puncture::row_layout::RowLayout;
+use crate::puncture::system::Chain;
 
 const CASES: [(Design, Coupling, SubstrateLaw); 5] = [
     (LIVELY, Coupling::Nearest, SubstrateLaw::Linear),

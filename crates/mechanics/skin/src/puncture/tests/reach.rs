@@ -6,7 +6,7 @@ use substrate::{Coupling, RowStiffness};
 
 use super::{Balance, DOMINO, HARD, balance, for_segments, law, whole};
 use crate::contacts::{SkinState, pair_constraints};
-use crate::puncture::system::RowLayout;
+use crate::puncture::row_layout::RowLayout;
 use crate::puncture::{Problem, Puncture, PunctureParameters, Rows};
 use crate::{Base, Common, Design, Status};
 
