@@ -106,16 +106,18 @@ impl Names {
     fn add(&mut self, (text, is_first): (String, bool), positions: impl Iterator<Item = Position>) {
         let mut best: Option<(f64, Bounds, Option<[Spot; 2]>)> = None;
         for (bounds, leader, distance) in positions {
+            // The cost is at least the distance.
+            let is_worse = best.as_ref().is_some_and(|(least, ..)| distance >= *least);
+            if is_worse || !self.is_free(&bounds) {
+                continue;
+            }
             let line = leader.map(samples).unwrap_or_default();
-            let is_free = bounds.is_inside(self.area)
-                && bounds.count(&self.marks, RADIUS + 2.0) == 0
-                && self.placed.iter().all(|name| !name.bounds.overlaps(&bounds));
             // A line that crosses a name is the last resort.
             let crossed: usize = self.placed.iter().map(|name| name.bounds.count(&line, 1.0)).sum();
             let crossed = crossed + bounds.count(&self.leaders, 1.0);
             let on_curve = bounds.count(&self.curves, 1.5);
             let cost = distance + 20.0 * on_curve as f64 + 1e4 * crossed as f64;
-            if is_free && best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                 best = Some((cost, bounds, leader));
             }
         }
@@ -123,6 +125,13 @@ impl Names {
             self.leaders.extend(leader.map(samples).unwrap_or_default());
             self.placed.push(Name { text, is_first, bounds, leader });
         }
+    }
+
+    /// Returns true if a name with these bounds is clear of the border, marks and other names.
+    fn is_free(&self, bounds: &Bounds) -> bool {
+        bounds.is_inside(self.area)
+            && bounds.count(&self.marks, RADIUS + 2.0) == 0
+            && self.placed.iter().all(|name| !name.bounds.overlaps(bounds))
     }
 
     fn drawn(&self) -> impl Iterator<Item = Element> {

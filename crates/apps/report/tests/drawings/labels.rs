@@ -110,29 +110,33 @@ fn results(is_physical: bool) -> Results {
     Results::read(folder.path()).expect("a table")
 }
 
-/// Returns every figure of a table and of a map on some paper.
-fn all(is_physical: bool, paper: Paper) -> Vec<report::Figure> {
+/// Returns every figure of a table and of a map, once for each paper.
+fn all<const N: usize>(is_physical: bool, papers: [Paper; N]) -> [Vec<report::Figure>; N] {
     let results = results(is_physical);
     let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
     let designs = Designs::of(&results);
-    let mut all = figures("a sweep", &designs, Some((&designs, &ranking)), paper);
     let of = if is_physical { "critical_force_N" } else { "critical_force" };
-    let request = MapRequest {
-        x: "gap_over_t".into(),
-        y: "slant_deg".into(),
-        of: of.into(),
-        at: vec![],
-        paper,
-    };
-    all.push(map("a sweep", &designs, &request).expect("a map"));
-    all
+    papers.map(|paper| {
+        let mut all = figures("a sweep", &designs, Some((&designs, &ranking)), paper);
+        let request = MapRequest {
+            x: "gap_over_t".into(),
+            y: "slant_deg".into(),
+            of: of.into(),
+            at: vec![],
+            paper,
+        };
+        all.push(map("a sweep", &designs, &request).expect("a map"));
+        all
+    })
 }
 
 #[test]
 fn labels_are_inside_the_sheet_and_apart() {
+    let widths = [None, Some(85.0), Some(120.0), Some(170.0)];
     for is_physical in [false, true] {
-        for width in [None, Some(85.0), Some(120.0), Some(170.0)] {
-            for figure in all(is_physical, width.map_or(Paper::WIDE, Paper::of_width)) {
+        let papers = widths.map(|width| width.map_or(Paper::WIDE, Paper::of_width));
+        for (width, figures) in widths.into_iter().zip(all(is_physical, papers)) {
+            for figure in figures {
                 assert_clear(&format!("{}, {width:?} mm", figure.name), &figure.svg);
             }
         }
@@ -141,7 +145,7 @@ fn labels_are_inside_the_sheet_and_apart() {
 
 #[test]
 fn a_column_of_a_journal_has_fewer_panels_with_legible_letters() {
-    let (wide, narrow) = (all(false, Paper::WIDE), all(false, Paper::of_width(85.0)));
+    let [wide, narrow] = all(false, [Paper::WIDE, Paper::of_width(85.0)]);
     for (wide, narrow) in wide.iter().zip(&narrow) {
         let points = report::smallest_letters(&narrow.svg, 85.0).expect("letters");
         assert!(points >= 6.0, "{}: letters of {points} pt", narrow.name);
@@ -179,7 +183,7 @@ fn words(all: &[report::Figure], name: &str) -> String {
 
 #[test]
 fn figures_of_a_material_have_axes_in_millimetres() {
-    let all = all(true, Paper::WIDE);
+    let [all] = all(true, [Paper::WIDE]);
     let forces = words(&all, "critical-force");
     assert!(forces.contains("length L (mm)") && !forces.contains("dimensionless"), "{forces}");
     assert!(forces.contains("d = 0.2 mm"), "{forces}");
@@ -192,7 +196,8 @@ fn figures_of_a_material_have_axes_in_millimetres() {
 
 #[test]
 fn contours_are_labelled_with_their_values() {
-    let svg = &all(false, Paper::WIDE).pop().expect("a map").svg;
+    let [mut all] = all(false, [Paper::WIDE]);
+    let svg = &all.pop().expect("a map").svg;
     let contours: Vec<&str> = svg.split("class=\"contours\"").skip(1).collect();
     assert_eq!(contours.len(), 10, "a map for each aspect ratio");
     let inside = contours[0].split("</g>").next().expect("a group");
