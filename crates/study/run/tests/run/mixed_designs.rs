@@ -87,7 +87,7 @@ pub fn mixed_case(seed: u64) -> Case {
 
 /// Returns the range of seeds in `SQUAMA_HUNT`, such as `0..2000`, or else a small one.
 fn seeds() -> std::ops::Range<u64> {
-    let range = std::env::var("SQUAMA_HUNT").unwrap_or_else(|_| "0..300".to_owned());
+    let range = std::env::var("SQUAMA_HUNT").unwrap_or_else(|_| "0..150".to_owned());
     let (from, to) = range.split_once("..").expect("a range of seeds");
     from.parse().expect("a seed")..to.parse().expect("a seed")
 }

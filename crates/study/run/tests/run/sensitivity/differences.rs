@@ -26,8 +26,9 @@ const STEP: f64 = 1.25e-5;
 
 /// Steps, as multiples of the smallest.
 ///
-/// Short ones are for designs near a kink, long ones for derivatives near round-off.
-const STEPS: [i32; 4] = [128, 32, 8, 1];
+/// Short ones are for designs near a kink, long ones for derivatives near round-off. An estimate
+/// also takes the doubled step, so the first three share solutions.
+const STEPS: [i32; 5] = [128, 64, 32, 8, 1];
 
 /// Relative difference of estimates with successive steps for a smooth measure.
 const AGREE: f64 = 1e-4;
@@ -82,6 +83,8 @@ impl<'a> Differences<'a> {
     }
 
     /// Returns the relative error of a directional derivative, compared to one side.
+    ///
+    /// Returns the first sufficiently small error, or else the smallest.
     pub fn off_one_sided(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
         let offs = STEPS.iter().filter_map(|&steps| {
@@ -92,7 +95,14 @@ impl<'a> Differences<'a> {
             let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
             self.distance(measure, fine + (fine - rough) / 3.0, ours, f64::from(steps) * STEP)
         });
-        offs.reduce(f64::min)
+        let mut smallest: Option<f64> = None;
+        for off in offs {
+            smallest = Some(smallest.map_or(off, |smallest| smallest.min(off)));
+            if off <= TOLERANCE {
+                break;
+            }
+        }
+        smallest
     }
 
     fn distance(&self, measure: &str, difference: f64, ours: f64, step: f64) -> Option<f64> {
