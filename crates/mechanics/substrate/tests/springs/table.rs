@@ -48,7 +48,7 @@ fn springs_agree_with_fine_meshes() {
 /// The coupling that long rows neglect is sixty times as large as their error.
 #[test]
 fn long_rows_agree_with_boundary_elements() {
-    for footprint in footprints(3) {
+    for footprint in footprints(2) {
         let row = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
         let exact = solved(&footprint, NEIGHBOURS, [6, 8, 12]);
         let mut errors: Vec<f64> = (0..3).map(|k| 1.0 - exact[k] / row.direct[k]).collect();

@@ -117,7 +117,9 @@ mod tests {
         let files: Vec<_> = paths.iter().map(|path| (path, code(path))).collect();
         for value in VALUES.iter().filter(|value| !WORDS.contains(&value.name)) {
             let quoted = ['"', '\'', '`'].map(|quote| format!("{quote}{}{quote}", value.name));
-            let names = |code: &str| quoted.iter().any(|quoted| code.contains(quoted));
+            let names = |code: &str| {
+                code.contains(value.name) && quoted.iter().any(|quoted| code.contains(quoted))
+            };
             let holders: Vec<_> = files.iter().filter(|(_, code)| names(code)).collect();
             let holders: Vec<_> = holders.iter().map(|(path, _)| path).collect();
             assert!((1..=2).contains(&holders.len()), "{}: {holders:?}", value.name);
