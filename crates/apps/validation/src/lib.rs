@@ -23,7 +23,7 @@
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
 //! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
 //!
-//! ```
+//! ```no_run
 //! for benchmark in validation::benchmarks()? {
 //!     assert!(benchmark.holds(), "{}: {}", benchmark.name, benchmark.ours);
 //! }

@@ -10,11 +10,17 @@ use serde_json::{Map, Value};
 /// # Panics
 /// If the schema has a keyword that is not known here.
 pub fn mismatch(schema: &Value, value: &Value) -> Option<String> {
-    let Value::Object(keywords) = schema else { panic!("no schema: {schema}") };
-    let mut violated =
-        keywords.iter().filter(|(keyword, expected)| !conforms(keywords, keyword, expected, value));
-    let (keyword, expected) = violated.next()?;
+    let (keyword, expected) = violated(schema, value)?;
     Some(format!("{value} violates {keyword} {expected}"))
+}
+
+/// Returns the first keyword that `value` violates, with its value in the schema.
+///
+/// # Panics
+/// If the schema has a keyword that is not known here.
+pub fn violated<'s>(schema: &'s Value, value: &Value) -> Option<(&'s String, &'s Value)> {
+    let Value::Object(keywords) = schema else { panic!("no schema: {schema}") };
+    keywords.iter().find(|(keyword, expected)| !conforms(keywords, keyword, expected, value))
 }
 
 /// Returns whether `value` conforms to one keyword of a schema.
@@ -23,8 +29,8 @@ fn conforms(keywords: &Map<String, Value>, keyword: &str, expected: &Value, valu
         "$schema" | "title" | "description" | "default" => true,
         "type" => has_type(expected, value),
         "enum" => list(expected).iter().any(|one| is_equal(one, value)),
-        "anyOf" => list(expected).iter().any(|one| mismatch(one, value).is_none()),
-        "not" => mismatch(expected, value).is_some(),
+        "anyOf" => list(expected).iter().any(|one| violated(one, value).is_none()),
+        "not" => violated(expected, value).is_some(),
         "minimum" => value.as_f64().is_none_or(|number| number >= limit(expected)),
         "maximum" => value.as_f64().is_none_or(|number| number <= limit(expected)),
         "exclusiveMinimum" => value.as_f64().is_none_or(|number| number > limit(expected)),
@@ -43,7 +49,7 @@ fn conforms(keywords: &Map<String, Value>, keyword: &str, expected: &Value, valu
         "pattern" => value.as_str().is_none_or(|text| matches(expected, text)),
         "items" => value
             .as_array()
-            .is_none_or(|items| items.iter().all(|item| mismatch(expected, item).is_none())),
+            .is_none_or(|items| items.iter().all(|item| violated(expected, item).is_none())),
         "uniqueItems" => value.as_array().is_none_or(|items| {
             (1..items.len()).all(|k| !items[..k].iter().any(|one| is_equal(one, &items[k])))
         }),
@@ -52,7 +58,7 @@ fn conforms(keywords: &Map<String, Value>, keyword: &str, expected: &Value, valu
         }),
         "properties" => value.as_object().is_none_or(|fields| {
             fields.iter().all(|(key, field)| {
-                expected.get(key).is_none_or(|schema| mismatch(schema, field).is_none())
+                expected.get(key).is_none_or(|schema| violated(schema, field).is_none())
             })
         }),
         "additionalProperties" => {
@@ -73,7 +79,7 @@ fn others_conform(
         fields.iter().filter(|(key, _)| named.is_none_or(|named| !named.contains_key(*key)));
     others.all(|(_, field)| match expected {
         Value::Bool(allowed) => *allowed,
-        schema => mismatch(schema, field).is_none(),
+        schema => violated(schema, field).is_none(),
     })
 }
 

@@ -67,7 +67,7 @@ fn tolerance_confirms_the_yield_of_a_search() {
 fn tables_of_sampled_searches_do_not_depend_on_threads_or_interruptions() {
     let goal = GOAL.replace(
         "minimize = 'areal_mass_kg_m2'\n",
-        "maximize = 'coverage_p05'\nminimize = 'areal_mass_kg_m2'\npoints = 3\nskins = 40\n",
+        "maximize = 'coverage_p05'\nminimize = 'areal_mass_kg_m2'\npoints = 3\nskins = 20\n",
     );
     let place = Place::with(&goal);
     place.squama("optimise x.toml --threads 1 --out one").assert().code(0);
