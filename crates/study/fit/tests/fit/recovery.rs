@@ -370,10 +370,13 @@ fn intervals_cover_a_gap_a_friction_and_an_offset() {
 }
 
 /// Correlated noise counts as fewer independent points.
+///
+/// Ten trials are too few to notice the misses at a correlation of 0.5, which campaigns run.
 #[test]
 fn intervals_cover_the_truth_under_correlated_noise() {
     let trials = 10 + campaign()[1] / 2;
-    for correlation in [0.5, 0.8] {
+    let weak = (campaign()[1] > 1).then_some(0.5);
+    for correlation in weak.into_iter().chain([0.8]) {
         let counts = (0..trials).into_par_iter().map(|k| counted(0, k, [0.03, correlation]));
         let counts = counts.reduce(Counts::default, Counts::add);
         println!("correlation {correlation}: {counts:?}");

@@ -1,6 +1,7 @@
 //! Searches with optima in closed form.
 
 use std::path::Path;
+use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
 use journal::Seal;
@@ -54,12 +55,8 @@ fn goals_accept_levels_of_standards() {
 /// Ridge search and polish would only confirm it. The reported design still has all values.
 #[test]
 fn a_search_does_not_confirm_an_optimum_that_derivatives_prove() {
-    let text = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
-        gap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.025, to = 1 }\n\
-        slant_deg = { from = 0, to = 75 }\n[goal]\nmaximize = 'critical_force'\n\
-        require = ['coverage >= 0.5', 'compliance >= 0.2']\nsamples = 64\n";
-    let found = found(&DesignGoal::parse(text, "x.toml", &[]).expect("a goal"));
-    let best = optimum(&found);
+    let (found, _) = reference_search();
+    let best = optimum(found);
     assert!((objectives(best)[0] - 2.141_936_6).abs() < 2e-6, "{:?}", objectives(best));
     // One of the three full searches still follows a ridge for one round. Each of them would
     // otherwise need 43 evaluations.
@@ -70,6 +67,35 @@ fn a_search_does_not_confirm_an_optimum_that_derivatives_prove() {
     let searched = found.history.iter().filter_map(|c| c.result.puncture);
     assert!(searched.into_iter().all(|p| p.measures.max_stiffness.is_none()));
     assert!(best.row.result.puncture.is_some_and(|p| p.measures.max_stiffness.is_some()));
+}
+
+/// Runs the reference search once, and returns its result with its progress.
+///
+/// Progress is the number of evaluated designs and the completed fraction.
+fn reference_search() -> &'static (Found, Vec<[f64; 2]>) {
+    static SEARCH: OnceLock<(Found, Vec<[f64; 2]>)> = OnceLock::new();
+    SEARCH.get_or_init(|| {
+        let text = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
+            gap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.025, to = 1 }\n\
+            slant_deg = { from = 0, to = 75 }\n[goal]\nmaximize = 'critical_force'\n\
+            require = ['coverage >= 0.5', 'compliance >= 0.2']\nsamples = 64\n";
+        let goal = DesignGoal::parse(text, "x.toml", &[]).expect("a goal");
+        let folder = tempfile::tempdir().expect("a folder");
+        let (stop, progress) = (AtomicBool::new(false), SearchProgress::default());
+        let options =
+            SearchOptions { threads: 1, start: Start::New, stop: &stop, progress: &progress };
+        std::thread::scope(|scope| {
+            let search = scope.spawn(|| optimise(&goal, folder.path(), &options, &PROGRAM));
+            let mut seen = Vec::new();
+            while !search.is_finished() {
+                seen.push([progress.designs() as f64, progress.share()]);
+                std::thread::sleep(std::time::Duration::from_millis(2));
+            }
+            let found = search.join().expect("no panic").expect("a search").expect("an end");
+            seen.push([progress.designs() as f64, progress.share()]);
+            (found, seen)
+        })
+    })
 }
 
 fn found(goal: &DesignGoal) -> Found {
@@ -334,27 +360,10 @@ fn least_penetration_is_found_as_fast_as_other_objectives() {
 /// A full search counts by its evaluations, not like a short search.
 #[test]
 fn the_completed_fraction_follows_the_evaluations() {
-    let text = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
-         gap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.025, to = 1 }\n\
-         slant_deg = { from = 0, to = 75 }\n[goal]\nmaximize = 'critical_force'\n\
-         require = ['coverage >= 0.5', 'compliance >= 0.2']";
-    let goal = DesignGoal::parse(text, "x.toml", &[]).expect("a goal");
-    let folder = tempfile::tempdir().expect("a folder");
-    let (stop, progress) = (AtomicBool::new(false), SearchProgress::default());
-    let options = SearchOptions { threads: 1, start: Start::New, stop: &stop, progress: &progress };
-    let seen = std::thread::scope(|scope| {
-        let search = scope.spawn(|| optimise(&goal, folder.path(), &options, &PROGRAM));
-        let mut seen = Vec::new();
-        while !search.is_finished() {
-            seen.push((progress.designs() as f64, progress.share()));
-            std::thread::sleep(std::time::Duration::from_millis(2));
-        }
-        search.join().expect("no panic").expect("a search");
-        seen
-    });
-    let all = progress.designs() as f64;
-    let inner = seen.iter().filter(|(designs, _)| (0.15..0.85).contains(&(designs / all)));
-    let ratios: Vec<f64> = inner.map(|(designs, share)| designs / share / all).collect();
+    let (_, seen) = reference_search();
+    let all = seen.last().expect("an end")[0];
+    let inner = seen.iter().filter(|[designs, _]| (0.15..0.85).contains(&(designs / all)));
+    let ratios: Vec<f64> = inner.map(|[designs, share]| designs / share / all).collect();
     assert!(ratios.len() > 20, "{}", ratios.len());
     let ends = ratios.iter().fold([f64::MAX, 0.0], |[low, high], r| [r.min(low), r.max(high)]);
     assert!(ends[0] > 0.5 && ends[1] < 2.0, "{ends:?}");
