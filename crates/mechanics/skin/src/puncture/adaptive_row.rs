@@ -1,8 +1,8 @@
 //! Path of a row that grows as contact spreads.
 //!
 //! Only the scales within reach of contact are unknowns. Beyond the last of them the row is linear,
-//! and its scales follow from the end scale in closed form ([`FarField`](substrate::FarField)). As
-//! contact spreads the row is extended at the current point of the path.
+//! and its scales follow from the end scale in closed form ([`FarField`]). As contact spreads
+//! the row is extended at the current point of the path.
 
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Classification of the end of a puncture path.
 //!
 //! The path has already ended: a free needle at the critical tilt, which is the target of the solver
-//! in `system.rs`; a guided needle at a constraint (`GuidedNeedle::ends` in `needle.rs`). A
+//! in `system.rs`; a guided needle at a constraint (`GuidedNeedle::ends` in `needle/touches.rs`). A
 //! critical tilt that follows from friction is set by `Case::punctured` in `study/sweep`.
 
 use super::PuncturePoint;

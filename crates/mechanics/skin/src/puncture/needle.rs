@@ -1,8 +1,8 @@
-//! The needle: a dead load, or a body guided straight down.
+//! A needle guided straight down.
 //!
-//! A guided needle has a sharp or round tip at a fixed position `X` along the row. The tip touches
-//! a face of a scale with friction, slides to the end of the face, then over the corner or into the
-//! notch formed with the face of a neighbour, and on.
+//! It has a sharp or round tip at a fixed position `X` along the row. The tip touches a face of a
+//! scale with friction, slides to the end of the face, then over the corner or into the notch
+//! formed with the face of a neighbour, and on.
 //!
 //! The parts that the needle touches, and its friction state there, belong to the discrete state of
 //! the skin (`contacts/needle_mode.rs`).
@@ -10,6 +10,7 @@
 //! | File | Content |
 //! |---|---|
 //! | `outline.rs` | kinematics of the tip at a face: gap, coordinate along the face, their derivatives |
+//! | `touches.rs` | touches of the tip with the scales of a row, at rest and where the path ends |
 //! | `round.rs` | a tip with a radius: its own conditions and transitions |
 //! | `forces.rs` | equations, tangent, and their validity conditions |
 //! | `transition.rs` | next state when a condition is violated |
@@ -21,57 +22,31 @@ mod history;
 mod outline;
 mod passage;
 mod round;
+mod touches;
 mod transition;
 
 use std::ops::Range;
 
-use contact::{CornerContact, CornerEdge};
-use geometry::{Frame, Vec2};
-use solver::{Condition, Newton};
+use geometry::Vec2;
 
-use super::PunctureParameters;
+use super::parameters::PunctureParameters;
 use super::row_layout::RowLayout;
-use super::system::Chain;
-use crate::contacts::{Contacts, OutlinePart, SHARP_SLOTS, SkinState, Touch};
+use crate::contacts::{SHARP_SLOTS, Touch};
 
 pub(super) use history::{HistoryObserver, HistoryVariable, anchors, event_before, history, with};
-use outline::{Face, Meeting, Tip};
 pub(super) use passage::PassageObserver;
 pub use passage::{CriticalEvent, Passage, TipForces};
-use round::unknowns_per_scale;
-pub(super) use round::{reach, unknowns};
-
-/// Constraint on the needle.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Needle {
-    /// A dead load attached to its point of the scale, which it follows sideways.
-    ///
-    /// This is the load of Shafiei et al. (2021).
-    #[default]
-    Free,
-    /// A tip guided straight down, with this coefficient of friction.
-    Guided {
-        /// `μ_n`; 0 for a frictionless needle.
-        friction: f64,
-    },
-}
-
-impl Needle {
-    /// Returns true if the tip has a fixed position along the row.
-    pub fn is_guided(self) -> bool {
-        self != Self::Free
-    }
-
-    /// Returns true if the needle is guided and has friction.
-    pub fn has_friction(self) -> bool {
-        matches!(self, Self::Guided { friction } if friction > 0.0)
-    }
-}
 
 /// Number of scales on each side that a guided needle may reach.
 ///
 /// It moves by less than its own depth along the row.
 pub(super) const FARTHEST: usize = 8;
+
+/// Largest reach of a round tip, in scales on each side of the punctured one.
+const FARTHEST_TOUCH: usize = 64;
+
+/// Scales in reach beyond those below the tip at rest, because rows move sideways.
+const PUSHED_ALONG: usize = 2;
 
 /// Number of unknowns per touch.
 ///
@@ -96,6 +71,26 @@ const ENDINGS: usize = 2;
 ///
 /// They follow the load.
 pub(super) const NEEDLE_UNKNOWNS: usize = 1 + SHARP_SLOTS * UNKNOWNS_PER_TOUCH + ENDINGS;
+
+/// Returns the reach of a round tip in scales on each side.
+///
+/// `None` if it is too large.
+pub(super) fn reach(radius: f64, pitch: f64) -> Option<usize> {
+    let reach = (radius / pitch).ceil() as usize + PUSHED_ALONG;
+    (reach <= FARTHEST_TOUCH).then_some(reach)
+}
+
+/// Counts the unknowns per scale in reach: normal force, condition on position.
+///
+/// With friction also the tangential force and the forward and backward slip distances.
+fn unknowns_per_scale(has_friction: bool) -> usize {
+    if has_friction { 5 } else { 2 }
+}
+
+/// Counts the unknowns of a round tip: depth, scales in reach, and endings.
+pub(super) fn unknowns(reach: usize, has_friction: bool) -> usize {
+    1 + unknowns_per_scale(has_friction) * (2 * reach + 1) + ENDINGS
+}
 
 /// A guided needle on a row.
 #[derive(Clone, Debug)]
@@ -175,6 +170,11 @@ impl GuidedNeedle {
         self.tip - Vec2::new(0.0, self.radius + z[self.depth])
     }
 
+    /// Returns the number of scales on each side of the punctured one in reach.
+    fn reach(&self) -> usize {
+        self.slots / 2
+    }
+
     /// Returns the number of scales on each side that the tip may reach.
     pub(super) fn farthest(&self) -> usize {
         if self.is_round() { self.reach() } else { FARTHEST }
@@ -230,28 +230,6 @@ impl GuidedNeedle {
         }
     }
 
-    /// Finds the constraint at which a path has ended.
-    pub(super) fn ended_at(&self, chain: &Chain, end: &SkinState) -> Option<usize> {
-        let mut conditions = Vec::new();
-        chain.needle_conditions(self, end, &mut conditions);
-        let touches = (0..self.slots).map(|slot| self.constraints_per_touch * slot + NORMAL);
-        let touches = touches.filter(|&number| chain.meets_tilted(self, end, number));
-        let mut ends = self.endings().chain(touches);
-        // It vanishes to within the tolerance of Newton's method.
-        let ended = ends.find(|&number| conditions[number].abs() < 1e-8);
-        ended.map(|number| self.contacts + number)
-    }
-
-    /// Returns true if a path ends where this constraint changes.
-    ///
-    /// That is at a critical tilt, at the touch of a scale that is already critically tilted, and
-    /// when the needle is through.
-    pub(super) fn ends(&self, chain: &Chain, state: &SkinState, constraint: usize) -> bool {
-        constraint.checked_sub(self.contacts).is_some_and(|number| {
-            self.endings().contains(&number) || chain.meets_tilted(self, state, number)
-        })
-    }
-
     /// Returns the number of the tilt constraint, the first one after the touches.
     fn tilt_number(&self) -> usize {
         self.constraints_per_touch * self.slots
@@ -260,135 +238,5 @@ impl GuidedNeedle {
     /// Returns the constraints that end a path: critical tilt and passing through.
     fn endings(&self) -> Range<usize> {
         self.tilt_number()..self.tilt_number() + ENDINGS
-    }
-}
-
-impl Chain {
-    /// Returns the state at rest with the needle in place.
-    ///
-    /// The rates decide whether the tip sticks or slides at first, and in which direction.
-    pub(super) fn at_rest(&self) -> SkinState {
-        let mut rest = SkinState::at_rest(self);
-        let Some(needle) = &self.needle else { return rest };
-        if needle.is_round() {
-            return self.round_at_rest(needle, rest);
-        }
-        rest.active[needle.number(0, NORMAL)] = true;
-        // Scale 0 is in every row.
-        let Some(Tip { xi: anchor, .. }) = self.tip(&rest.z, 0, OutlinePart::Top) else {
-            return rest;
-        };
-        let tip_state = needle.resting(anchor);
-        rest.mode.needle.touches[0] = Some(Touch { scale: 0, place: OutlinePart::Top, tip_state });
-        if needle.friction == 0.0 {
-            return rest;
-        }
-        let control = self.controls[0];
-        let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
-        // Try sticking first: the rates show whether that exceeds the friction limit.
-        let normal_force = needle.normal_force(0);
-        if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
-            let [normal, tangential] = [rates[normal_force], rates[normal_force + 1]];
-            if tangential.abs() > needle.friction * normal {
-                needle.slide(&mut rest, 0, tangential > 0.0, anchor);
-            }
-        }
-        rest
-    }
-
-    /// Computes the tip relative to a part of a scale.
-    ///
-    /// `None` for a free needle, and for a scale that is not solved for or out of reach.
-    fn tip(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Tip> {
-        let needle = self.needle.as_ref()?;
-        let number = self.scale_numbered(scale)?;
-        let frame = self.frame_from_punctured(number);
-        let face = Face::new(&self.contacts.arrangement.scale(number), place);
-        let at = needle.tip - Vec2::new(0.0, z[needle.depth]) - frame.origin;
-        let upward = frame.inward(Vec2::y());
-        Some(Tip::new(&face, &self.contacts.pose(z, number), frame.inward(at), upward))
-    }
-
-    /// Returns the tangent frame of a scale in the frame of the punctured one.
-    pub(super) fn frame_from_punctured(&self, scale: usize) -> Frame {
-        let Contacts { arrangement, body, .. } = &self.contacts;
-        body.frame(arrangement.position(scale) - arrangement.position(self.layout.left))
-    }
-
-    /// Computes the contact of the tip with a part of a scale.
-    fn meeting(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Meeting> {
-        let (needle, tip) = (self.needle.as_ref()?, self.tip(z, scale, place)?);
-        let shape = self.contacts.arrangement.scale(self.scale_numbered(scale)?);
-        let behind = [OutlinePart::Left, OutlinePart::Top].into_iter().filter(|face| *face < place);
-        let before = behind.map(|face| Face::new(&shape, face).length).sum();
-        Some(Meeting::new(tip, needle.radius, before))
-    }
-
-    /// Iterates over all touches: slot, touch, index of the scale, and kinematics.
-    fn touches<'a>(
-        &'a self,
-        state: &'a SkinState,
-    ) -> impl Iterator<Item = (usize, &'a Touch, usize, Meeting)> {
-        state.mode.needle.all().filter_map(|(slot, touch)| {
-            let meeting = self.meeting(&state.z, touch.scale, touch.place)?;
-            Some((slot, touch, self.scale_numbered(touch.scale)?, meeting))
-        })
-    }
-
-    /// Converts a scale number counted from the punctured one to an index.
-    fn scale_numbered(&self, scale: i64) -> Option<usize> {
-        let number = usize::try_from(self.layout.left as i64 + scale).ok()?;
-        let farthest = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
-        // The bandwidth of the tangent covers only these scales.
-        let is_near = scale.unsigned_abs() as usize <= farthest;
-        (number < self.layout.scales() && is_near).then_some(number)
-    }
-
-    /// Returns the neighbouring face that the needle would meet next.
-    fn next_touch(touch: &Touch) -> Option<(i64, OutlinePart)> {
-        match touch.place {
-            OutlinePart::Left => Some((touch.scale - 1, OutlinePart::Top)),
-            OutlinePart::TopLeft => None,
-            OutlinePart::Top | OutlinePart::TopRight | OutlinePart::Right => {
-                Some((touch.scale + 1, OutlinePart::Left))
-            }
-        }
-    }
-
-    /// Returns true if a constraint is the first touch of a critically tilted scale.
-    fn meets_tilted(&self, needle: &GuidedNeedle, state: &SkinState, number: usize) -> bool {
-        let slot = number / needle.constraints_per_touch;
-        if number >= needle.tilt_number()
-            || number % needle.constraints_per_touch != NORMAL
-            || state.mode.needle.touches[slot].is_some()
-        {
-            return false;
-        }
-        let scale = if needle.is_round() {
-            Some(slot as i64 - needle.reach() as i64)
-        } else {
-            // A sharp tip meets a second scale only beside the one it touches.
-            let other = state.mode.needle.touches[1 - slot].as_ref();
-            other.and_then(Self::next_touch).map(|(scale, _)| scale)
-        };
-        scale.and_then(|scale| self.scale_numbered(scale)).is_some_and(|scale| {
-            let [_, _, rotation] = self.displacement(&state.z, scale);
-            rotation.abs() > needle.critical_tilt
-        })
-    }
-
-    /// Returns true if the top right corner of a scale lies on the next left face.
-    ///
-    /// That face then stops the tip at the corner, so the tip does not pass over it.
-    fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
-        let contact =
-            self.corner_of_notch(scale).and_then(|contact| state.mode.contacts.get(contact));
-        contact == Some(&CornerContact::Edge(CornerEdge::TopRightOnLeftEdge))
-    }
-
-    /// Returns the contact of the top right corner of a scale.
-    fn corner_of_notch(&self, scale: i64) -> Option<usize> {
-        // The upper contact with the direct neighbour is the first contact of a scale.
-        self.scale_numbered(scale).map(|left| self.contacts.contacts_before(left))
     }
 }

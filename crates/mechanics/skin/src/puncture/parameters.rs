@@ -3,7 +3,34 @@
 use geometry::{Body, OutOfRange};
 use substrate::SubstrateLaw;
 
-use super::{Needle, NumberList};
+use super::number_list::NumberList;
+
+/// Constraint on the needle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Needle {
+    /// A dead load attached to its point of the scale, which it follows sideways.
+    ///
+    /// This is the load of Shafiei et al. (2021).
+    #[default]
+    Free,
+    /// A tip guided straight down, with this coefficient of friction.
+    Guided {
+        /// `μ_n`; 0 for a frictionless needle.
+        friction: f64,
+    },
+}
+
+impl Needle {
+    /// Returns true if the tip has a fixed position along the row.
+    pub fn is_guided(self) -> bool {
+        self != Self::Free
+    }
+
+    /// Returns true if the needle is guided and has friction.
+    pub fn has_friction(self) -> bool {
+        matches!(self, Self::Guided { friction } if friction > 0.0)
+    }
+}
 
 /// Response of the scales to the forces on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

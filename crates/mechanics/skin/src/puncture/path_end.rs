@@ -5,14 +5,13 @@ use solver::{Continuation, Neighbours, TargetPoint};
 use substrate::RowStiffness;
 
 use super::exterior_motion::Reach;
-use super::needle::Needle;
 use super::observers::PathObservers;
 use super::row_layout::RowLayout;
 use super::surface_fold::{FoldObserver, is_folded};
 use super::system::Chain;
 use super::{
-    Bending, Followed, LONGEST_ROW, Passage, Problem, Puncture, PunctureInput, PunctureParameters,
-    Rows,
+    Bending, Followed, LONGEST_ROW, Needle, Passage, Problem, Puncture, PunctureInput,
+    PunctureParameters, Rows,
 };
 use crate::contacts::{SkinMode, SkinPoint};
 use crate::sensitivity::Derivative;

@@ -7,8 +7,8 @@ use geometry::{Corner, Vec2};
 use solver::{Blocks, Change, Control, FARTHEST_LINK, Residual, System, Tangent};
 use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
-use super::needle::{GuidedNeedle, Needle};
-use super::parameters::{Bending, PunctureParameters, Strengths};
+use super::needle::GuidedNeedle;
+use super::parameters::{Bending, Needle, PunctureParameters, Strengths};
 use super::row_exterior::RowExterior;
 use super::row_layout::RowLayout;
 use crate::arrangement::Arrangement;

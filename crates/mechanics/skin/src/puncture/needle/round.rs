@@ -12,15 +12,9 @@ use solver::{Change, Condition, Newton};
 use super::forces::STEP;
 use super::outline::Face;
 use super::passage::TipForces;
-use super::{ENDINGS, GuidedNeedle, NORMAL};
+use super::{GuidedNeedle, NORMAL};
 use crate::contacts::{HOLDS, OutlinePart, SkinState, TipState, Touch};
 use crate::puncture::system::Chain;
-
-/// Largest reach of a round tip, in scales on each side of the punctured one.
-pub(crate) const FARTHEST_TOUCH: usize = 64;
-
-/// Scales in reach beyond those below the tip at rest, because rows move sideways.
-const PUSHED_ALONG: usize = 2;
 
 /// Gaps of scales touched at rest agree within this round-off.
 const AT_REST: f64 = 1e-10;
@@ -32,32 +26,7 @@ const SETTLES: usize = 8;
 
 const FACES: [OutlinePart; 3] = [OutlinePart::Left, OutlinePart::Top, OutlinePart::Right];
 
-/// Returns the reach of a round tip in scales on each side.
-///
-/// `None` if it is too large.
-pub(in crate::puncture) fn reach(radius: f64, pitch: f64) -> Option<usize> {
-    let reach = (radius / pitch).ceil() as usize + PUSHED_ALONG;
-    (reach <= FARTHEST_TOUCH).then_some(reach)
-}
-
-/// Counts the unknowns per scale in reach: normal force, condition on position.
-///
-/// With friction also the tangential force and the forward and backward slip distances.
-pub(super) fn unknowns_per_scale(has_friction: bool) -> usize {
-    if has_friction { 5 } else { 2 }
-}
-
-/// Counts the unknowns of a round tip: depth, scales in reach, and endings.
-pub(in crate::puncture) fn unknowns(reach: usize, has_friction: bool) -> usize {
-    1 + unknowns_per_scale(has_friction) * (2 * reach + 1) + ENDINGS
-}
-
 impl GuidedNeedle {
-    /// Returns the number of scales on each side of the punctured one in reach.
-    pub(super) fn reach(&self) -> usize {
-        self.slots / 2
-    }
-
     /// Iterates over the scales in reach: slot, and number from the punctured scale.
     fn scales(&self) -> impl Iterator<Item = (usize, i64)> + use<> {
         let reach = self.reach() as i64;

@@ -1,0 +1,169 @@
+//! Touches of the tip with the scales of a row.
+
+use contact::{CornerContact, CornerEdge};
+use geometry::{Frame, Vec2};
+use solver::{Condition, Newton};
+
+use super::outline::{Face, Meeting, Tip};
+use super::{GuidedNeedle, NORMAL};
+use crate::contacts::{Contacts, OutlinePart, SkinState, Touch};
+use crate::puncture::system::Chain;
+
+impl GuidedNeedle {
+    /// Finds the constraint at which a path has ended.
+    pub(in crate::puncture) fn ended_at(&self, chain: &Chain, end: &SkinState) -> Option<usize> {
+        let mut conditions = Vec::new();
+        chain.needle_conditions(self, end, &mut conditions);
+        let touches = (0..self.slots).map(|slot| self.constraints_per_touch * slot + NORMAL);
+        let touches = touches.filter(|&number| chain.meets_tilted(self, end, number));
+        let mut ends = self.endings().chain(touches);
+        // It vanishes to within the tolerance of Newton's method.
+        let ended = ends.find(|&number| conditions[number].abs() < 1e-8);
+        ended.map(|number| self.contacts + number)
+    }
+
+    /// Returns true if a path ends where this constraint changes.
+    ///
+    /// That is at a critical tilt, at the touch of a scale that is already critically tilted, and
+    /// when the needle is through.
+    pub(in crate::puncture) fn ends(
+        &self,
+        chain: &Chain,
+        state: &SkinState,
+        constraint: usize,
+    ) -> bool {
+        constraint.checked_sub(self.contacts).is_some_and(|number| {
+            self.endings().contains(&number) || chain.meets_tilted(self, state, number)
+        })
+    }
+}
+
+impl Chain {
+    /// Returns the state at rest with the needle in place.
+    ///
+    /// The rates decide whether the tip sticks or slides at first, and in which direction.
+    pub(in crate::puncture) fn at_rest(&self) -> SkinState {
+        let mut rest = SkinState::at_rest(self);
+        let Some(needle) = &self.needle else { return rest };
+        if needle.is_round() {
+            return self.round_at_rest(needle, rest);
+        }
+        rest.active[needle.number(0, NORMAL)] = true;
+        // Scale 0 is in every row.
+        let Some(Tip { xi: anchor, .. }) = self.tip(&rest.z, 0, OutlinePart::Top) else {
+            return rest;
+        };
+        let tip_state = needle.resting(anchor);
+        rest.mode.needle.touches[0] = Some(Touch { scale: 0, place: OutlinePart::Top, tip_state });
+        if needle.friction == 0.0 {
+            return rest;
+        }
+        let control = self.controls[0];
+        let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
+        // Try sticking first: the rates show whether that exceeds the friction limit.
+        let normal_force = needle.normal_force(0);
+        if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
+            let [normal, tangential] = [rates[normal_force], rates[normal_force + 1]];
+            if tangential.abs() > needle.friction * normal {
+                needle.slide(&mut rest, 0, tangential > 0.0, anchor);
+            }
+        }
+        rest
+    }
+
+    /// Computes the tip relative to a part of a scale.
+    ///
+    /// `None` for a free needle, and for a scale that is not solved for or out of reach.
+    pub(super) fn tip(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Tip> {
+        let needle = self.needle.as_ref()?;
+        let number = self.scale_numbered(scale)?;
+        let frame = self.frame_from_punctured(number);
+        let face = Face::new(&self.contacts.arrangement.scale(number), place);
+        let at = needle.tip - Vec2::new(0.0, z[needle.depth]) - frame.origin;
+        let upward = frame.inward(Vec2::y());
+        Some(Tip::new(&face, &self.contacts.pose(z, number), frame.inward(at), upward))
+    }
+
+    /// Returns the tangent frame of a scale in the frame of the punctured one.
+    pub(in crate::puncture) fn frame_from_punctured(&self, scale: usize) -> Frame {
+        let Contacts { arrangement, body, .. } = &self.contacts;
+        body.frame(arrangement.position(scale) - arrangement.position(self.layout.left))
+    }
+
+    /// Computes the contact of the tip with a part of a scale.
+    pub(super) fn meeting(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Meeting> {
+        let (needle, tip) = (self.needle.as_ref()?, self.tip(z, scale, place)?);
+        let shape = self.contacts.arrangement.scale(self.scale_numbered(scale)?);
+        let behind = [OutlinePart::Left, OutlinePart::Top].into_iter().filter(|face| *face < place);
+        let before = behind.map(|face| Face::new(&shape, face).length).sum();
+        Some(Meeting::new(tip, needle.radius, before))
+    }
+
+    /// Iterates over all touches: slot, touch, index of the scale, and kinematics.
+    pub(super) fn touches<'a>(
+        &'a self,
+        state: &'a SkinState,
+    ) -> impl Iterator<Item = (usize, &'a Touch, usize, Meeting)> {
+        state.mode.needle.all().filter_map(|(slot, touch)| {
+            let meeting = self.meeting(&state.z, touch.scale, touch.place)?;
+            Some((slot, touch, self.scale_numbered(touch.scale)?, meeting))
+        })
+    }
+
+    /// Converts a scale number counted from the punctured one to an index.
+    pub(super) fn scale_numbered(&self, scale: i64) -> Option<usize> {
+        let number = usize::try_from(self.layout.left as i64 + scale).ok()?;
+        let farthest = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
+        // The bandwidth of the tangent covers only these scales.
+        let is_near = scale.unsigned_abs() as usize <= farthest;
+        (number < self.layout.scales() && is_near).then_some(number)
+    }
+
+    /// Returns the neighbouring face that the needle would meet next.
+    pub(super) fn next_touch(touch: &Touch) -> Option<(i64, OutlinePart)> {
+        match touch.place {
+            OutlinePart::Left => Some((touch.scale - 1, OutlinePart::Top)),
+            OutlinePart::TopLeft => None,
+            OutlinePart::Top | OutlinePart::TopRight | OutlinePart::Right => {
+                Some((touch.scale + 1, OutlinePart::Left))
+            }
+        }
+    }
+
+    /// Returns true if a constraint is the first touch of a critically tilted scale.
+    fn meets_tilted(&self, needle: &GuidedNeedle, state: &SkinState, number: usize) -> bool {
+        let slot = number / needle.constraints_per_touch;
+        if number >= needle.tilt_number()
+            || number % needle.constraints_per_touch != NORMAL
+            || state.mode.needle.touches[slot].is_some()
+        {
+            return false;
+        }
+        let scale = if needle.is_round() {
+            Some(slot as i64 - needle.reach() as i64)
+        } else {
+            // A sharp tip meets a second scale only beside the one it touches.
+            let other = state.mode.needle.touches[1 - slot].as_ref();
+            other.and_then(Self::next_touch).map(|(scale, _)| scale)
+        };
+        scale.and_then(|scale| self.scale_numbered(scale)).is_some_and(|scale| {
+            let [_, _, rotation] = self.displacement(&state.z, scale);
+            rotation.abs() > needle.critical_tilt
+        })
+    }
+
+    /// Returns true if the top right corner of a scale lies on the next left face.
+    ///
+    /// That face then stops the tip at the corner, so the tip does not pass over it.
+    pub(super) fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
+        let contact =
+            self.corner_of_notch(scale).and_then(|contact| state.mode.contacts.get(contact));
+        contact == Some(&CornerContact::Edge(CornerEdge::TopRightOnLeftEdge))
+    }
+
+    /// Returns the contact of the top right corner of a scale.
+    pub(super) fn corner_of_notch(&self, scale: i64) -> Option<usize> {
+        // The upper contact with the direct neighbour is the first contact of a scale.
+        self.scale_numbered(scale).map(|left| self.contacts.contacts_before(left))
+    }
+}
