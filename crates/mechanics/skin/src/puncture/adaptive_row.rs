@@ -50,7 +50,7 @@ pub(super) struct Segment {
 impl<'a> AdaptiveRowPath<'a> {
     pub(super) fn new(problem: &'a Problem<'a>, chain: Chain, longest: usize) -> Self {
         let rest = chain.at_rest();
-        let path = Continuation::new(chain, rest, problem.settings);
+        let path = Continuation::new(chain, rest, problem.common.solver);
         let (is_long_enough, reach, shorter) = (true, [Reach::Short; 2], Vec::new());
         Self { problem, path, longest, is_long_enough, reach, shorter, arrived: None }
     }

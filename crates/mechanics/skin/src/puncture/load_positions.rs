@@ -5,12 +5,13 @@
 
 use geometry::OutOfRange;
 use serde::{Deserialize, Serialize};
-use solver::{Neighbours, Settings};
+use solver::Neighbours;
 use substrate::RowStiffness;
 
 use super::needle::CriticalEvent;
+use super::path_end::PlaceEnd;
 use super::sensitivity::{CRITICAL_FORCE, PunctureInput};
-use super::{Problem, Puncture, PunctureParameters, Rows};
+use super::{Followed, Problem, Puncture, PunctureEnd, PunctureParameters, Rows};
 use crate::record::Skin;
 use crate::sensitivity::Derivative;
 use crate::{Common, Design, PathDetail, Status};
@@ -72,15 +73,15 @@ impl Weakest {
             Some(open) => Err(open.status),
             None => Ok(Self {
                 force: Some(force),
-                place: tied(places, force).next().map(|p| p.position),
+                place: places.iter().find(|place| is_tied(place, force)).map(|p| p.position),
             }),
         }
     }
 }
 
-/// Iterates over the positions with that force.
-fn tied(places: &[LoadPosition], force: f64) -> impl Iterator<Item = &LoadPosition> {
-    places.iter().filter(move |place| place.force.is_some_and(|of| of <= force * (1.0 + TIE)))
+/// Returns true if a position is as weak as the smallest `force`.
+fn is_tied(place: &LoadPosition, force: f64) -> bool {
+    place.force.is_some_and(|of| of <= force * (1.0 + TIE))
 }
 
 impl PunctureParameters {
@@ -124,43 +125,27 @@ pub fn load_positions(
     parameters: &PunctureParameters,
 ) -> Result<Vec<LoadPosition>, OutOfRange> {
     let rows = Rows::Even(design.row()?);
-    Problem::new(rows, design, substrate.into(), common, parameters)?.load_positions()
+    let problem = Problem::new(rows, design, substrate.into(), common, parameters)?;
+    Ok(problem.load_positions(None, None)?.places)
 }
 
-impl Puncture {
-    /// Adds the results at other load positions.
-    pub(super) fn with_positions(mut self, places: Vec<LoadPosition>) -> Self {
-        self.measures.weakest = Weakest::from_positions(&places).unwrap_or_default();
-        Self { places, ..self }
-    }
+/// Punctures at several load positions, with the path end of each.
+pub(super) struct LoadPositions {
+    pub(super) places: Vec<LoadPosition>,
+    /// Path ends, for similar designs; empty if the punctures started from another design.
+    pub(super) ends: Vec<PlaceEnd>,
 }
 
-impl Problem<'_> {
-    /// Solves the puncture at each requested load position.
-    pub(super) fn load_positions(&self) -> Result<Vec<LoadPosition>, OutOfRange> {
-        let positions = self.parameters.positions(self.parameters.places.unwrap_or(0), self.design);
-        // All positions together may take as long as one path.
-        let mut left = self.settings.max_work;
-        let mut places = Vec::with_capacity(positions.len());
-        for position in positions {
-            let (place, work) = self.at_position(position, left)?;
-            left = left.saturating_sub(work);
-            places.push(place);
-        }
-        Ok(places)
-    }
+/// A followed path, with its end.
+pub(super) type OwnPath<'a> = (&'a Followed, Option<&'a PunctureEnd>);
 
-    /// Solves the puncture at a position with at most `max_work`; returns the actual work, too.
-    fn at_position(&self, position: f64, max_work: u64) -> Result<(LoadPosition, u64), OutOfRange> {
-        let parameters = self.parameters.at_position(position);
-        let mut problem = self.with(&parameters);
-        problem.settings = Settings { max_work, ..self.settings };
-        let followed = problem.follow(&[], &[])?;
+impl LoadPosition {
+    fn new(position: f64, followed: &Followed) -> Self {
         let (points, path, status) = (&followed.watch.record.path, &followed.path, followed.status);
         let end = path.system().path_point(path.point());
         let end = (status == Status::Complete).then_some(end);
         let tilts_nothing = status == Status::Untilted && points.len() == 1;
-        let place = LoadPosition {
+        Self {
             position,
             status,
             force: end.map(|point| point.force),
@@ -172,31 +157,112 @@ impl Problem<'_> {
                 .map(|point| point.force)
                 .reduce(f64::max)
                 .filter(|_| !tilts_nothing),
+        }
+    }
+}
+
+impl Problem<'_> {
+    /// Solves the puncture at each requested load position.
+    ///
+    /// `own` is the path of the puncture itself, which serves its own load position. Near the end of
+    /// a similar design, positions start from its ends, and positions that carry more there are
+    /// omitted.
+    pub(super) fn load_positions(
+        &self,
+        own: Option<OwnPath>,
+        near: Option<&PunctureEnd>,
+    ) -> Result<LoadPositions, OutOfRange> {
+        let positions = self.parameters.positions(self.parameters.places.unwrap_or(0), self.design);
+        let own = own.filter(|_| self.is_own_path_at_position());
+        // All positions together may take as long as one path.
+        let mut left = self.common.solver.max_work;
+        let (mut places, mut ends) = (Vec::new(), Vec::new());
+        for position in positions {
+            if near.is_some_and(|near| !near.may_be_weakest(position)) {
+                continue;
+            }
+            let (place, end) = match own {
+                Some((followed, end)) if position == self.parameters.load_position => {
+                    (LoadPosition::new(position, followed), end.cloned())
+                }
+                _ => {
+                    let start = near.and_then(|near| near.at_place(position));
+                    let (place, end, work) = self.at_position(position, start, left)?;
+                    left = left.saturating_sub(work);
+                    (place, end)
+                }
+            };
+            if near.is_none() {
+                ends.push(PlaceEnd { position, force: place.force, end });
+            }
+            places.push(place);
+        }
+        Ok(LoadPositions { places, ends })
+    }
+
+    /// Returns true if the path of the puncture equals the one followed for its load position.
+    fn is_own_path_at_position(&self) -> bool {
+        // Elastic scales end a path where they bend; the other requests locate points only.
+        self.parameters.failure.is_none()
+    }
+
+    /// Solves the puncture at a position with at most `max_work`; returns its end and the work, too.
+    ///
+    /// Starts from a known end, or else from rest.
+    fn at_position(
+        &self,
+        position: f64,
+        start: Option<&PunctureEnd>,
+        max_work: u64,
+    ) -> Result<(LoadPosition, Option<PunctureEnd>, u64), OutOfRange> {
+        let parameters = self.parameters.at_position(position);
+        let mut problem = self.with(&parameters);
+        problem.common.solver.max_work = max_work;
+        let found = start.map(|start| problem.end_near(start)).transpose()?.flatten();
+        let followed = match found {
+            Some(found) => found,
+            None => problem.follow(&[], &[])?,
         };
-        Ok((place, path.work()))
+        let end = PunctureEnd::new(&problem, &followed);
+        Ok((LoadPosition::new(position, &followed), end, followed.path.work()))
     }
 
     /// Returns the same problem with other parameters, for the measures of the critical state.
     fn with<'p>(&'p self, parameters: &'p PunctureParameters) -> Problem<'p> {
         let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
-        Problem { stiffness, endless, parameters, detail: PathDetail::Critical, ..*self }
+        let common = Common { detail: PathDetail::Critical, ..self.common };
+        Problem { stiffness, endless, common, parameters, ..*self }
     }
 
-    /// Differentiates the smallest force over `places`.
+    /// Differentiates the smallest force over the load positions of a `puncture`.
     ///
-    /// If several positions are equally weak, a parameter change makes one of them the weakest, so
-    /// the one-sided derivatives differ.
+    /// `own` are the derivatives of the puncture itself. Other positions start from `ends`, which may
+    /// belong to a similar design. If several positions are equally weak, a parameter change makes
+    /// one of them the weakest, so the one-sided derivatives differ.
     pub(super) fn at_weakest(
         &self,
-        places: &[LoadPosition],
+        puncture: &Puncture,
+        ends: Option<&PunctureEnd>,
         variations: &[Neighbours<PunctureInput>],
+        own: &[Derivative],
     ) -> Result<Vec<Derivative>, OutOfRange> {
+        let places = &puncture.places;
         let Ok(Weakest { force: Some(force), .. }) = Weakest::from_positions(places) else {
             return Ok(Vec::new());
         };
         let mut weakest = Vec::new();
-        for place in tied(places, force) {
-            let here = self.slopes_at(place, variations)?;
+        for place in places.iter().filter(|place| is_tied(place, force)) {
+            let is_own =
+                place.position == self.parameters.load_position && self.is_own_path_at_position();
+            let here = if is_own {
+                own.to_vec()
+            } else {
+                let end = ends.and_then(|ends| ends.at_place(place.position));
+                self.slopes_at(place.position, end, variations)?
+            };
+            let here = here.into_iter().filter(|of| of.measure == CRITICAL_FORCE);
+            let here: Vec<_> =
+                here.map(|of| Derivative { measure: "weakest_force", ..of }).collect();
             weakest = if weakest.is_empty() {
                 here
             } else {
@@ -206,20 +272,26 @@ impl Problem<'_> {
         Ok(weakest)
     }
 
+    /// Differentiates the measures at a load position.
     fn slopes_at(
         &self,
-        place: &LoadPosition,
+        position: f64,
+        end: Option<&PunctureEnd>,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
-        let parameters = self.parameters.at_position(place.position);
+        let parameters = self.parameters.at_position(position);
         let moved = |input: &PunctureInput| {
-            let parameters = input.parameters.at_position(place.position);
+            let parameters = input.parameters.at_position(position);
             Ok::<_, OutOfRange>(PunctureInput { parameters, ..input.clone() })
         };
         let variations = Neighbours::map_all(variations, moved)?;
-        let (_, derivatives) = self.with(&parameters).differentiated(&variations)?;
-        let of_force = derivatives.into_iter().filter(|of| of.measure == CRITICAL_FORCE);
-        Ok(of_force.map(|of| Derivative { measure: "weakest_force", ..of }).collect())
+        let problem = self.with(&parameters);
+        if let Some(end) = end
+            && let Some(mut found) = problem.end_near(end)?
+        {
+            return problem.derivatives(&mut found, &variations);
+        }
+        Ok(problem.differentiated(&variations)?.1)
     }
 }
 

@@ -22,14 +22,20 @@ use crate::{Design, PathDetail, Status};
 /// A gap that almost folds and opens again may fold on the path of a neighbour.
 const LEAST_STRETCH: f64 = 0.05;
 
-/// Least load position of a puncture with a usable end.
+/// Least lever of the load at rest, in widths of the top, of a puncture with a usable end.
 ///
-/// A load farther to the left hardly tilts the scale at first, at some slant. The scale may then
-/// tilt either way, which only the path decides.
-const LEAST_POSITION: f64 = 0.6;
+/// A load above the middle of the base hardly tilts the scale at first. The scale may then tilt
+/// either way, which only the path decides.
+const LEAST_LEVER: f64 = 0.1;
 
-/// Numbers of steps from a similar design to the requested one, tried in turn.
-const STEPS: [u8; 2] = [1, 8];
+/// Number of steps from a similar design to the requested one, if one step fails.
+const STEPS: u8 = 8;
+
+/// Force over the force at the weakest load position up to which a position may be the weakest of a
+/// similar design.
+///
+/// In 3,000 random pairs of designs up to 15 % and 6° apart the weakest position was the same.
+const COMPARABLE: f64 = 1.1;
 
 /// A fold is located if the stretch of its gap is below this.
 const CLOSE: f64 = 1e-12;
@@ -54,13 +60,51 @@ pub struct PunctureEnd {
     whole: Option<RowLayout>,
     point: TargetPoint<SkinMode>,
     design: Design,
+    /// [`Problem::lever`] of the load.
+    lever: f64,
     stiffness: RowStiffness,
+    /// The punctures at the requested load positions.
+    places: Vec<PlaceEnd>,
+}
+
+/// Puncture at one of several load positions, and its end.
+#[derive(Clone, Debug)]
+pub(super) struct PlaceEnd {
+    pub(super) position: f64,
+    /// `F*` at the critical tilt.
+    pub(super) force: Option<f64>,
+    pub(super) end: Option<PunctureEnd>,
 }
 
 impl PunctureEnd {
     fn at(problem: &Problem, layout: RowLayout, point: TargetPoint<SkinMode>) -> Self {
-        let (design, stiffness) = (*problem.design, problem.stiffness.clone());
-        Self { layout, whole: problem.whole(), point, design, stiffness }
+        Self {
+            layout,
+            whole: problem.whole(),
+            point,
+            design: *problem.design,
+            lever: problem.lever(),
+            stiffness: problem.stiffness.clone(),
+            places: Vec::new(),
+        }
+    }
+
+    /// Adds the punctures at the requested load positions.
+    pub(super) fn with_places(self, places: Vec<PlaceEnd>) -> Self {
+        Self { places, ..self }
+    }
+
+    /// Returns the end at a load position.
+    pub(super) fn at_place(&self, position: f64) -> Option<&Self> {
+        self.places.iter().find(|place| place.position == position)?.end.as_ref()
+    }
+
+    /// Returns true if a load position of a similar design may be the weakest.
+    pub(super) fn may_be_weakest(&self, position: f64) -> bool {
+        let forces = self.places.iter().filter_map(|place| place.force);
+        let weakest = forces.fold(f64::INFINITY, f64::min);
+        let place = self.places.iter().find(|place| place.position == position);
+        place.and_then(|place| place.force).is_none_or(|force| force <= COMPARABLE * weakest)
     }
 
     /// Returns the end of a path, unless an event before it may change the result of a neighbour.
@@ -71,7 +115,8 @@ impl PunctureEnd {
         }
         let folds_for_good = watch.folds.least_dip >= LEAST_STRETCH;
         // A tilt that reverses may reach its critical value on another branch of a neighbour.
-        let tilts_on = watch.record.path.is_sorted_by_key(|point| point.tilt_deg);
+        let side = problem.lever().signum();
+        let tilts_on = watch.record.path.is_sorted_by_key(|point| side * point.tilt_deg);
         if !(folds_for_good && tilts_on) {
             return None;
         }
@@ -91,8 +136,8 @@ pub fn solve_near(
     input: &PunctureInput,
     end: &PunctureEnd,
 ) -> Result<Option<Puncture>, OutOfRange> {
-    let problem = input.problem(&input.design, input.stiffness.clone())?;
-    Ok(problem.end_near(input, end)?.map(|found| problem.result_near(found, end)))
+    let problem = Problem::of_input(input)?;
+    problem.end_near(end)?.map(|found| problem.result_near(found, end)).transpose()
 }
 
 /// Solves a puncture like [`solve_near`], and differentiates its measures.
@@ -106,54 +151,24 @@ pub fn differentiate_near(
     variations: &[Neighbours<PunctureInput>],
     end: &PunctureEnd,
 ) -> Result<Option<(Puncture, Vec<Derivative>)>, OutOfRange> {
-    let problem = input.problem(&input.design, input.stiffness.clone())?;
-    let Some(mut found) = problem.end_near(input, end)? else { return Ok(None) };
-    let derivatives = problem.derivatives(&mut found, variations)?;
-    Ok(Some((problem.result_near(found, end), derivatives)))
-}
-
-impl PunctureInput {
-    /// Sets up the problem of a design with the parameters of this input.
-    fn problem<'a>(
-        &'a self,
-        design: &'a Design,
-        stiffness: RowStiffness,
-    ) -> Result<Problem<'a>, OutOfRange> {
-        let rows = Rows::Even(design.row()?);
-        Problem::new(rows, design, stiffness, &self.common, &self.parameters)
-    }
-
-    /// Moves an end towards the design of this input in equal steps, up to the last one.
-    fn approached(&self, end: &PunctureEnd, steps: u8) -> Result<Option<PunctureEnd>, OutOfRange> {
-        let mut near = end.clone();
-        for step in 1..steps {
-            let fraction = f64::from(step) / f64::from(steps);
-            let design = end.design.towards(&self.design, fraction);
-            // The substrate of a design in between only serves as a start.
-            let [from, to] = [&end.stiffness, &self.stiffness];
-            let stiffness = from.clone() * (1.0 - fraction) + to.clone() * fraction;
-            let problem = self.problem(&design, stiffness)?;
-            let Some((chain, point)) = problem.point_near(&near)? else { return Ok(None) };
-            let point = near.point.moved_to(point.state);
-            near = PunctureEnd { layout: chain.layout, point, ..near };
-        }
-        Ok(Some(near))
-    }
+    let problem = Problem::of_input(input)?;
+    let Some(mut found) = problem.end_near(end)? else { return Ok(None) };
+    let mut derivatives = problem.derivatives(&mut found, variations)?;
+    let puncture = problem.result_near(found, end)?;
+    derivatives.extend(problem.at_weakest(&puncture, Some(end), variations, &derivatives)?);
+    Ok(Some((puncture, derivatives)))
 }
 
 impl PunctureParameters {
     /// Returns true if the critical measures depend on the end of the path only.
     ///
     /// Every measure of [`PathDetail::Critical`] then belongs to the end or to a fold of the
-    /// surface, and similar designs tilt the same way. Without friction, only such punctures have a
-    /// [`PunctureEnd`].
+    /// surface. Without friction, only such punctures have a [`PunctureEnd`].
     pub fn depend_on_end_only(&self) -> bool {
         self.needle == Needle::Free
             && self.bending == Bending::Rigid
             && !self.unload
-            && self.load_position >= LEAST_POSITION
             && self.failure.is_none()
-            && self.places.is_none()
             && self.depth.is_none()
             && self.force.is_none()
             && self.tilts_before_deg.is_none()
@@ -162,30 +177,33 @@ impl PunctureParameters {
 
 impl Problem<'_> {
     fn has_end(&self) -> bool {
-        self.detail == PathDetail::Critical
+        self.common.detail == PathDetail::Critical
             && matches!(self.rows, Rows::Even(_))
             && self.law.friction() == 0.0
             && self.parameters.depend_on_end_only()
+            && self.lever().abs() >= LEAST_LEVER
+    }
+
+    /// Computes the lever of the load about the middle of the base at rest, in widths of the top.
+    ///
+    /// Positive if the load tilts the scale clockwise.
+    fn lever(&self) -> f64 {
+        let Design { slant_deg, .. } = self.design;
+        let shift = slant_deg.to_radians().tan() / (2.0 * self.design.half_base());
+        shift + self.parameters.load_position - 0.5
     }
 
     /// Finds the end of the path from the `end` of a similar design.
-    fn end_near(
-        &self,
-        input: &PunctureInput,
-        end: &PunctureEnd,
-    ) -> Result<Option<Followed>, OutOfRange> {
+    pub(super) fn end_near(&self, end: &PunctureEnd) -> Result<Option<Followed>, OutOfRange> {
         // A curved body carries more or fewer scales as their pitch changes.
-        if !self.has_end() || self.whole() != end.whole {
+        let tilts_the_same_way = self.lever() * end.lever > 0.0;
+        if !self.has_end() || self.whole() != end.whole || !tilts_the_same_way {
             return Ok(None);
         }
-        let mut found = None;
-        for steps in STEPS {
-            let near = input.approached(end, steps)?;
-            found = near.map(|near| self.point_near(&near)).transpose()?.flatten();
-            if found.is_some() {
-                break;
-            }
-        }
+        let found = match self.point_near(end)? {
+            None if *self.design != end.design => self.point_in_steps(end)?,
+            found => found,
+        };
         let Some((chain, point)) = found else { return Ok(None) };
         // The needle only pushes.
         let is_valid = chain.force(&point.state) > 0.0
@@ -194,18 +212,43 @@ impl Problem<'_> {
             return Ok(None);
         }
         let Some(folds) = self.folds_before(&chain, end, &point) else { return Ok(None) };
-        let path = Continuation::new(chain, point.state, self.settings);
+        let path = Continuation::new(chain, point.state, self.common.solver);
         let watch = PathObservers::new(&path, self.parameters, &[], &[]);
         let watch = PathObservers { folds, ..watch };
         let (passage, status) = (Passage::default(), Status::Complete);
         Ok(Some(Followed { watch, passage, path, status }))
     }
 
+    /// Finds the equilibrium at the critical tilt in equal steps of the design.
+    fn point_in_steps(&self, end: &PunctureEnd) -> Result<Option<(Chain, SkinPoint)>, OutOfRange> {
+        let mut near = PunctureEnd {
+            point: end.point.clone(),
+            stiffness: end.stiffness.clone(),
+            places: Vec::new(),
+            ..*end
+        };
+        for step in 1..STEPS {
+            let fraction = f64::from(step) / f64::from(STEPS);
+            let design = end.design.towards(self.design, fraction);
+            // The substrate of a design in between only serves as a start.
+            let [from, to] = [&end.stiffness, &self.stiffness];
+            let stiffness = from.clone() * (1.0 - fraction) + to.clone() * fraction;
+            let rows = Rows::Even(design.row()?);
+            let problem = Problem::new(rows, &design, stiffness, &self.common, self.parameters)?;
+            let Some((chain, point)) = problem.point_near(&near)? else { return Ok(None) };
+            let point = near.point.moved_to(point.state);
+            near = PunctureEnd { layout: chain.layout, point, ..near };
+        }
+        self.point_near(&near)
+    }
+
     /// Finds the equilibrium at the critical tilt, on a row that is long enough for it.
     fn point_near(&self, end: &PunctureEnd) -> Result<Option<(Chain, SkinPoint)>, OutOfRange> {
         let (mut chain, mut near) = (self.part(end.layout)?, end.point.clone());
         loop {
-            let Some(point) = near.of_neighbour(&chain, &self.settings) else { return Ok(None) };
+            let Some(point) = near.of_neighbour(&chain, &self.common.solver) else {
+                return Ok(None);
+            };
             let reach = chain.reach(&point.state);
             if !reach.contains(&Reach::Beyond) {
                 return Ok(Some((chain, point)));
@@ -221,11 +264,16 @@ impl Problem<'_> {
         }
     }
 
-    /// Builds the result of an end that was found from the `end` of a similar design.
-    fn result_near(&self, found: Followed, end: &PunctureEnd) -> Puncture {
+    /// Returns the end of a path that was `found` from the `end` of a similar design.
+    pub(super) fn moved_end(&self, found: &Followed, end: &PunctureEnd) -> PunctureEnd {
         let point = end.point.moved_to(found.path.point().state.clone());
-        let end = Some(PunctureEnd::at(self, found.path.system().layout, point));
-        Puncture { end, ..found.puncture(false) }
+        PunctureEnd::at(self, found.path.system().layout, point)
+    }
+
+    /// Builds the result of an end that was found from the end of a similar design.
+    fn result_near(&self, found: Followed, near: &PunctureEnd) -> Result<Puncture, OutOfRange> {
+        let end = self.moved_end(&found, near);
+        self.with_positions(found, Some(end), Some(near))
     }
 
     /// Finds the first fold of the surface before the end at `point`.
@@ -273,7 +321,7 @@ impl Problem<'_> {
             if !(EARLIEST_FOLD..=1.0).contains(&fraction) {
                 return None;
             }
-            point = end.point.before_target(chain, &point.state, fraction, &self.settings)?;
+            point = end.point.before_target(chain, &point.state, fraction, &self.common.solver)?;
         }
         None
     }

@@ -7,6 +7,7 @@ use substrate::{FarField, RowStiffness, SubstrateLaw};
 
 use super::adaptive_row::AdaptiveRowPath;
 use super::bending::BENDING_UNKNOWNS;
+use super::load_positions::LoadPositions;
 use super::needle::{self, NEEDLE_UNKNOWNS};
 use super::observers::PathObservers;
 use super::point::scales;
@@ -17,13 +18,13 @@ use super::surface_fold::FoldObserver;
 use super::system::Chain;
 use super::{
     At, Bending, CriticalEvent, DIRECT_STIFFNESS, FailureMode, LONGEST_ROW, Passage, Puncture,
-    PunctureEnd, PunctureMeasures, PunctureParameters, PuncturePoint, RowLength, TIP_REACH,
-    TiltMeasures, ending, failure, overlaps_at_rest,
+    PunctureEnd, PunctureInput, PunctureMeasures, PunctureParameters, PuncturePoint, RowLength,
+    TIP_REACH, TiltMeasures, Weakest, ending, failure, overlaps_at_rest,
 };
 use crate::contacts::pair_constraints;
 use crate::path_location::PointLocator;
 use crate::record::{PathFunction, Record};
-use crate::{Common, Design, PathDetail, Status, Unloading};
+use crate::{Common, Design, Status, Unloading};
 
 /// Tilt below which a scale under a guided needle counts as not tilted, degrees.
 ///
@@ -156,8 +157,7 @@ pub(super) struct Problem<'a> {
     /// `None` for a finite row.
     pub(super) endless: Option<FarField>,
     pub(super) law: ContactLaw,
-    pub(super) settings: Settings,
-    pub(super) detail: PathDetail,
+    pub(super) common: Common,
     pub(super) parameters: &'a PunctureParameters,
 }
 
@@ -184,6 +184,12 @@ impl<'a> Problem<'a> {
         Self::unchecked(rows, design, stiffness, common, parameters)
     }
 
+    /// Sets up the problem of an even row.
+    pub(super) fn of_input(input: &'a PunctureInput) -> Result<Self, OutOfRange> {
+        let PunctureInput { design, stiffness, common, parameters, .. } = input;
+        Self::new(Rows::Even(design.row()?), design, stiffness.clone(), common, parameters)
+    }
+
     /// Sets up the problem with parameters that may slightly exceed their ranges.
     pub(super) fn unchecked(
         rows: Rows<'a>,
@@ -205,8 +211,8 @@ impl<'a> Problem<'a> {
             })?),
             RowLength::Scales(_) => None,
         };
-        let Common { solver: settings, detail, .. } = *common;
-        let problem = Self { rows, design, stiffness, endless, law, settings, detail, parameters };
+        let common = *common;
+        let problem = Self { rows, design, stiffness, endless, law, common, parameters };
         let radius = parameters.needle_radius;
         let is_in_reach = radius.is_none() || problem.reach().is_some();
         let expected = "at most 62 pitches of the row";
@@ -221,8 +227,23 @@ impl<'a> Problem<'a> {
     /// Builds the result of a path that was followed from rest.
     pub(super) fn result(&self, followed: Followed) -> Result<Puncture, OutOfRange> {
         let end = PunctureEnd::new(self, &followed);
-        let puncture = followed.puncture(self.parameters.unload);
-        Ok(Puncture { end, ..puncture }.with_positions(self.load_positions()?))
+        self.with_positions(followed, end, None)
+    }
+
+    /// Builds the result of a path, with the punctures at other load positions.
+    ///
+    /// These start from the ends of a similar design in `near`, if possible.
+    pub(super) fn with_positions(
+        &self,
+        followed: Followed,
+        end: Option<PunctureEnd>,
+        near: Option<&PunctureEnd>,
+    ) -> Result<Puncture, OutOfRange> {
+        let LoadPositions { places, ends } =
+            self.load_positions(Some((&followed, end.as_ref())), near)?;
+        let mut puncture = followed.puncture(self.parameters.unload);
+        puncture.measures.weakest = Weakest::from_positions(&places).unwrap_or_default();
+        Ok(Puncture { end: end.map(|end| end.with_places(ends)), places, ..puncture })
     }
 
     /// Builds the initial system; returns it with the longest row it may grow to.
@@ -306,10 +327,11 @@ impl<'a> Problem<'a> {
             if !followed.is_back_at_rest() {
                 break;
             }
-            let max_step = factor * self.settings.max_step;
-            let settings = Settings { max_step, ..self.settings };
+            let max_step = factor * self.common.solver.max_step;
+            let solver = Settings { max_step, ..self.common.solver };
+            let common = Common { solver, ..self.common };
             let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
-            let finer = Problem { stiffness, endless, settings, ..*self };
+            let finer = Problem { stiffness, endless, common, ..*self };
             followed = finer.follow_once(functions, requested)?;
         }
         Ok(followed)
@@ -429,7 +451,7 @@ impl<'a> Problem<'a> {
         let exterior = RowExterior::new(self.rows, layout, beyond, parameters.body())?;
         let row = self.rows.row(layout)?;
         let mut chain = Chain::new(row, stiffness, *law, layout, exterior, parameters, design);
-        chain.detail = self.detail;
+        chain.detail = self.common.detail;
         Ok(chain)
     }
 

@@ -59,12 +59,11 @@ pub fn differentiate(
     input: &PunctureInput,
     variations: &[Neighbours<PunctureInput>],
 ) -> Result<(Puncture, Vec<Derivative>), OutOfRange> {
-    let PunctureInput { design, stiffness, common, parameters, .. } = input;
-    let rows = Rows::Even(design.row()?);
-    let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
+    let problem = Problem::of_input(input)?;
     let (followed, mut derivatives) = problem.differentiated(variations)?;
     let puncture = problem.result(followed)?;
-    derivatives.extend(problem.at_weakest(&puncture.places, variations)?);
+    let ends = puncture.end.as_ref();
+    derivatives.extend(problem.at_weakest(&puncture, ends, variations, &derivatives)?);
     Ok((puncture, derivatives))
 }
 
@@ -112,7 +111,7 @@ pub fn unloading_curve(
     with_path(input, &[At::Displacement(turn)], |problem, mut followed| {
         let locations = displacements.iter().map(|at| At::Displacement(*at).location());
         let turn = followed.watch.requested.points.swap_remove(0);
-        Ok(unloaded(&mut followed.path, turn, locations, &problem.settings, FORCE_OVER_DEPTH))
+        Ok(unloaded(&mut followed.path, turn, locations, &problem.common.solver, FORCE_OVER_DEPTH))
     })
 }
 
@@ -143,7 +142,8 @@ impl Problem<'_> {
         &self,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<(Followed, Vec<Derivative>), OutOfRange> {
-        let functions: &[_] = if self.detail == PathDetail::Critical { &[] } else { &FOLLOWED };
+        let functions: &[_] =
+            if self.common.detail == PathDetail::Critical { &[] } else { &FOLLOWED };
         let mut followed = self.follow(functions, &[])?;
         let derivatives = match followed.status {
             Status::Complete | Status::Bent => self.derivatives(&mut followed, variations)?,
@@ -175,7 +175,7 @@ impl Problem<'_> {
                 let varied = with(&anchors, &point.state, &variations);
                 let known = varied.as_deref().unwrap_or_default();
                 let mut on_curve =
-                    curve_point(system, point, known, &self.settings, FORCE_OVER_DEPTH);
+                    curve_point(system, point, known, &self.common.solver, FORCE_OVER_DEPTH);
                 on_curve.rates.resize(variations.len(), None);
                 Some(on_curve)
             })
@@ -202,7 +202,7 @@ impl Problem<'_> {
             let system = path.system();
             // Each perturbed row reaches these points with a different history.
             found.extend(match with(&anchors, state, &variations) {
-                Some(varied) => derivatives(system, spots, &varied, &self.settings),
+                Some(varied) => derivatives(system, spots, &varied, &self.common.solver),
                 None => missing(system, &spots, variations.len()),
             });
         }
@@ -281,7 +281,7 @@ impl Problem<'_> {
         bent: Option<&AnchoredPoint<SkinMode>>,
     ) -> Summits {
         let PathObservers { record, failure, .. } = watch;
-        let settings = &self.settings;
+        let settings = &self.common.solver;
         let has_end = !is_bent && !path.system().is_critical_only();
         let stiffest = if has_end { record.stiffness_summit(path) } else { None };
         let stiffest = sensitivity::summit(stiffest, path, Chain::stiffness, settings);

@@ -49,7 +49,7 @@ impl Draw {
         let curvature = if self.is_true(0.5) { 0.0 } else { self.between(-0.05, 0.2) };
         let is_linear = curvature != 0.0 || self.is_true(0.8);
         let substrate_law = if is_linear { SubstrateLaw::Linear } else { SubstrateLaw::NeoHookean };
-        let load_position = self.between(0.6, 1.0);
+        let load_position = self.between(0.0, 1.0);
         let contact_modulus_over_substrate = 10_f64.powf(self.between(1.5, 5.0));
         let critical_tilt_deg = self.between(3.0, 25.0);
         Pair {
@@ -94,18 +94,19 @@ enum Outcome {
 }
 
 impl Pair {
-    fn outcome(&self, known: &Calibrations) -> Outcome {
-        let Self { designs, law, coupling, parameters } = self;
-        let common = Common { law: *law, detail: PathDetail::Critical, ..Common::default() };
-        let inputs = designs.map(|design| {
+    fn inputs(&self, known: &Calibrations) -> [PunctureInput; 2] {
+        let common = Common { law: self.law, detail: PathDetail::Critical, ..Common::default() };
+        let parameters = self.parameters;
+        self.designs.map(|design| {
             let footprint = design.footprint(parameters.poisson_ratio).unwrap();
-            let stiffness = known.row(&footprint, *coupling).unwrap().as_ref().clone();
-            PunctureInput { design, stiffness, common, parameters: *parameters, odd: None }
-        });
-        let [first, second] = inputs.each_ref().map(|input| {
-            let PunctureInput { design, stiffness, .. } = input;
-            puncture::solve(design, stiffness.clone(), &common, parameters).unwrap()
-        });
+            let stiffness = known.row(&footprint, self.coupling).unwrap().as_ref().clone();
+            PunctureInput { design, stiffness, common, parameters, odd: None }
+        })
+    }
+
+    fn outcome(&self, known: &Calibrations) -> Outcome {
+        let inputs = self.inputs(known);
+        let [first, second] = inputs.each_ref().map(from_rest);
         let Some(end) = &first.end else { return Outcome::NoStart };
         let near = puncture::solve_near(&inputs[1], end).unwrap();
         match near {
@@ -116,14 +117,23 @@ impl Pair {
     }
 }
 
+fn from_rest(input: &PunctureInput) -> Puncture {
+    let PunctureInput { design, stiffness, common, parameters, .. } = input;
+    puncture::solve(design, stiffness.clone(), common, parameters).unwrap()
+}
+
 /// Returns true if both punctures were completed with the same measures.
 fn agree(near: &Puncture, whole: &Puncture) -> bool {
     whole.status == Status::Complete
         && counts(near) == counts(whole)
-        && numbers(near).into_iter().zip(numbers(whole)).all(|pair| match pair {
-            (Some(a), Some(b)) => (a - b).abs() <= SAME * a.abs().clamp(1e-3, 1.0),
-            (a, b) => a == b,
-        })
+        && numbers(near).into_iter().zip(numbers(whole)).all(|(near, whole)| is_same(near, whole))
+}
+
+fn is_same(near: Option<f64>, whole: Option<f64>) -> bool {
+    match (near, whole) {
+        (Some(a), Some(b)) => (a - b).abs() <= SAME * a.abs().clamp(1e-3, 1.0),
+        (a, b) => a == b,
+    }
 }
 
 fn counts(puncture: &Puncture) -> (Status, Option<usize>, Option<usize>) {
@@ -145,14 +155,21 @@ fn numbers(puncture: &Puncture) -> [Option<f64>; 9] {
     ]
 }
 
-/// Left of the middle a scale may tilt either way, so its path is followed.
+/// A load above the middle of the base hardly tilts the scale, so its path is followed.
 #[test]
-fn a_load_left_of_the_middle_leaves_no_end() {
+fn a_load_above_the_middle_of_the_base_leaves_no_end() {
     let known = Calibrations::default();
+    let mut tried = 0;
     for mut pair in random_pairs(20, 5) {
-        pair.parameters.load_position *= 0.5;
-        assert_eq!(pair.outcome(&known), Outcome::NoStart, "{pair:?}");
+        let [design, _] = &pair.designs;
+        let shift = design.slant_deg.to_radians().tan() / (2.0 * design.half_base());
+        pair.parameters.load_position = 0.52 - shift;
+        if pair.parameters.load_position > 0.0 {
+            assert_eq!(pair.outcome(&known), Outcome::NoStart, "{pair:?}");
+            tried += 1;
+        }
     }
+    assert!(tried > 3);
 }
 
 /// Four hundred pairs; ten thousand in a long campaign.
@@ -169,5 +186,35 @@ fn ends_of_similar_designs_agree_with_their_paths() {
     for (pair, outcome) in pairs.iter().zip(&outcomes) {
         assert_ne!(*outcome, Outcome::Differs, "{pair:?}");
     }
-    assert!(5 * agree > 4 * pairs.len());
+    assert!(4 * agree > 3 * pairs.len());
+}
+
+/// Forty pairs at five load positions; a thousand in a long campaign.
+#[test]
+fn load_positions_of_similar_designs_agree_with_their_paths() {
+    let known = Calibrations::default();
+    let mut pairs = random_pairs(if long_campaigns() { 1000 } else { 40 }, 11);
+    for (number, pair) in pairs.iter_mut().enumerate() {
+        pair.parameters.places = Some(5);
+        if number % 2 == 0 {
+            pair.parameters.load_position = 1.0;
+        }
+    }
+    let near = pairs.par_iter().map(|pair| {
+        let inputs = pair.inputs(&known);
+        let [first, second] = inputs.each_ref().map(from_rest);
+        let near = puncture::solve_near(&inputs[1], first.end.as_ref()?).unwrap()?;
+        let [weakest, expected] = [&near, &second].map(|of| of.measures.weakest);
+        assert_eq!(weakest.place, expected.place, "{pair:?}");
+        assert!(is_same(weakest.force, expected.force), "{weakest:?} {expected:?} {pair:?}");
+        for near in &near.places {
+            let whole = second.places.iter().find(|of| of.position == near.position).unwrap();
+            assert_eq!(near.status, whole.status, "{pair:?}");
+            assert!(is_same(near.force, whole.force), "{near:?} {whole:?} {pair:?}");
+            assert!(is_same(near.displacement, whole.displacement), "{near:?} {whole:?} {pair:?}");
+            assert!(is_same(near.tilt_deg, whole.tilt_deg), "{near:?} {whole:?} {pair:?}");
+        }
+        Some(())
+    });
+    assert!(near.flatten().count() > 3 * pairs.len() / 4);
 }
