@@ -36,7 +36,7 @@ impl ChangedVerdicts {
         let kept = self.kept;
         let setting = "With a friction of 0.1 and of 0.3, and the base L,";
         if self.changed.is_empty() {
-            return format!("{setting} all {kept} statements of the claims keep their verdict.\n");
+            return format!("{setting} all {kept} statements of the claims\nkeep their verdict.\n");
         }
         format!(
             "{setting} {kept} statements of the claims keep their verdict, and these do not:\n\n| | No friction | 0.1 | 0.3 |\n|---|---|---|---|\n{}",

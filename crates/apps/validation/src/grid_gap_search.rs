@@ -93,8 +93,10 @@ impl GridGapSearch {
     pub(crate) fn parts(&self) -> [(&'static str, String); 2] {
         let FrontOverGrid { designs, grid, grid_front, undominated } = self.front;
         let front = format!(
-            "The Pareto front of critical force and coverage, with a compliance of at least {LEAST_COMPLIANCE}, has {designs} designs. {grid} designs of the grid \
-             have no fold and this compliance; {grid_front} of them are on their own Pareto front. Designs of the grid that the front of the search neither equals nor dominates: {undominated}."
+            "The Pareto front of critical force and coverage, with a compliance of at least \
+             {LEAST_COMPLIANCE}, has\n{designs} designs. {grid} designs of the grid have no fold and \
+             this compliance; {grid_front} of them are on\ntheir own Pareto front. Designs of the \
+             grid that the front of the search neither equals nor\ndominates: {undominated}."
         );
         [("between", lines(&self.fittest, FittestDesign::row)), ("front", front)]
     }

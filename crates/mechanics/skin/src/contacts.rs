@@ -6,10 +6,10 @@ mod change;
 mod closed;
 mod dissipation;
 mod friction;
+mod friction_transitions;
 mod mode;
 mod needle_mode;
 mod pair_unknowns;
-mod stick_slip;
 mod stiffness;
 mod touching;
 

@@ -28,7 +28,7 @@ mod surface_fold;
 mod system;
 #[cfg(test)]
 mod tests;
-mod tilts;
+mod tilt_measures;
 
 use contact::{Pose, overlaps};
 use geometry::{Body, OutOfRange};
@@ -53,7 +53,7 @@ pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots, snapshots_to_end};
 pub use stability::Instability;
 pub use surface_fold::{Fold, GapStretch};
-pub use tilts::TiltMeasures;
+pub use tilt_measures::TiltMeasures;
 
 /// Quantity of the error for a round tip that reaches over too many scales.
 pub const TIP_REACH: &str = "radius of the needle over the pitch of the row";

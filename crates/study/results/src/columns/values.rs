@@ -5,7 +5,7 @@
 //! | Value | Computed in |
 //! |---|---|
 //! | of the puncture | `PunctureMeasures::new` in `skin/src/puncture/measures.rs` |
-//! | of the puncture at several critical tilts | `skin/src/puncture/tilts.rs` |
+//! | of the puncture at several critical tilts | `skin/src/puncture/tilt_measures.rs` |
 //! | of bending | `FlexureMeasures::new` in `skin/src/flexure/measures.rs` |
 //! | of bending with unequal gaps | `skin/src/flexure/gap_by_gap.rs` |
 //! | statistics over imperfect samples | `run/src/solve/samples.rs` |
