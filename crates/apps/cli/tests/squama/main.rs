@@ -47,8 +47,6 @@ const FEW: &str = "name = 'few'\n[designs]\ngap_over_t = [0.1, 0.5]\nlength_over
                    slant_deg = [0, 45]\n[puncture]\nscales = 21\n";
 
 /// Returns true if `SQUAMA_CAMPAIGNS=long` requests long campaigns.
-///
-/// `scripts/check-all` sets it.
 fn long_campaigns() -> bool {
     std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
 }

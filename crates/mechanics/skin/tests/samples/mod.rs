@@ -108,8 +108,6 @@ pub fn random(count: usize, seed: u64) -> Vec<Design> {
 }
 
 /// Returns true if `SQUAMA_CAMPAIGNS=long` requests long campaigns.
-///
-/// `scripts/check-all` sets it.
 pub fn long_campaigns() -> bool {
     std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
 }
