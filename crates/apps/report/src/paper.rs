@@ -1,4 +1,4 @@
-//! The paper of figures: their width, and how many panels they hold.
+//! Page sizes for which figures are laid out: their width, and the number of panels.
 
 /// Pixels per printed millimetre.
 ///

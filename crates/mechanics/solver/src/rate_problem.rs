@@ -227,7 +227,8 @@ impl<S: System> Continuation<S> {
         if guard_slope(&self.system, state, orienting, &direction) >= -NO_RATE {
             return Ok(direction);
         }
-        // The controls turn back together with the unknown, as at a kink, so their sign is wrong.
+        // The controls reverse together with the unknown, as at a kink, so the direction that they
+        // orient points backwards.
         let direction = opposite(direction);
         self.is_positive = self.newton.is_positive(&condition, &direction);
         Ok(direction)

@@ -319,9 +319,9 @@ pub(crate) struct CellColumns {
 }
 
 impl CellColumns {
-    /// Creates the columns between lines of corners.
+    /// Creates the columns of cells between the edges in `line`.
     ///
-    /// `line` holds the edges of cells and of their mirror images, an odd number.
+    /// They are the edges of the cells and of their mirror images; their number is odd.
     pub(crate) fn new(line: CornerLine) -> Self {
         let blank = vec![Influence::default(); line.len()];
         Self { line, last: blank.clone(), next: blank }

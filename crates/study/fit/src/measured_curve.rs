@@ -311,7 +311,7 @@ fn check_width(cells: &csv::StringRecord, columns: usize) -> Result<(), String> 
         return Ok(());
     }
     Err(format!(
-        "has {} cells under {columns} columns, expected as many (with a decimal comma, ; between cells)",
+        "has {} cells under {columns} columns, expected as many; cells with decimal commas are separated by semicolons",
         cells.len()
     ))
 }

@@ -34,7 +34,7 @@ const ADVICE: &str = "no difference, or --fresh to discard the results";
 /// Treatment of existing results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
-    /// Refuses to start.
+    /// Starts anew; refuses if there are results.
     #[default]
     New,
     /// Continues from existing results if definition, designs and program are the same.

@@ -25,8 +25,8 @@ impl Slopes {
     ///
     /// `size` is the size of the parameter.
     pub fn between(size: Option<f64>, at: impl Fn(f64, SlopeSide) -> Option<f64>) -> Self {
-        // Rows are extrapolated linearly, so a central difference only has the rounding of a
-        // column's formula.
+        // Rows are extrapolated linearly, so the only error of a central difference comes from the
+        // formula of the column.
         let [left, right] = [SlopeSide::Left, SlopeSide::Right].map(|side| {
             let step = STEP * size?;
             Some((at(step, side)? - at(-step, side)?) / (2.0 * step))

@@ -155,8 +155,8 @@ impl<'r> Ranking<'r> {
     ) -> Result<Self, InvalidRanking> {
         let (contenders, reasons) = contenders::sort_out(results, &preferences)?;
         let unmet: usize = reasons.iter().filter(|(why, _)| why.is_unmet()).map(|(_, n)| n).sum();
-        // A design excluded for another reason meets the requirements; they are then not the
-        // problem.
+        // A design that is excluded for another reason meets the requirements, so requirements are
+        // the problem only if they exclude all designs.
         if unmet > 0 && unmet == results.len() {
             return Err(InvalidRanking::Unmet(Unmet::of(results, &preferences.requirements)?));
         }

@@ -26,7 +26,7 @@ pub struct UnmetRequirement {
     pub met: usize,
     /// Number of designs that meet all other requirements.
     pub met_without: usize,
-    /// Value of the nearest design.
+    /// Value of the required column in the nearest design.
     pub nearest: Option<f64>,
     /// Relative shortfall of the nearest design.
     pub shortfall: f64,

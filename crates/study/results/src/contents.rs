@@ -18,7 +18,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder::ResultsFolder;
 
-/// Prefix of the line that holds the SHA-256 of the text after it.
+/// Prefix of the first line, which holds the SHA-256 of the lines after it.
+///
+/// The key says "above"; another name would make existing folders unreadable.
 const SEAL: &str = "sha256_of_the_above = ";
 
 /// Contents of a results folder.

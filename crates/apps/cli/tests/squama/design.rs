@@ -131,7 +131,7 @@ fn design_evaluates_load_positions() {
 }
 
 #[test]
-fn plot_shows_the_force_over_the_radius_of_several_designs() {
+fn plot_shows_the_force_against_the_body_radius_for_several_designs() {
     let place = Place::with(FEW);
     let radii = "--set body.radius_over_t=-40 --set body.radius_to_over_t=4";
     place.prints(&format!("plot curves x.toml --gap 0.1 --length 1 {radii} --out c"));

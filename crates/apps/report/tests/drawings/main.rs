@@ -196,7 +196,7 @@ fn a_round_tip_touches_both_corners() {
     let lowest = 1.0 + 0.4 - 0.5 - 0.05;
     let [x, y] = state.tip.expect("a tip");
     assert!((x - (0.5 * design.length + 0.3)).abs() < 1e-12 && (y - lowest).abs() < 1e-12);
-    // The tip starts between two scales, so there is no ring.
+    // The tip starts between two scales, so no ring marks a first contact.
     let between = format!("load_position = {}", parameters.load_position);
     let needle = format!("needle = 'guided'\nneedle_radius_over_t = 0.5\n{between}");
     let text = drawn(&case(&design, &needle, ""), &[state]);

@@ -159,7 +159,7 @@ fn at_the_corner_the_force_turns_no_further_than_to_the_end() {
 }
 
 #[test]
-fn a_corner_is_left_as_the_side_leans() {
+fn the_lean_of_the_side_decides_on_which_edge_a_corner_leaves() {
     let (on_side, on_end, tip_on_side) = (
         CornerEdge::BottomRightOnLeftEdge,
         CornerEdge::BottomLeftOnBase,

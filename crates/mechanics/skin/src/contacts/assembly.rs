@@ -71,7 +71,8 @@ impl Contacts {
         let (corner, edge) = if corner_is_left { (left, right) } else { (right, left) };
         let [x, y, turn, both] =
             [normal_turned.x, normal_turned.y, arm, distance].map(|entry| -force * entry);
-        // From left to right, as for other contacts: the order of a sum decides on its last digit.
+        // From left to right, as for other contacts, because the order of a sum affects its last
+        // digit.
         for is_by_corner in [corner_is_left, !corner_is_left] {
             if is_by_corner {
                 matrix.add(corner + 2, corner + 2, -turn);

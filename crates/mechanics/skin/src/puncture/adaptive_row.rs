@@ -93,7 +93,7 @@ impl<'a> AdaptiveRowPath<'a> {
         if self.is_long_enough {
             let chain = self.problem.part(longer)?;
             let from = chain.extended(self.path.system(), from);
-            // A row may grow twice at one point: keep the first form of the point.
+            // A row may grow twice at one point: keep the point at which it grew first.
             let left = self.arrived.take().map(|left| chain.extended(self.path.system(), &left));
             self.arrived = left.or_else(|| Some(from.clone()));
             self.shorter.push(self.path.continue_with(chain, from));

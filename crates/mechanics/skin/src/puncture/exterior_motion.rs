@@ -6,9 +6,10 @@ use super::row_exterior::{ExteriorSide, mirrored};
 use super::system::Chain;
 use crate::contacts::SkinState;
 
-/// Largest excess force at which exterior bars are approximated by springs.
+/// Largest difference of force between a neo-Hookean bar and its spring beyond the solved part.
 ///
-/// It is over the stiffness of a scale, hence a displacement (over `t`).
+/// The bars there count as springs. The force is divided by the stiffness of a scale, hence a
+/// displacement (over `t`).
 const AS_SPRINGS: f64 = 1e-9;
 
 /// Closed fraction of a clearance above which the row is extended early.

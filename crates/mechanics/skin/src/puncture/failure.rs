@@ -385,7 +385,7 @@ impl Chain {
         loads.map(|[arm, force]| Load { arm: back.turn(arm), force: back.turn(force) }).collect()
     }
 
-    /// Computes the values of a scale with these loads.
+    /// Computes stresses, deflection and fractions of the strengths of a scale under these loads.
     fn values_under(&self, state: &SkinState, scale: usize, loads: &[Load]) -> ScaleValues {
         let beam = Beam::new(&self.contacts.arrangement.scale(scale), self.width);
         // Forces are over `E*`, moduli and stresses over `E_s`.

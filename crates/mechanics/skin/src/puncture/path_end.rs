@@ -230,7 +230,7 @@ impl Problem<'_> {
         for step in 1..STEPS {
             let fraction = f64::from(step) / f64::from(STEPS);
             let design = end.design.towards(self.design, fraction);
-            // The substrate of a design in between only serves as a start.
+            // Designs in between only provide starting points, so interpolate their substrates.
             let [from, to] = [&end.stiffness, &self.stiffness];
             let stiffness = from.clone() * (1.0 - fraction) + to.clone() * fraction;
             let rows = Rows::Even(design.row()?);

@@ -42,7 +42,7 @@ const FOLDING: Design =
 const SLIDING: Design =
     Design { gap: 0.05, length: 0.2, slant_deg: 82.0, base: Base::TwoL, width: 1.0 };
 
-/// Steep row that snaps and loses contact with the needle below 40°.
+/// Steep row that snaps and loses contact with the needle before it tilts by 40°.
 const STEEP: Design = Design { gap: 0.6, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
 
 const BLOCKS: Design = Design { gap: 0.1, length: 1.0, slant_deg: 0.0, base: Base::L, width: 1.0 };
@@ -382,7 +382,7 @@ fn parameters_out_of_range_are_rejected() {
 /// Bound on finite eigenvalues: contacts are softer than this, unless rigid.
 const RIGID: f64 = 1e6;
 
-/// Computes the dense stiffness over the displacements.
+/// Computes the dense stiffness with respect to the displacements of scales and needle.
 ///
 /// Contact forces are eliminated from the tangent.
 ///

@@ -25,7 +25,7 @@ fn locks_earlier(locks: &[Option<f64>], touch: f64) {
 }
 
 #[test]
-fn more_friction_locks_a_strip_earlier_down_to_first_contact() {
+fn more_friction_locks_a_strip_earlier_but_not_before_first_contact() {
     for (length, slant) in [(0.3, 75.0), (1.0, 45.0), (1.0, 60.0), (1.0, 75.0)] {
         let strips = FRICTIONS.map(|friction| {
             let common = Common { friction, ..Common::default() };

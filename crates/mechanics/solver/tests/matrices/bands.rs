@@ -119,7 +119,7 @@ fn dependent_rows_have_no_factors() {
 }
 
 #[test]
-fn nan_has_no_factors() {
+fn a_matrix_that_is_not_finite_has_no_factors() {
     for value in [f64::NAN, f64::INFINITY] {
         let mut matrix = BandMatrix::new(2, 1);
         matrix.add(0, 0, 1.0);

@@ -58,9 +58,9 @@ fn a_snap_back_does_not_depend_on_the_steps() {
     }
 }
 
-/// Starts at the lowest point and ends after a full turn.
+/// The path starts at the lowest point and goes round once.
 ///
-/// Uses arc length where `x` turns.
+/// Where `x` reverses, the solver measures steps by the arc length.
 #[test]
 fn a_circle_is_followed_all_the_way_round() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };

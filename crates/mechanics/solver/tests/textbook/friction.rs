@@ -133,7 +133,7 @@ fn a_block_sticks_slips_sticks_and_slips_back() {
     }
 }
 
-/// The tangent of a slipping block is unsymmetric; both eliminations handle it.
+/// The tangent of a slipping block is not symmetric.
 #[test]
 fn the_tangent_of_a_slipping_block_agrees_with_differences() {
     let (points, _) = follow_modes(block(true), steps(0.05));

@@ -127,7 +127,7 @@ impl Rows {
         !row.is_after_blank && row.cells.len() == before.cells.len()
     }
 
-    /// Lists the runs of rows of equal width with at least `least` numbers each.
+    /// Lists the runs of rows of equal width, each row with at least `least` numbers.
     ///
     /// Rows of empty cells are gaps in a recording and do not end a run.
     fn runs(&self, least: usize) -> Vec<Range<usize>> {

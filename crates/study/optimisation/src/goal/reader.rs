@@ -225,7 +225,8 @@ fn meaningless_keys(
         let is_nominal = Statistic::named(named.column).is_none() || known.contains(&named.column);
         unavailable.or_else(|| missing_column(named, &known, sweep).filter(|_| is_nominal))
     });
-    // Requirements compare no designs, so the least tilt under a given force is a valid goal.
+    // Only objectives compare designs: with a variable tilt a force may be required, but not
+    // maximised.
     let objectives = named.iter().filter(|named| named.key != "goal.require");
     let incomparable = objectives.flat_map(|Written { column, key, place }| {
         sweep

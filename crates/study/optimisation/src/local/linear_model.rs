@@ -88,7 +88,8 @@ impl<'c> Model<'c> {
         let rises = self.costs().map(|(_, slope, right)| {
             slope.iter().zip(&step).map(|(g, u)| g * u).sum::<f64>() - right
         });
-        // Not the last coordinate of the program: it is scaled, and only as accurate as the solver.
+        // Computed from the tangents, because the last variable of the linear program is scaled and
+        // only as accurate as its solver.
         let gain = -rises.fold(f64::NEG_INFINITY, f64::max);
         let moved =
             self.centre.iter().zip(&step).map(|(x, u)| (x + self.radius * u).clamp(0.0, 1.0));

@@ -177,7 +177,7 @@ mod tests {
         write("yield.csv", "changed");
         let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");
         assert!(!folder.holds("tolerance.csv") && folder.holds("yield.csv"));
-        // A changed file that the command does not write again is not its own either.
+        // A changed file stays foreign if the command then ends without writing it.
         write("tolerance.csv", "again");
         claim.state(&files[..1]).expect("written");
         let refused = Claim::take(&folder, Maker::Tolerance).expect_err("a stranger's").to_string();

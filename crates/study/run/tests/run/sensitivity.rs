@@ -43,7 +43,7 @@ fn compare(case: &Case) -> usize {
 fn compare_with(case: &Case, along_gradients: bool) -> usize {
     let (derivatives, differences) = (derivatives(case), Differences::of(case));
     let compared = compare_components(case, &derivatives, &differences);
-    // Each gradient is a separate direction, which takes most of the time.
+    // The derivative along each gradient needs solutions of its own, which take most of the time.
     if !along_gradients {
         return compared;
     }

@@ -61,7 +61,7 @@ pub fn couplings(
     numbers.iter().filter_map(|n| CouplingChange::solve(sweep, n, &columns, patience)).collect()
 }
 
-/// Formats both changes of a measure.
+/// Formats the changes of a measure under a smaller and a larger gap.
 pub fn cell(measure: &MeasureChange) -> String {
     let [smaller, larger] = measure.changed.map(|changed| words(measure.value, changed));
     format!("{smaller} / {larger}")
