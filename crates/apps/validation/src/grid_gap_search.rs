@@ -96,7 +96,7 @@ impl GridGapSearch {
             "The Pareto front of critical force and coverage, with a compliance of at least \
              {LEAST_COMPLIANCE}, has\n{designs} designs. {grid} designs of the grid have no fold and \
              this compliance; {grid_front} of them are on\ntheir own Pareto front. Designs of the \
-             grid that the front of the search neither equals nor\ndominates: {undominated}."
+             grid that the front of the search\nneither equals nor dominates: {undominated}."
         );
         [("between", lines(&self.fittest, FittestDesign::row)), ("front", front)]
     }
