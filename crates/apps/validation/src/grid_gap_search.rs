@@ -94,8 +94,8 @@ impl GridGapSearch {
         let FrontOverGrid { designs, grid, grid_front, undominated } = self.front;
         let front = format!(
             "The Pareto front of critical force and coverage, with a compliance of at least \
-             {LEAST_COMPLIANCE}, has\n{designs} designs. {grid} designs of the grid have no fold and \
-             this compliance; {grid_front} of them are on\ntheir own Pareto front. Designs of the \
+             {LEAST_COMPLIANCE}, has\n{designs} designs. {grid} designs of the grid have no fold \
+             and this compliance; {grid_front} of them are on\ntheir own Pareto front. Designs of the \
              grid that the front of the search\nneither equals nor dominates: {undominated}."
         );
         [("between", lines(&self.fittest, FittestDesign::row)), ("front", front)]

@@ -73,4 +73,4 @@ pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, extrapolated};
 pub use stiffness_slopes::StiffnessSlopes;
 
-pub use strip::{SubstrateLaw, SurfaceStrip, neo_hookean};
+pub use strip::{SubstrateLaw, SurfaceStrip, neo_hookean, shortening};

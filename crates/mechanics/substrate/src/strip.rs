@@ -33,9 +33,7 @@ pub struct SurfaceStrip {
 impl SurfaceStrip {
     /// Computes the stretch `g` of the strip between two poses `(x, y, φ)`.
     pub fn stretch(&self, left: [f64; 3], right: [f64; 3]) -> f64 {
-        // 1 − cos φ without cancellation.
-        let (one, other) = ((0.5 * left[2]).sin(), (0.5 * right[2]).sin());
-        self.stretch_by(right[0] - left[0], 2.0 * one.powi(2) + 2.0 * other.powi(2))
+        self.stretch_by(right[0] - left[0], shortening(left[2]) + shortening(right[2]))
     }
 
     /// Computes the stretch `g` from relative displacement and base shortening.
@@ -54,6 +52,12 @@ impl SurfaceStrip {
         let turned = left[2].sin() * left_rate[2] + right[2].sin() * right_rate[2];
         (right_rate[0] - left_rate[0] + self.half_base * turned) / self.width
     }
+}
+
+/// Computes the shortening `1 − cos φ` of half a base, in units of this half.
+pub fn shortening(rotation: f64) -> f64 {
+    // Without cancellation.
+    2.0 * (0.5 * rotation).sin().powi(2)
 }
 
 /// Returns the neo-Hookean bar energy per `k d²`, and two derivatives with respect to `g`.

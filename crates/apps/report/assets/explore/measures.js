@@ -24,7 +24,7 @@
     const value = shown(live.answer, measure), pressed = live.chosen === measure.name;
     const mode = measure.mode ? named(live.answer, measure.mode)?.text : null, words = mode ? `first failure: ${mode}` : measure.words;
     const choose = () => { live.chosen = measure.name; live.show(); document.querySelector('#live .card[aria-pressed="true"]').focus(); };
-    // Without a goal the arrows of the sliders have no direction of improvement, so the card is no button.
+    // The arrows of the sliders improve measures with a goal only, so other cards are no buttons.
     const [tag, choice] = measure.has_goal ? ["button", { type: "button", "aria-pressed": String(pressed), onclick: choose }] : ["div", {}];
     return element(tag, { class: "card", "data-measure": measure.name, title: value?.meaning ?? measure.label, ...choice },
     element("span", { class: "name" }, measure.label), element("span", { class: "value" }, value ? live.digits(value.value) : "–", element("small", {}, ` ${value ? unitOf(value) : ""}`)),

@@ -38,7 +38,8 @@ proptest! {
             );
             for j in 0..6 {
                 assert_relative_eq!(
-                    ours.curvature.hessian()[i][j], (high.gradient[j] - low.gradient[j]) / (2.0 * h),
+                    ours.curvature.hessian()[i][j],
+                    (high.gradient[j] - low.gradient[j]) / (2.0 * h),
                     epsilon = 1e-7, max_relative = 1e-7
                 );
             }

@@ -132,7 +132,7 @@ pub fn load_positions(
 /// Punctures at several load positions, with the path end of each.
 pub(super) struct LoadPositions {
     pub(super) places: Vec<LoadPosition>,
-    /// Path ends, for similar designs; empty if the punctures started from another design.
+    /// Path ends of critical measures; empty if the punctures started from a similar design.
     pub(super) ends: Vec<PlaceEnd>,
 }
 
@@ -173,7 +173,7 @@ impl Problem<'_> {
         near: Option<&PunctureEnd>,
     ) -> Result<LoadPositions, OutOfRange> {
         let positions = self.parameters.positions(self.parameters.places.unwrap_or(0), self.design);
-        let own = own.filter(|_| self.is_own_path_at_position());
+        let keeps_ends = near.is_none() && self.common.detail == PathDetail::Critical;
         // All positions together may take as long as one path.
         let mut left = self.common.solver.max_work;
         let (mut places, mut ends) = (Vec::new(), Vec::new());
@@ -181,18 +181,20 @@ impl Problem<'_> {
             if near.is_some_and(|near| !near.may_be_weakest(position)) {
                 continue;
             }
-            let (place, end) = match own {
-                Some((followed, end)) if position == self.parameters.load_position => {
-                    (LoadPosition::new(position, followed), end.cloned())
-                }
-                _ => {
-                    let start = near.and_then(|near| near.at_place(position));
-                    let (place, end, work) = self.at_position(position, start, left)?;
-                    left = left.saturating_sub(work);
-                    (place, end)
-                }
+            let own = own.filter(|_| self.serves_position(position));
+            let (place, end) = if let Some((followed, end)) = own {
+                (LoadPosition::new(position, followed), end.cloned())
+            } else {
+                let parameters = self.parameters.at_position(position);
+                let mut problem = self.with(&parameters);
+                problem.common.solver.max_work = left;
+                let start = near.and_then(|near| near.at_place(position));
+                let followed = problem.follow_from(start)?;
+                left = left.saturating_sub(followed.path.work());
+                let end = keeps_ends.then(|| PunctureEnd::new(&problem, &followed)).flatten();
+                (LoadPosition::new(position, &followed), end)
             };
-            if near.is_none() {
+            if keeps_ends {
                 ends.push(PlaceEnd { position, force: place.force, end });
             }
             places.push(place);
@@ -200,31 +202,18 @@ impl Problem<'_> {
         Ok(LoadPositions { places, ends })
     }
 
-    /// Returns true if the path of the puncture equals the one followed for its load position.
-    fn is_own_path_at_position(&self) -> bool {
+    /// Returns true if the path of the puncture itself is the path at a load position.
+    fn serves_position(&self, position: f64) -> bool {
         // Elastic scales end a path where they bend; the other requests locate points only.
-        self.parameters.failure.is_none()
+        position == self.parameters.load_position && self.parameters.failure.is_none()
     }
 
-    /// Solves the puncture at a position with at most `max_work`; returns its end and the work, too.
-    ///
-    /// Starts from a known end, or else from rest.
-    fn at_position(
-        &self,
-        position: f64,
-        start: Option<&PunctureEnd>,
-        max_work: u64,
-    ) -> Result<(LoadPosition, Option<PunctureEnd>, u64), OutOfRange> {
-        let parameters = self.parameters.at_position(position);
-        let mut problem = self.with(&parameters);
-        problem.common.solver.max_work = max_work;
-        let found = start.map(|start| problem.end_near(start)).transpose()?.flatten();
-        let followed = match found {
-            Some(found) => found,
-            None => problem.follow(&[], &[])?,
-        };
-        let end = PunctureEnd::new(&problem, &followed);
-        Ok((LoadPosition::new(position, &followed), end, followed.path.work()))
+    /// Finds the end of the path from a known end, or else follows the path from rest.
+    fn follow_from(&self, start: Option<&PunctureEnd>) -> Result<Followed, OutOfRange> {
+        match start.map(|start| self.end_near(start)).transpose()?.flatten() {
+            Some(found) => Ok(found),
+            None => self.follow(&[], &[]),
+        }
     }
 
     /// Returns the same problem with other parameters, for the measures of the critical state.
@@ -252,9 +241,7 @@ impl Problem<'_> {
         };
         let mut weakest = Vec::new();
         for place in places.iter().filter(|place| is_tied(place, force)) {
-            let is_own =
-                place.position == self.parameters.load_position && self.is_own_path_at_position();
-            let here = if is_own {
+            let here = if self.serves_position(place.position) {
                 own.to_vec()
             } else {
                 let end = ends.and_then(|ends| ends.at_place(place.position));
@@ -286,12 +273,8 @@ impl Problem<'_> {
         };
         let variations = Neighbours::map_all(variations, moved)?;
         let problem = self.with(&parameters);
-        if let Some(end) = end
-            && let Some(mut found) = problem.end_near(end)?
-        {
-            return problem.derivatives(&mut found, &variations);
-        }
-        Ok(problem.differentiated(&variations)?.1)
+        let mut followed = problem.follow_from(end)?;
+        problem.derivatives(&mut followed, &variations)
     }
 }
 

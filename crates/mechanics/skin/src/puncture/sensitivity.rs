@@ -60,7 +60,9 @@ pub fn differentiate(
     variations: &[Neighbours<PunctureInput>],
 ) -> Result<(Puncture, Vec<Derivative>), OutOfRange> {
     let problem = Problem::of_input(input)?;
-    let (followed, mut derivatives) = problem.differentiated(variations)?;
+    let functions: &[_] = if input.common.detail == PathDetail::Critical { &[] } else { &FOLLOWED };
+    let mut followed = problem.follow(functions, &[])?;
+    let mut derivatives = problem.derivatives(&mut followed, variations)?;
     let puncture = problem.result(followed)?;
     let ends = puncture.end.as_ref();
     derivatives.extend(problem.at_weakest(&puncture, ends, variations, &derivatives)?);
@@ -137,21 +139,6 @@ fn with_path<T>(
 }
 
 impl Problem<'_> {
-    /// Follows the path and differentiates the measures that it has, if its end is a known event.
-    pub(super) fn differentiated(
-        &self,
-        variations: &[Neighbours<PunctureInput>],
-    ) -> Result<(Followed, Vec<Derivative>), OutOfRange> {
-        let functions: &[_] =
-            if self.common.detail == PathDetail::Critical { &[] } else { &FOLLOWED };
-        let mut followed = self.follow(functions, &[])?;
-        let derivatives = match followed.status {
-            Status::Complete | Status::Bent => self.derivatives(&mut followed, variations)?,
-            _ => Vec::new(),
-        };
-        Ok((followed, derivatives))
-    }
-
     /// Computes the curve at the requested points.
     fn curve(
         &self,
@@ -182,13 +169,18 @@ impl Problem<'_> {
             .collect())
     }
 
-    /// Differentiates the measures of a path that ended at its target or where linear bending ends.
+    /// Differentiates the measures of a path.
+    ///
+    /// There are none unless the path ended at its target or where linear bending ends.
     pub(super) fn derivatives(
         &self,
         followed: &mut Followed,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let Followed { watch, path, status, .. } = followed;
+        if !matches!(status, Status::Complete | Status::Bent) {
+            return Ok(Vec::new());
+        }
         let is_bent = *status == Status::Bent;
         let layout = path.system().layout;
         let variations = Neighbours::map_all(variations, |input| input.chain(layout))?;

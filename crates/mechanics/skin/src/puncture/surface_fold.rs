@@ -1,6 +1,7 @@
 //! Stretch of the surface gaps along the path, and locations of folding.
 
 use solver::{Bracket, Continuation, dip};
+use substrate::shortening;
 
 use super::PuncturePoint;
 use super::system::Chain;
@@ -190,7 +191,7 @@ impl FoldObserver {
 #[derive(Clone, Copy)]
 struct BasePosition {
     x: f64,
-    /// Shortening `1 − cos φ` of each half of the base, in units of this half.
+    /// [`shortening`] of each half of the base.
     shortened: f64,
 }
 
@@ -198,8 +199,7 @@ struct BasePosition {
 fn base_positions(chain: &Chain, ends: [&SkinPoint; 2], scale: usize) -> [BasePosition; 2] {
     ends.map(|point| {
         let [x, _, rotation] = chain.displacement(&point.state.z, scale);
-        // Without cancellation.
-        BasePosition { x, shortened: 2.0 * (0.5 * rotation).sin().powi(2) }
+        BasePosition { x, shortened: shortening(rotation) }
     })
 }
 
