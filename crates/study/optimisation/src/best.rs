@@ -6,7 +6,7 @@ use sweep::Measure;
 use crate::candidate::{Candidate, Merit, Target};
 use crate::checks::DesignChecks;
 use crate::coverage_piece::CoveragePiece;
-use crate::evaluations::Halt;
+use crate::evaluations::{Halt, Positions};
 use crate::local::Search;
 use crate::price::{Binding, bindings};
 use crate::restarts::Agreement;
@@ -48,8 +48,7 @@ pub(crate) fn best_design(
     history: &[Candidate],
     target: Target,
 ) -> Result<BestDesign, Halt> {
-    // Callers have checked that some design has a valid judgement.
-    let best = search.best(history.iter(), &target).unwrap_or(&history[0]).clone();
+    let best = best_at_all_positions(search, history, &target)?;
     let row = search.evaluations.row(0, &best.point, &best.result);
     let bindings = bindings(search, &best, &target)?;
     Ok(BestDesign {
@@ -62,6 +61,31 @@ pub(crate) fn best_design(
         agreement: None,
         checks: DesignChecks::default(),
     })
+}
+
+/// Returns the best design in `history`, solved at all load positions.
+fn best_at_all_positions(
+    search: &Search<'_>,
+    history: &[Candidate],
+    target: &Target,
+) -> Result<Candidate, Halt> {
+    let mut solved_at_all: Vec<Candidate> = Vec::new();
+    loop {
+        let others = history.iter().filter(|c| solved_at_all.iter().all(|s| s.point != c.point));
+        // Callers have checked that some design has a valid judgement.
+        let best = search.best(others.chain(&solved_at_all), target).unwrap_or(&history[0]);
+        if search.evaluations.compared_positions(&best.point) == Positions::All
+            || solved_at_all.iter().any(|solved| solved.point == best.point)
+        {
+            return Ok(best.clone());
+        }
+        let at_all = search.evaluate(best.stage, &best.point, true)?.0;
+        let best = best.clone();
+        if search.merit(&best, target).agrees(search.merit(&at_all, target)) {
+            return Ok(at_all);
+        }
+        solved_at_all.push(at_all);
+    }
 }
 
 /// Region of the space that a local search does not leave.

@@ -252,7 +252,7 @@ fn improve(
     // Collect in the order of the targets, so that the history is the same on every machine.
     let walks = targets.par_iter().map(|target| {
         let point = between_neighbours(search, front, target);
-        let start = point.map(|point| search.evaluate(SearchStage::Gradient, &point, true));
+        let start = point.map(|point| search.compared(SearchStage::Gradient, &point, true));
         let start = start.transpose()?.map(|(start, _)| start);
         let start = start.filter(|start| search.merit(start, target) != Merit::None);
         let walk = improved_from(search, history, target, plan, start.as_ref())?.evaluated;

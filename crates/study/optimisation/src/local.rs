@@ -14,14 +14,14 @@ mod ridge;
 mod samples;
 mod yield_search;
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 use results::DesignResult;
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
 use crate::evaluated_row::EvaluatedRow;
-use crate::evaluations::{Evaluations, Halt};
+use crate::evaluations::{Evaluations, Halt, Positions};
 use crate::judge::Judge;
 use crate::judgement::Judgement;
 use crate::progress::{SearchProgress, SearchTask};
@@ -157,7 +157,29 @@ impl Search<'_> {
         point: &SpacePoint,
         differentiated: bool,
     ) -> Result<(Candidate, EvaluatedRow), Halt> {
-        let result = self.evaluations.solve(point, differentiated)?;
+        self.evaluate_at(stage, point, differentiated, Positions::All)
+    }
+
+    /// Evaluates the design at `point` like [`Self::evaluate`], for comparison with others.
+    pub fn compared(
+        &self,
+        stage: SearchStage,
+        point: &SpacePoint,
+        differentiated: bool,
+    ) -> Result<(Candidate, EvaluatedRow), Halt> {
+        let positions = self.evaluations.compared_positions(point);
+        self.evaluate_at(stage, point, differentiated, positions)
+    }
+
+    /// Evaluates the design at `point` like [`Self::evaluate`], at these load positions.
+    fn evaluate_at(
+        &self,
+        stage: SearchStage,
+        point: &SpacePoint,
+        differentiated: bool,
+        positions: Positions,
+    ) -> Result<(Candidate, EvaluatedRow), Halt> {
+        let result = self.evaluations.solve(point, differentiated, positions)?;
         self.judged(stage, point, result, differentiated)
     }
 
@@ -297,9 +319,10 @@ impl Search<'_> {
         let walk = LocalSearch {
             search: self,
             target,
+            solves_all_positions: Cell::new(false),
             best: RefCell::new(start.clone()),
             log: RefCell::default(),
-            ends: RefCell::default(),
+            ends: RefCell::new(FollowedPoints::from_start(start)),
             units,
             task: self.progress.task(effort.evaluations * units),
         };
@@ -308,30 +331,16 @@ impl Search<'_> {
             return Ok(Vec::new());
         }
         let effort = if self.judge.samples().is_some() { effort.on_samples() } else { effort };
-        let (mut reach, variables) = (effort.reach, start.point.shares.len());
-        // Full searches start where gradient searches ended, which may already be an optimum.
-        if effort.rounds > 0 && walk.is_certain()? {
-            return Ok(walk.log.take());
+        walk.run(effort)?;
+        // A full search ends if all load positions confirm its best design. Otherwise the search
+        // continues with all of them.
+        if effort.rounds > 0 && walk.positions(&walk.best.borrow().point) == Positions::Corners {
+            walk.solves_all_positions.set(true);
+            let is_confirmed = walk.follow_best()?;
+            if !is_confirmed {
+                walk.run(effort)?;
+            }
         }
-        let mut is_converged = walk.climb(effort)?;
-        for _ in 0..effort.rounds {
-            if is_converged || walk.is_certain()? {
-                break;
-            }
-            let before = walk.best_merit();
-            // The ridge search goes first: tangents give a direction along the ridge, which the
-            // polls of a direct search rarely hit.
-            walk.follow(reach, effort.ridge * variables)?;
-            if effort.polish > 0 {
-                walk.polish(reach, effort.polish * variables)?;
-            }
-            if !gained(before, walk.best_merit(), self.fineness().gain) {
-                break;
-            }
-            is_converged = walk.climb(effort)?;
-            reach *= 0.3;
-        }
-        walk.follow_best()?;
         Ok(walk.log.take())
     }
 }
@@ -355,6 +364,8 @@ fn gained(before: Merit, after: Merit, gain: f64) -> bool {
 struct LocalSearch<'a> {
     search: &'a Search<'a>,
     target: &'a Target,
+    /// True if corners do not represent all load positions.
+    solves_all_positions: Cell<bool>,
     best: RefCell<Candidate>,
     log: RefCell<Vec<Candidate>>,
     ends: RefCell<FollowedPoints>,
@@ -364,6 +375,35 @@ struct LocalSearch<'a> {
 }
 
 impl LocalSearch<'_> {
+    /// Runs the gradient search, then rounds of ridge search, polish and gradient search.
+    fn run(&self, effort: Effort) -> Result<(), Halt> {
+        let (mut reach, variables) = (effort.reach, self.best_shares().len());
+        // Full searches start where gradient searches ended, which may already be an optimum.
+        if effort.rounds > 0 && self.is_certain()? {
+            return Ok(());
+        }
+        let mut is_converged = self.climb(effort)?;
+        for _ in 0..effort.rounds {
+            if is_converged || self.is_certain()? {
+                break;
+            }
+            let before = self.best_merit();
+            // The ridge search goes first: tangents give a direction along the ridge, which the
+            // polls of a direct search rarely hit.
+            self.follow(reach, effort.ridge * variables)?;
+            if effort.polish > 0 {
+                self.polish(reach, effort.polish * variables)?;
+            }
+            if !gained(before, self.best_merit(), self.search.fineness().gain) {
+                break;
+            }
+            is_converged = self.climb(effort)?;
+            reach *= 0.3;
+        }
+        self.follow_best()?;
+        Ok(())
+    }
+
     /// Searches by derivatives from the best design.
     ///
     /// Returns true if it converged to a design with a required yield.
@@ -414,17 +454,36 @@ impl LocalSearch<'_> {
     ///
     /// Other searches have no influence, so that results do not depend on the number of threads.
     fn solved(&self, point: &SpacePoint, differentiated: bool) -> Result<Arc<DesignResult>, Halt> {
-        let evaluations = self.search.evaluations;
+        let (evaluations, positions) = (self.search.evaluations, self.positions(point));
         if !evaluations.has_ends(point) {
-            return evaluations.solve(point, differentiated);
+            return evaluations.solve(point, differentiated, positions);
         }
-        if let Some(near) = self.ends.borrow().nearest(point)
-            && let Some(result) = evaluations.solve_near(point, differentiated, near)?
+        if let Some(near) = self.ends.borrow().nearest(point, differentiated)
+            && let Some(result) = evaluations.solve_near(point, differentiated, near, positions)?
         {
             return Ok(result);
         }
-        self.ends.borrow_mut().add(point);
-        evaluations.solve(point, differentiated)
+        self.ends.borrow_mut().add(point, differentiated);
+        evaluations.solve(point, differentiated, positions)
+    }
+
+    /// Evaluates the design at `point`, which is followed from rest.
+    fn evaluate(
+        &self,
+        stage: SearchStage,
+        point: &SpacePoint,
+        differentiated: bool,
+    ) -> Result<(Candidate, EvaluatedRow), Halt> {
+        self.search.evaluate_at(stage, point, differentiated, self.positions(point))
+    }
+
+    /// Returns the load positions at which this search solves the design at `point`.
+    fn positions(&self, point: &SpacePoint) -> Positions {
+        if self.solves_all_positions.get() {
+            Positions::All
+        } else {
+            self.search.evaluations.compared_positions(point)
+        }
     }
 
     fn note(&self, candidate: &Candidate) {
@@ -444,14 +503,14 @@ impl LocalSearch<'_> {
     /// Follows the path of the best design from rest.
     ///
     /// If the path ends in another state than the search found, the next best design replaces it.
-    fn follow_best(&self) -> Result<(), Halt> {
-        loop {
+    /// Returns true if no design was replaced.
+    fn follow_best(&self) -> Result<bool, Halt> {
+        for count in 0.. {
             let best = self.best.borrow().clone();
             if !self.search.evaluations.has_ends(&best.point) {
-                return Ok(());
+                return Ok(true);
             }
-            let result = self.search.evaluations.solve(&best.point, true)?;
-            let followed = self.search.judged(best.stage, &best.point, result, true)?.0;
+            let followed = self.evaluate(best.stage, &best.point, true)?.0;
             let merits = [&best, &followed].map(|of| self.search.merit(of, self.target));
             let mut log = self.log.borrow_mut();
             for known in log.iter_mut().filter(|known| known.point == best.point) {
@@ -459,12 +518,13 @@ impl LocalSearch<'_> {
             }
             *self.best.borrow_mut() = followed;
             if merits[0].agrees(merits[1]) {
-                return Ok(());
+                return Ok(count == 0);
             }
             let next = self.search.best(log.iter(), self.target);
-            let Some(next) = next.filter(|next| next.point != best.point) else { return Ok(()) };
+            let Some(next) = next.filter(|next| next.point != best.point) else { break };
             *self.best.borrow_mut() = next.clone();
         }
+        Ok(false)
     }
 
     fn best_merit(&self) -> Merit {

@@ -217,7 +217,7 @@ impl BindingSurface {
         if limits.is_empty() {
             return Ok(Self { limits, step: None });
         }
-        let (_, row) = search.evaluate(SearchStage::Gradient, &centre.point, true)?;
+        let (_, row) = search.compared(SearchStage::Gradient, &centre.point, true)?;
         let intervals = search.space.intervals();
         let mut gradients = Vec::new();
         for limit in &limits {
@@ -243,11 +243,11 @@ impl BindingSurface {
     /// Moves a point onto the surface and evaluates it.
     fn evaluate(&self, search: &Search<'_>, mut point: SpacePoint) -> Result<Candidate, Halt> {
         let stage = SearchStage::Polish;
-        let Some(step) = &self.step else { return Ok(search.evaluate(stage, &point, false)?.0) };
+        let Some(step) = &self.step else { return Ok(search.compared(stage, &point, false)?.0) };
         let is_solved = self.limits.iter().any(|limit| matches!(limit, Limit::Requirement(_)));
         for _ in 0..if is_solved { SOLVED_STEPS } else { FREE_STEPS } {
             let candidate =
-                if is_solved { Some(search.evaluate(stage, &point, false)?.0) } else { None };
+                if is_solved { Some(search.compared(stage, &point, false)?.0) } else { None };
             let margins = self.limits.iter().map(|limit| match *limit {
                 Limit::Requirement(k) => match &candidate.as_ref()?.verdict {
                     Judgement::Judged(worth) => Some(worth.margins[k]),
@@ -265,7 +265,7 @@ impl BindingSurface {
                 *share = (*share + by).clamp(0.0, 1.0);
             }
         }
-        Ok(search.evaluate(stage, &point, false)?.0)
+        Ok(search.compared(stage, &point, false)?.0)
     }
 }
 

@@ -196,7 +196,7 @@ fn first_candidates(
         .enumerate()
         .map(|(k, point)| {
             let _task = (k >= known).then(|| nominal.progress.task(1));
-            Ok(nominal.evaluate(SearchStage::Sample, &point, false)?.0)
+            Ok(nominal.compared(SearchStage::Sample, &point, false)?.0)
         })
         .collect()
 }
@@ -429,7 +429,8 @@ fn sample_rows(
         .par_iter()
         .map(|point| {
             let _task = progress.task(1);
-            let result = evaluations.solve(point, false)?;
+            let positions = evaluations.compared_positions(point);
+            let result = evaluations.solve(point, false, positions)?;
             Ok(evaluations.row(0, point, &result))
         })
         .collect()

@@ -27,12 +27,33 @@ pub(crate) enum JournalLine {
     Far(FarLine),
 }
 
+/// Load positions at which a search solves a design, if the goal requests several.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Positions {
+    /// The requested positions.
+    #[default]
+    All,
+    /// The left and the right corner of the top.
+    Corners,
+}
+
+impl Positions {
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+    fn is_all(&self) -> bool {
+        *self == Self::All
+    }
+}
+
 /// A solved point.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SolvedLine {
     /// True if the result includes derivatives.
     pub differentiated: bool,
+    /// Load positions of the puncture.
+    #[serde(default, skip_serializing_if = "Positions::is_all")]
+    pub positions: Positions,
     /// Fractions of the intervals of a similar design, if the puncture starts from its end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near: Option<Vec<f64>>,
@@ -79,6 +100,7 @@ pub(crate) struct SamplesLine {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct EvaluationKey {
     pub differentiated: bool,
+    pub positions: Positions,
     /// Point of a similar design, if the puncture starts from its end.
     pub near: Option<PointKey>,
     /// Number of the sample; `None` for the nominal design.
@@ -144,12 +166,19 @@ impl Records for Known {
     fn take(&mut self, line: JournalLine, _bytes: Range<u64>) -> Result<(), String> {
         match line {
             JournalLine::Solved(line) => {
-                let SolvedLine { differentiated, near, sample, shares, chosen, result } = *line;
+                let SolvedLine { differentiated, positions, near, sample, shares, chosen, result } =
+                    *line;
                 let point = SpacePoint { shares, chosen };
                 let of_point = PointKey::of(&point);
                 let near = near.map(|shares| PointKey::new(&shares, &point.chosen));
                 let result = Arc::new(result);
-                let key = EvaluationKey { differentiated, near, sample, point: of_point.clone() };
+                let key = EvaluationKey {
+                    differentiated,
+                    positions,
+                    near,
+                    sample,
+                    point: of_point.clone(),
+                };
                 self.solved.insert(key, Arc::clone(&result));
                 // The journal may contain several results of one point: with and without
                 // derivatives, solved from rest or from a neighbouring end. List the point once.

@@ -31,7 +31,7 @@ impl LocalSearch<'_> {
         }
         // The gradient search has already evaluated the design at which it ended, so this is
         // cached.
-        let (_, row) = search.evaluate(SearchStage::Gradient, &best.point, true)?;
+        let (_, row) = self.evaluate(SearchStage::Gradient, &best.point, true)?;
         match first_order_gain(search, &best, &row, self.target) {
             Some((gain, is_beside_contact)) if gain <= GAIN => {
                 Ok(!is_beside_contact || self.ends_at_contact(&best)?)
@@ -47,7 +47,7 @@ impl LocalSearch<'_> {
     /// border may be as good.
     fn ends_at_contact(&self, best: &Candidate) -> Result<bool, Halt> {
         let Some(behind) = self.behind_contact(best) else { return Ok(false) };
-        let candidate = self.search.evaluate(SearchStage::Polish, &behind, false)?.0;
+        let candidate = self.evaluate(SearchStage::Polish, &behind, false)?.0;
         self.note(&candidate);
         let merit = self.search.merit_within(&candidate, self.target, NEARLY);
         Ok(!matches!(merit, Merit::Met(_)))

