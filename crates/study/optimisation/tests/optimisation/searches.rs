@@ -579,3 +579,21 @@ fn a_search_beats_the_reference_grid() {
     let best = forces.fold(0.0, f64::max);
     assert!(best > 0.5 && found > 3.0 * best, "{found} between the points, {best} on them");
 }
+
+/// Up to a critical tilt of 10°, a search compares designs by the two corners of the top. Just
+/// above this limit it solves all load positions.
+#[test]
+fn corners_and_all_load_positions_lead_to_the_same_optimum() {
+    let searches = [10.0, 10.000_001].map(|tilt| {
+        let text = format!(
+            "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
+             gap_over_t = {{ from = 0.1, to = 1 }}\nlength_over_t = {{ from = 0.1, to = 1.5 }}\n\
+             slant_deg = {{ from = 0, to = 50 }}\n[puncture]\ncritical_tilt_deg = {tilt}\n\
+             places = 5\n[goal]\nmaximize = 'weakest_force'\nsamples = 64\n\
+             require = ['coverage >= 0.6', 'compliance >= 0.3']"
+        );
+        found(&DesignGoal::parse(&text, "x.toml", &[]).expect("a goal"))
+    });
+    let [by_corners, by_all] = searches.each_ref().map(|found| objectives(optimum(found))[0]);
+    assert!((by_corners - by_all).abs() < 1e-5 * by_all, "{by_corners} {by_all}");
+}
