@@ -1,32 +1,33 @@
-//! Solves a design again with smaller and larger gaps.
+//! Sensitivity of a design to its gap: solves it again with a smaller and a larger gap.
 
 use results::columns::{design_columns, measure_of};
 use results::{Column, DesignRow};
 use serde::{Serialize, Serializer};
 use skin::Imperfection;
+use skin::puncture::PunctureEnd;
 use sweep::{Case, DesignNumber, Sweep};
 
 use crate::solve::evaluator::Evaluator;
 use crate::solve::work::work_of;
 
-/// Factors on the gap of a design.
-// Both directions, because a cliff may be on either side.
+/// Factors by which the gap of a design is multiplied.
+// Both directions, because a measure may jump in either direction.
 const FACTORS: [f64; 2] = [0.9, 1.1];
 
-/// Ratio of a measure that counts as a cliff if the gap changes by 10 %.
+/// Smallest ratio of a measure to its nominal value that counts as a cliff (large sensitivity).
 ///
-/// The inverse ratio counts too.
+/// The gap changes by 10 %. The inverse of this ratio counts, too.
 const CLIFF: f64 = 1.5;
 
-/// Maximum number of paths per design, so that users do not have to wait.
+/// Largest work of a design, in paths, that counts as quick: users wait for the result.
 const MOST_WORK: u64 = 500;
 
-/// Limit on the time to solve a design with a changed gap.
+/// Limit on the time for solving one design again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Patience {
-    /// Designs that take longer are not solved, because users wait, for example for a ranking.
+    /// Only designs that take milliseconds are solved, because users wait, e.g. for a ranking.
     Milliseconds,
-    /// Every design is solved, as after a search, which has solved hundreds of designs like it.
+    /// Every design is solved, e.g. after a search, which has solved hundreds of similar designs.
     Unlimited,
 }
 
@@ -35,35 +36,35 @@ pub enum Patience {
 pub struct GapChange {
     /// Number of the design.
     pub design: String,
-    /// Nominal gap over the thickness.
+    /// Nominal gap divided by the thickness of a scale.
     #[serde(rename = "gap_over_t")]
     pub gap: f64,
-    /// Measures, in the order of the requested columns.
+    /// Changes of measures, in the order of the requested columns.
     pub measures: Vec<MeasureChange>,
 }
 
-/// A measure of a design with a gap 10 % smaller and 10 % larger.
+/// Value of one measure with the nominal gap and with a gap 10 % smaller and 10 % larger.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeasureChange {
-    /// Column name.
+    /// Name of the column in `designs.csv`.
     pub column: String,
-    /// Measure of the nominal design.
+    /// Value with the nominal gap.
     pub value: f64,
-    /// Measures with the smaller and the larger gap; `None` if there is no value.
+    /// Values with the smaller and with the larger gap; `None` for a path without this value.
     #[serde(flatten, serialize_with = "by_side")]
     pub changed: [Option<f64>; 2],
 }
 
-/// Serializes the values with the keys `gap_10_percent_smaller` and `gap_10_percent_larger`.
+/// Serializes both values with the keys `gap_10_percent_smaller` and `gap_10_percent_larger`.
 fn by_side<S: Serializer>(changed: &[Option<f64>; 2], serializer: S) -> Result<S::Ok, S::Error> {
     let names = ["gap_10_percent_smaller", "gap_10_percent_larger"];
     serializer.collect_map(names.into_iter().zip(changed))
 }
 
 impl MeasureChange {
-    /// Returns whether the smaller and the larger gap are beyond a cliff.
+    /// Returns, for the smaller and for the larger gap, true if the measure changes by a cliff.
     ///
-    /// A measure that is zero or changes its sign has no ratio, and hence no cliff.
+    /// A measure that is zero or changes its sign has no ratio and therefore no cliff.
     pub fn cliffs(&self) -> [bool; 2] {
         self.changed.map(|changed| {
             let ratio = changed.map_or(1.0, |changed| changed / self.value);
@@ -73,11 +74,11 @@ impl MeasureChange {
 }
 
 impl GapChange {
-    /// Solves design `number` of `sweep` with both gaps.
+    /// Solves design `number` of `sweep` with the nominal, the smaller and the larger gap.
     ///
     /// `columns` are the measures; columns without a number are omitted. Returns `None` if there is
-    /// no such design, or if it takes longer than `patience`. Samples of imperfect rows are not
-    /// solved.
+    /// no such design, or if it takes longer than `patience`. Scatter of gaps and slants is
+    /// ignored.
     pub fn solve(
         sweep: &Sweep,
         number: &str,
@@ -85,20 +86,24 @@ impl GapChange {
         patience: Patience,
     ) -> Option<Self> {
         let (own, case) = case_to_solve(sweep, number, patience)?;
-        let row = evaluator_of(sweep, columns).row(own, &case);
+        let (row, end) = evaluator_of(sweep, columns).row_and_end(own, &case, None);
         let known = design_columns(sweep);
         let values = columns.iter().filter_map(|&name| Some((name, value(&known, name, &row)?)));
-        Self::beside(sweep, number, &values.collect::<Vec<_>>(), patience)
+        Self::beside(sweep, number, &values.collect::<Vec<_>>(), end.as_ref(), patience)
     }
 
-    /// Solves design `number` of `sweep` with the changed gaps only.
+    /// Solves design `number` of `sweep` with the smaller and the larger gap only.
     ///
-    /// `measured` holds the columns and values of the design itself, as tables hold them; see
-    /// [`Self::solve`].
+    /// `end` is the path end of the nominal puncture. The punctures with changed gaps start there if
+    /// possible. With `None` they are followed from rest.
+    ///
+    /// `measured` holds columns and values of the nominal design, for example from a table. Returns
+    /// `None` under the same conditions as [`Self::solve`].
     pub fn beside(
         sweep: &Sweep,
         number: &str,
         measured: &[(&str, f64)],
+        end: Option<&PunctureEnd>,
         patience: Patience,
     ) -> Option<Self> {
         let (own, case) = case_to_solve(sweep, number, patience)?;
@@ -107,7 +112,9 @@ impl GapChange {
         let rows = FACTORS.map(|part| {
             let mut case = case;
             case.design.gap *= part;
-            evaluator.row(own, &case)
+            let end = end.filter(|_| evaluator.has_ends(&case));
+            let near = end.and_then(|end| evaluator.row_near(own, &case, &[], end));
+            near.unwrap_or_else(|| evaluator.row(own, &case))
         });
         let known = design_columns(sweep);
         let measures = measured.iter().map(|&(name, nominal)| MeasureChange {
@@ -120,23 +127,23 @@ impl GapChange {
     }
 }
 
-/// Returns the number in a column of a design; `None` without such a column or number.
+/// Returns the number in a column of a design, or `None` without such a column or number.
 pub(crate) fn value(known: &[Column<DesignRow>], name: &str, row: &DesignRow) -> Option<f64> {
     known.iter().find(|column| column.name == name)?.cell(row).number()
 }
 
-/// Returns an evaluator of the measures of `sweep` that `columns` need.
+/// Returns an evaluator that computes the measures of `sweep` to which `columns` belong.
 pub(crate) fn evaluator_of(sweep: &Sweep, columns: &[&str]) -> Evaluator {
     let mut measures = sweep.plain_measures();
-    // Some columns, such as those at further tilts, belong to no measure by their name. They keep
-    // all measures.
+    // A few columns, such as columns at further tilts, do not show their measure in their name. For
+    // these columns all measures are computed.
     measures.retain(|measure| {
         columns.iter().any(|column| measure_of(column).is_none_or(|own| own == *measure))
     });
     Evaluator::only_columns(&measures, columns)
 }
 
-/// Solves design `number` of `sweep`, without imperfect samples.
+/// Solves design `number` of `sweep` without scatter of gaps and slants.
 ///
 /// Returns `None` if the design does not exist or takes longer than `patience`.
 pub fn solved_row(sweep: &Sweep, number: &str, patience: Patience) -> Option<DesignRow> {
@@ -144,9 +151,9 @@ pub fn solved_row(sweep: &Sweep, number: &str, patience: Patience) -> Option<Des
     Some(Evaluator::new(&sweep.plain_measures()).row(own, &case))
 }
 
-/// Returns design `number` of `sweep` without scatter, to be solved again with changes.
+/// Returns number and case of design `number` of `sweep`, without scatter of gaps and slants.
 ///
-/// Random samples would take hundreds of paths, and hide cliffs of the nominal design. Returns
+/// Random samples would need hundreds of paths and would hide cliffs of the nominal design. Returns
 /// `None` if the design does not exist or takes longer than `patience`.
 pub(crate) fn case_to_solve(
     sweep: &Sweep,
@@ -160,9 +167,9 @@ pub(crate) fn case_to_solve(
     accepted.then(|| (grid.number(index), case))
 }
 
-/// Returns true if a design takes milliseconds.
+/// Returns true if a design can be solved within milliseconds.
 ///
-/// Boundary elements of a layer take longer.
+/// A design on a layer cannot, because the layer needs boundary elements.
 pub(crate) fn is_quick(sweep: &Sweep, case: &Case) -> bool {
     case.tissue_thickness.is_none() && work_of(case, sweep.measures()) <= MOST_WORK
 }

@@ -1,4 +1,4 @@
-//! The command `squama report`.
+//! The command `squama report`, which writes an HTML page of a run or a search.
 
 mod front;
 mod search;
@@ -14,7 +14,8 @@ use report::{Explorer, Fact, GapFactors, Page, PageDesign, SolvedTable, drawings
 use results::columns::design_columns;
 use results::{bending_units, puncture_units};
 use run::{GapChange, MeasureChange, Patience, flat_design_warning};
-use skin::{PathDetail, flexure, puncture};
+use skin::puncture::{self, PunctureEnd};
+use skin::{PathDetail, flexure};
 use sweep::{Case, Sweep};
 use text::shell_word;
 
@@ -55,24 +56,23 @@ pub struct Arguments {
     pub partial: Partial,
 }
 
-/// Approximate maximum number of designs on a page: larger pages overload a browser.
+/// Approximate maximum number of designs on a page, because larger pages overload a browser.
 const HELD: usize = 25_000;
 
 /// Maximum number of designs solved again for their curves and their sensitivity to the gap.
 const SOLVED: usize = 120;
-/// Maximum number of designs drawn at the critical tilt.
+/// Maximum number of designs that the command draws at the critical tilt.
 ///
-/// They are the best design and the best by each criterion.
-///
-/// The page itself solves and draws all others.
-// Five, to keep the page of the paper below 2 MB, including the solver.
+/// These are the best design and the best design by each of the four criteria. The solver in the
+/// page draws any other design.
+// Five drawings keep the page of the paper below 2 MB, including the solver.
 const DRAWN: usize = 5;
-/// Largest step along the curves of a drawn design, as a fraction of the whole path.
+/// Maximum step along the curves of a solved design, as a fraction of the whole path.
 const CURVE_STEP: f64 = 0.02;
-/// Maximum size of all drawings, bytes.
+/// Maximum size of all drawings together, in bytes.
 const DRAWING_BYTES: usize = 1_500_000;
 
-/// Writes the page of a sweep.
+/// Writes the page of a sweep or of a search.
 pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let folder = &arguments.results;
     let is_search = SearchStatus::is_search(folder);
@@ -104,7 +104,7 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
     let file = out.with_extension("html");
     let name = utf8_name(&file)?;
-    // Also removes partial pages of killed processes.
+    // `make_folder` also removes partial pages of killed processes.
     results::make_folder(&folder)?;
     write(&folder, name, |file| page.write(file))?;
     derivation::record(results.verified(), "page", &folder, &[name])?;
@@ -112,6 +112,7 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
+/// Returns the page of a sweep.
 fn page(results: &FolderContents) -> anyhow::Result<Page> {
     let sweep = &results.sweep;
     let known = design_columns(sweep);
@@ -124,7 +125,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
         explorer: Some(Explorer {
             sweep: sweep.clone(),
             source: shell_word(&results.folder.display().to_string()),
-            // The page of a run provides the requirements.
+            // No requirements here: the user sets them on the page.
             requirements: Vec::new(),
             notes: Vec::new(),
             variables: Vec::new(),
@@ -160,7 +161,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
     })
 }
 
-/// Returns the judged failure modes and the modes that are not judged, as facts.
+/// Returns a fact for each failure mode: whether it is judged, and the reason if it is not.
 fn judged_modes(sweep: &Sweep) -> Vec<Fact> {
     let Some(modes) = sweep.grid().case(0).judged_modes() else { return Vec::new() };
     let facts = modes.reasons().map(|(mode, reason)| {
@@ -172,11 +173,9 @@ fn judged_modes(sweep: &Sweep) -> Vec<Fact> {
     facts.collect()
 }
 
-/// Describes the loss of force of a leading design on curved bodies.
+/// Returns a warning that a leading design withstands less force on a curved body.
 ///
-/// Only for a sweep that was solved flat.
-///
-/// Returns `None` if no leading design withstands less force.
+/// `None` if the sweep was solved on a body, or if no leading design withstands less force.
 fn flat_body(sweep: &Sweep, rankings: &[Ranking<'_>]) -> Option<String> {
     let best = rankings.iter().flat_map(|ranking| {
         let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
@@ -188,7 +187,7 @@ fn flat_body(sweep: &Sweep, rankings: &[Ranking<'_>]) -> Option<String> {
     })
 }
 
-/// Formats the preferences of the last ranking for the address of the page.
+/// Formats the preferences of the last ranking as parameters in the address of the page.
 fn opening(preferences: &Preferences) -> String {
     let criteria: Vec<_> = preferences.criteria.iter().map(ToString::to_string).collect();
     let weights: Vec<_> = preferences.weights.values().iter().map(ToString::to_string).collect();
@@ -197,15 +196,15 @@ fn opening(preferences: &Preferences) -> String {
     let required =
         preferences.requirements.iter().map(|requirement| format!("require={requirement}"));
     let ranked = format!("criteria={criteria}&weights={weights}&scale={scale}");
-    // A plus in an address means a space.
+    // Escape the plus sign, which means a space in an address.
     required.chain([ranked]).collect::<Vec<_>>().join("&").replace('+', "%2B")
 }
 
-/// Solves the leading designs of each comparable group again, for curves and drawings.
+/// Solves the leading designs of each group of comparable designs again, for curves and drawings.
 fn solved(results: &FolderContents, rankings: &[Ranking<'_>]) -> Vec<PageDesign> {
     let mut groups: Vec<_> = rankings.iter().map(|ranking| leading(ranking).into_iter()).collect();
     let mut rows: Vec<usize> = Vec::new();
-    // Alternates between groups, so that no group dominates.
+    // Take one design of each group in turn, so that every group is represented.
     while rows.len() < SOLVED && !groups.is_empty() {
         groups.retain_mut(|group| {
             group.next().is_some_and(|row| {
@@ -214,7 +213,7 @@ fn solved(results: &FolderContents, rankings: &[Ranking<'_>]) -> Vec<PageDesign>
             })
         });
     }
-    // The last round may exceed the limit.
+    // The last round of the loop may exceed the limit.
     rows.truncate(SOLVED);
     let rows: Vec<_> = rows.into_iter().enumerate().collect();
     let mut all: Vec<_> = with_bar(rows.len(), |work| {
@@ -228,7 +227,7 @@ fn solved(results: &FolderContents, rankings: &[Ranking<'_>]) -> Vec<PageDesign>
     });
     let mut room = DRAWING_BYTES;
     for design in &mut all {
-        // The best come first; beyond the limit, designs keep only their curves.
+        // The best designs come first. Beyond the limit, designs have curves but no drawing.
         room = room.saturating_sub(design.svg.len());
         if room == 0 {
             design.svg.clear();
@@ -237,12 +236,12 @@ fn solved(results: &FolderContents, rankings: &[Ranking<'_>]) -> Vec<PageDesign>
     all
 }
 
-/// Returns the rows of the best designs, without duplicates.
+/// Returns the table rows of the best designs of a ranking, without duplicates.
 ///
-/// First the winners for equal weights, single criteria and other weights, then the next best for
-/// equal weights.
+/// The order is: the best design for equal weights, the best by each criterion, the best for other
+/// weights, and the following designs for equal weights.
 fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
-    // The first five are drawn.
+    // The designs of `named` are drawn, so they come first.
     let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
     let named = named.map(|weights| ranking.winner(weights));
     let winners = named.chain(ranking.winners());
@@ -255,21 +254,21 @@ fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
     rows
 }
 
-/// Solves a design for its curves, and its drawing if `is_drawn`.
+/// Solves the design in `row` for its curves, and draws it if `is_drawn`.
 ///
-/// `None` if it cannot be solved.
+/// `None` if the design cannot be solved.
 fn solve(results: &FolderContents, row: usize, is_drawn: bool) -> Option<PageDesign> {
     let number = results.designs.design(row);
     let grid = results.sweep.grid();
     let mut case = grid.case(grid.parse_number(number).ok()?);
-    // Smaller steps of the definition are kept.
+    // Use the step of the definition if it is smaller.
     case.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
-    // Curves and drawings need no measures. The run has solved the measures in the table.
+    // Curves and drawings need only the path to the critical tilt; the table contains the measures.
     case.common.detail = PathDetail::Critical;
     let substrate = substrate(&case).ok()?;
     let solved =
         puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), &[]).ok()?;
-    // A row that does not reach the critical tilt is drawn only at rest.
+    // If the path does not reach the critical tilt, draw only the row at rest.
     let states = if solved.is_critical { std::slice::from_ref(&solved.end) } else { &[] };
     let name = format!("{} design {number}", results.sweep.name());
     let drawing = drawings::PunctureDrawing { name: &name, case: &case, states };
@@ -282,35 +281,39 @@ fn solve(results: &FolderContents, row: usize, is_drawn: bool) -> Option<PageDes
             .into_iter()
             .map(|point| scaled(point, bending_units(&case)))
             .collect(),
-        gap_factors: gap_factors(results, row),
+        gap_factors: gap_factors(results, row, solved.puncture.end.as_ref()),
     })
 }
 
+/// Multiplies a point of a curve by its units, if there are units.
 fn scaled([x, y]: [f64; 2], units: Option<[f64; 3]>) -> [f64; 2] {
     units.map_or([x, y], |[unit_x, unit_y, _]| [x * unit_x, y * unit_y])
 }
 
-/// Computes the change of the criteria with the gap.
-fn gap_factors(results: &FolderContents, row: usize) -> Vec<GapFactors> {
+/// Returns the factors by which the criteria change with a smaller and a larger gap.
+///
+/// Punctures with a changed gap start from `end`, the end of the puncture of the design itself.
+fn gap_factors(results: &FolderContents, row: usize, end: Option<&PunctureEnd>) -> Vec<GapFactors> {
     let FolderContents { sweep, designs, .. } = results;
     let columns = CRITERIA.iter().map(|criterion| criterion.column.as_ref());
     let measured: Vec<(&str, f64)> =
         columns.filter_map(|column| Some((column, designs.number(column, row)?))).collect();
-    let change = GapChange::beside(sweep, designs.design(row), &measured, Patience::Milliseconds);
+    let number = designs.design(row);
+    let change = GapChange::beside(sweep, number, &measured, end, Patience::Milliseconds);
     let measures = change.map_or_else(Vec::new, |change| change.measures);
     measures
         .into_iter()
         .map(|MeasureChange { column, value, changed }| {
-            // A measure of zero has no factor.
+            // The quotient is not finite if the measure is zero.
             let factors = changed.map(|changed| Some(changed? / value).filter(|f| f.is_finite()));
             GapFactors { column, factors }
         })
         .collect()
 }
 
-/// Returns curvatures and moments along the path of bending.
+/// Returns pairs of curvature and moment along the path of bending.
 ///
-/// Empty if it cannot be solved.
+/// The list is empty if bending cannot be solved.
 fn bending(case: &Case) -> Vec<[f64; 2]> {
     let solved = flexure::solve(&case.design, &case.common, &case.flexure);
     let path = solved.map_or_else(|_| Vec::new(), |solved| solved.path);

@@ -6,7 +6,8 @@ use solver::Termination;
 use super::point::scales;
 use super::system::Chain;
 use super::{
-    FailureMode, Problem, Puncture, PunctureParameters, RowStiffness, Rows, ScaleState, Status,
+    FailureMode, Problem, Puncture, PunctureEnd, PunctureParameters, RowStiffness, Rows,
+    ScaleState, Status,
 };
 use crate::contacts::{Contact, SkinState};
 use crate::path_location::PathLocation;
@@ -16,30 +17,32 @@ use crate::{Common, Design};
 /// Largest tilt to which a path is extended for a snapshot, degrees.
 const STEEPEST_DEG: f64 = 80.0;
 
-/// Raises the critical tilt if a path was too `short` for the requested points.
+/// Raises the critical tilt if the path does not reach all requested points.
 ///
-/// Returns true if the path should be followed again.
+/// The path is `short` in this case. Returns true if the tilt was raised and the path has to be
+/// followed again.
 pub(super) fn farther(tilt_deg: &mut f64, status: Status, short: bool) -> bool {
     let may_go_on = status == Status::Complete && short && *tilt_deg < STEEPEST_DEG;
     if may_go_on {
-        // Each try follows the whole path again, so take few large steps.
+        // Each attempt follows the whole path again, so raise the tilt in few large steps.
         *tilt_deg = (2.0 * *tilt_deg).min(STEEPEST_DEG);
     }
     may_go_on
 }
 
-/// Point of the path.
+/// First point of a path at which a quantity reaches a given value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum At {
-    /// Where the loaded point has first moved down by `u*`.
+    /// The loaded point has moved down by this `u*`.
     Displacement(f64),
-    /// Where the load has first reached this `F*`.
+    /// The load has reached this `F*`.
     Force(f64),
-    /// Where the punctured scale has first tilted by this angle in either direction, degrees.
+    /// The punctured scale has tilted by this angle in either direction, degrees.
     Tilt(f64),
-    /// Where a limit of a scale is first reached: breaking, bending, debonding or perforation.
+    /// A scale reaches its limit of breaking, bending, debonding or perforation.
     ///
-    /// The path is not extended for it. Other modes of failure are no limits of a scale.
+    /// The path is not extended beyond the critical tilt to reach it. Other failure modes have no
+    /// such point.
     Limit(FailureMode),
 }
 
@@ -76,39 +79,39 @@ impl At {
 /// A row of scales in equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowSnapshot {
-    /// `u*` of the loaded point, downward.
+    /// Displacement `u*` of the loaded point, positive downward.
     pub displacement: f64,
-    /// `F*`.
+    /// Load `F*`.
     pub force: f64,
-    /// Tilt of the punctured scale, clockwise, degrees.
+    /// Tilt of the punctured scale, positive clockwise, degrees.
     pub tilt_deg: f64,
-    /// Lowest point of the tip of a guided needle, over `t`; `None` for a free needle.
+    /// Lowest point of the tip of a guided needle, in units of `t`; `None` for a free needle.
     ///
     /// It is relative to the node of the punctured scale at rest.
     pub tip: Option<[f64; 2]>,
     /// Every scale, from the left.
     pub scales: Vec<ScaleState>,
-    /// Every closed contact; forces over `E* t²`.
+    /// Every closed contact, with forces in units of `E* t²`.
     pub contacts: Vec<Contact>,
 }
 
 /// Result of a puncture with snapshots.
 #[derive(Clone, Debug)]
 pub struct Snapshots {
-    /// The puncture, followed as far as the snapshots require.
+    /// The puncture; its path reaches as far as the snapshots require.
     pub puncture: Puncture,
-    /// One snapshot per requested point; `None` if the path does not reach it.
+    /// One snapshot for each requested point; `None` if the path does not reach the point.
     pub at: Vec<Option<RowSnapshot>>,
-    /// The last state of the path.
+    /// Snapshot at the end of the path.
     pub end: RowSnapshot,
-    /// True if the path reaches the critical state, regardless of the audit.
+    /// True if the path reaches the critical tilt or event, even if the audit rejects its end.
     pub is_critical: bool,
 }
 
 /// Solves the puncture of `design` with snapshots at the points `at`.
 ///
-/// Each snapshot is an equilibrium, not an interpolation. The path is extended beyond the critical
-/// tilt if necessary.
+/// Each snapshot is an equilibrium, not an interpolation. If necessary, the path is extended beyond
+/// the critical tilt, up to 80°.
 ///
 /// # Errors
 /// If a length, a modulus or a constant of the contact law is not positive.
@@ -132,9 +135,10 @@ pub fn snapshots(
     }
 }
 
-/// Solves the puncture with snapshots, ending where [`solve`](super::solve) does.
+/// Solves the puncture with snapshots, up to the same end as [`solve`](super::solve).
 ///
-/// Points beyond that end are `None`. With `unload` the puncture has its unloading path, too.
+/// Snapshots beyond this end are `None`. If `parameters` request unloading, the puncture includes
+/// its unloading path.
 ///
 /// # Errors
 /// As [`snapshots`].
@@ -157,11 +161,15 @@ pub fn snapshots_to_end(
     let end = snapshot(chain, row.pitch(), &followed.path.point().state);
     let is_critical = followed.path.termination() == Some(Termination::Reached)
         && followed.status != Status::Untilted;
-    Ok(Snapshots { puncture: followed.puncture(parameters.unload), at, end, is_critical })
+    let path_end = PunctureEnd::new(&problem, &followed);
+    let puncture = Puncture { end: path_end, ..followed.puncture(parameters.unload) };
+    Ok(Snapshots { puncture, at, end, is_critical })
 }
 
+/// Creates the snapshot of a state.
 fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
-    // Contacts count from the first solved scale, snapshots from the first scale of the row.
+    // Contacts refer to the first solved scale, but snapshots to the first scale of the row, with
+    // `before` scales in between.
     let [before, _] = chain.exterior.scales_to_ends();
     let frame = chain.contacts.body.frame(before as f64 * pitch);
     RowSnapshot {

@@ -1,4 +1,4 @@
-//! Solves one design.
+//! Evaluator: solves one design, with all requested measures.
 
 use std::sync::Arc;
 
@@ -24,21 +24,23 @@ use super::{samples, scatter, sensitivity};
 /// Maximum number of gaps of a chain, because longer paths do not fit into memory.
 const LONGEST_CHAIN: usize = 100_000;
 
-/// Solves designs on any number of threads.
+/// Solves designs one by one; can be used by several threads at the same time.
 ///
-/// Designs with equal footprints share one calibration.
+/// Designs with equal footprints share their springs in a cache.
 #[derive(Debug)]
 pub struct Evaluator {
     measures: Vec<Measure>,
-    /// Detail of the recorded paths, for rows of tables.
+    /// Detail of the recorded paths, for rows of tables and samples.
     detail: PathDetail,
-    /// Parts of the designs to solve. `None`: every part, with full detail.
+    /// Parts of a design to solve; `None` solves every part, with full detail.
     parts: Option<Parts>,
     calibrations: Calibrations,
     across: AcrossCache,
 }
 
-/// An evaluated measure: result and path, or the reason for the failure.
+/// An evaluated measure: its result and path, or the status of a failure.
+///
+/// `None` if the measure is not requested.
 type Evaluated<R, P> = Option<Result<(R, P), Outcome>>;
 
 impl Evaluator {
@@ -53,9 +55,10 @@ impl Evaluator {
         }
     }
 
-    /// Creates an evaluator of `measures` for rows and samples with these `columns`.
+    /// Creates an evaluator of `measures` for tables that have only these `columns`.
     ///
-    /// Measures along the path ([`is_along_path`]) have no value unless a column needs one.
+    /// Measures along the path ([`is_along_path`]) are evaluated only if a column needs one of
+    /// them.
     pub fn for_columns<'c>(
         measures: &[Measure],
         mut columns: impl Iterator<Item = &'c str>,
@@ -65,10 +68,10 @@ impl Evaluator {
         Self { detail, ..Self::new(measures) }
     }
 
-    /// Creates an evaluator that solves only the parts of a design that these `columns` need.
+    /// Creates an evaluator that solves only the parts of a design on which `columns` depend.
     ///
-    /// All other columns may lack a value. Load positions, the row across, other bodies and
-    /// unloading are left out if no column is about them.
+    /// Other columns may lack a value. The parts are load positions, the row across, bodies between
+    /// two radii, and unloading.
     pub fn only_columns(measures: &[Measure], columns: &[&str]) -> Self {
         let parts = Some(Parts::of(columns));
         Self { parts, ..Self::for_columns(measures, columns.iter().copied()) }
@@ -78,7 +81,7 @@ impl Evaluator {
         self.measures.contains(&measure)
     }
 
-    /// Solves `case`. A failure or panic affects this design only.
+    /// Solves `case`; a failure or panic affects only the result of this design.
     pub fn solve(&self, number: DesignNumber, case: &Case) -> SolvedDesign {
         let Some(parts) = self.parts else {
             return self.solved(number, case, Wanted::All, &WorkMeter::default());
@@ -88,14 +91,14 @@ impl Evaluator {
         SolvedDesign { row: DesignRow { case: *case, ..solved.row }, ..solved }
     }
 
-    /// Solves a design faster than [`Self::solve`], for one row of the tables.
+    /// Solves a design for one row of the tables, faster than [`Self::solve`].
     ///
-    /// Data for tables and drawings of paths are omitted.
+    /// Data for path files and drawings are omitted.
     pub fn row(&self, number: DesignNumber, case: &Case) -> DesignRow {
         self.row_metered(number, case, &WorkMeter::default())
     }
 
-    /// Returns true if punctures of designs like `case` may start from the end of another one.
+    /// Returns true if a puncture of `case` can start from the path end of a similar design.
     pub fn has_ends(&self, case: &Case) -> bool {
         self.measures(Measure::Puncture)
             && self.detail == PathDetail::Critical
@@ -105,9 +108,9 @@ impl Evaluator {
             && case.punctured().depend_on_end_only()
     }
 
-    /// Follows the path of a puncture and returns its end, where similar designs can start.
+    /// Solves a puncture and returns the end of its path, from which similar designs can start.
     ///
-    /// `None` if no other design can start from it ([`PunctureEnd`]).
+    /// Returns `None` if no other design can start from it, see [`PunctureEnd`].
     pub fn puncture_end(&self, case: &Case) -> Option<PunctureEnd> {
         let Case { design, common, .. } = &case.with_detail(PathDetail::Critical);
         let substrate = guarded(|| self.substrate(case)).flatten().ok()?;
@@ -115,11 +118,10 @@ impl Evaluator {
         solved(|| puncture::solve(design, &*substrate, common, &parameters)).ok()?.end
     }
 
-    /// Solves a design like [`Self::row`], with derivatives if `parameters` are given.
+    /// Solves a design like [`Self::row`], with derivatives with respect to `parameters`.
     ///
-    /// The derivatives are with respect to each of `parameters`.
-    ///
-    /// Also returns the end of its puncture, a start for similar designs.
+    /// `None` stands for all continuous parameters. Also returns the end of the puncture path, from
+    /// which similar designs can start.
     pub fn row_and_end(
         &self,
         number: DesignNumber,
@@ -130,11 +132,9 @@ impl Evaluator {
         self.row_of(number, case, wanted, &WorkMeter::default())
     }
 
-    /// Solves a design like [`Self::row_and_end`], but from a known path end.
+    /// Solves a design like [`Self::row_and_end`], but starts the puncture from a known path end.
     ///
-    /// The puncture starts from the `end` of a similar design.
-    ///
-    /// `None` if the path must be followed from rest.
+    /// `end` belongs to a similar design. Returns `None` if the path must be followed from rest.
     pub fn row_near(
         &self,
         number: DesignNumber,
@@ -143,14 +143,15 @@ impl Evaluator {
         end: &PunctureEnd,
     ) -> Option<DesignRow> {
         let (wanted, mut derivatives) = (Wanted::Only(parameters), Vec::new());
-        let solved = case.with_detail(self.detail);
+        let needed = self.parts.map_or(*case, |parts| parts.of_case(case));
+        let solved = needed.with_detail(self.detail);
         let punctured = self.puncture_near(&solved, wanted, end, &mut derivatives)?;
         let (meter, punctured) = (WorkMeter::default(), (Some(Ok(punctured)), derivatives));
         let row = self.with_puncture(number, &solved, wanted, &meter, punctured).row;
         Some(DesignRow { case: *case, ..row })
     }
 
-    /// Solves a design like [`Self::row`], and reports its work to `meter`.
+    /// Solves a design like [`Self::row`], and counts its work in `meter`.
     pub(crate) fn row_metered(
         &self,
         number: DesignNumber,
@@ -186,7 +187,7 @@ impl Evaluator {
         self.with_puncture(number, case, wanted, meter, (punctured, derivatives))
     }
 
-    /// Solves the other measures of a design with this puncture and its derivatives.
+    /// Solves the other measures of a design, given the result of its puncture and its derivatives.
     fn with_puncture(
         &self,
         number: DesignNumber,
@@ -208,7 +209,7 @@ impl Evaluator {
         let (flexure, flexure_path) = split_solution(bent, FlexureResult::without_path);
         let (samples, settings) = (self.samples(case, &work), String::new());
         let failures = Vec::new();
-        // Values at further tilts are read from the same path.
+        // Values at further tilts are points of the same path.
         let at_tilts = puncture_path.as_ref().map(|path| path.at_tilts.clone());
         let at_tilts = at_tilts.unwrap_or_default();
         let result = DesignResult {
@@ -228,10 +229,10 @@ impl Evaluator {
         solved
     }
 
-    /// Solves imperfect row `sample` of `case`, or the design itself without scatter.
+    /// Solves imperfect row `sample` of `case`; without scatter it solves the design itself.
     ///
-    /// Rows with the same number use the same random numbers in all designs. The coverage is the
-    /// coverage of the design. Imperfect rows have no derivatives.
+    /// Rows with the same number have the same random numbers in all designs. The coverage is the
+    /// one of the perfect design. Imperfect rows have no derivatives.
     pub fn solve_sample(&self, number: DesignNumber, case: &Case, sample: u64) -> DesignRow {
         if case.imperfection.is_none() {
             return self.row(number, case);
@@ -256,15 +257,15 @@ impl Evaluator {
                 .and_then(|row| samples::punctured(&case, &substrate, &row))
         };
         let mut result = guarded(punctured)?.ok_or(Outcome::Internal)?;
-        // Random gaps and slants apply to the row along; the row across is perfect.
+        // Only the row along has random gaps and slants; the row across is perfect.
         self.puncture_across(case, &mut result);
         Ok(result)
     }
 
-    /// Returns the derivatives of measures for deviations of single scales.
+    /// Returns the derivatives of measures with respect to gaps and slants of single scales.
     ///
-    /// They are with respect to gaps and slants. In puncture there is one derivative per scale, in
-    /// bending one for all scales. Failed measures have no derivatives.
+    /// A puncture measure has a derivative for each scale, a bending measure one for all scales.
+    /// Failed measures have no derivatives.
     pub fn scatter(&self, case: &Case) -> Vec<ParameterDerivative> {
         let mut derivatives = Vec::new();
         if self.measures(Measure::Puncture)
@@ -283,9 +284,9 @@ impl Evaluator {
         self.measures(Measure::Sensitivity)
     }
 
-    /// Punctures the design of `case`.
+    /// Solves the puncture of `case`.
     ///
-    /// Derivatives, if requested, are appended to `sensitivity`.
+    /// Appends derivatives to `sensitivity` if the evaluator has this measure.
     fn puncture(
         &self,
         case: &Case,
@@ -320,9 +321,9 @@ impl Evaluator {
         Ok((result, puncture))
     }
 
-    /// Punctures the design of `case` from the `end` of a similar design.
+    /// Solves the puncture of `case` from the path end of a similar design.
     ///
-    /// `None` if the path must be followed from rest.
+    /// Returns `None` if the path must be followed from rest.
     fn puncture_near(
         &self,
         case: &Case,
@@ -347,7 +348,7 @@ impl Evaluator {
         Some((result, puncture))
     }
 
-    /// Punctures the row across, if requested, and adds its force and derivatives.
+    /// Solves the row across, if requested, and adds its force and the derivatives of the force.
     fn differentiate_across(
         &self,
         case: &Case,
@@ -365,7 +366,7 @@ impl Evaluator {
         sensitivity::choose_direction(&result.measures, derivatives);
     }
 
-    /// Punctures the row across, if requested, and adds its force to a result.
+    /// Solves the row across, if requested, and adds its force to `result`.
     fn puncture_across(&self, case: &Case, result: &mut PunctureResult) {
         if let Some(across) = case.across() {
             let across = across.with_detail(PathDetail::Critical);
@@ -373,9 +374,9 @@ impl Evaluator {
         }
     }
 
-    /// Punctures the row on bodies between two radii, if requested.
+    /// Solves the row on bodies between two radii, if requested, and adds the smallest force.
     ///
-    /// Adds the smallest force to a result, and returns the body, if all have a force.
+    /// Returns the body with this force, or `None` if a body has no critical force.
     fn puncture_between(&self, case: &Case, result: &mut PunctureResult) -> Option<WorstBody> {
         case.body_radius_to?;
         let worst = worst_body::worst_body(|fraction| {
@@ -386,11 +387,11 @@ impl Evaluator {
         worst.ok()
     }
 
-    /// Computes the critical force of a design, without other measures.
+    /// Computes the critical force `F*` of a design without its other measures.
     ///
     /// # Errors
     ///
-    /// The outcome of a puncture without a critical force.
+    /// The status of the path if the puncture has no critical force.
     pub fn critical_force(&self, case: &Case) -> Result<f64, Outcome> {
         let Case { design, common, .. } = &case.with_detail(PathDetail::Critical);
         if solved(|| puncture::overlaps_at_rest(design, case.body()))? {
@@ -402,9 +403,9 @@ impl Evaluator {
         worst_body::critical_force(&punctured)
     }
 
-    /// Bends the design of `case`.
+    /// Solves the bending of `case`.
     ///
-    /// Derivatives, if requested, are appended to `sensitivity`.
+    /// Appends derivatives to `sensitivity` if the evaluator has this measure.
     fn flexure(
         &self,
         case: &Case,
@@ -424,9 +425,9 @@ impl Evaluator {
         Ok((FlexureResult::new(&flexure), flexure))
     }
 
-    /// Solves the imperfect samples of `case`.
+    /// Solves the imperfect samples of `case` and returns their statistics.
     ///
-    /// If they cannot be solved at all, every sample counts as failed.
+    /// If the substrate or the chain cannot be solved, all samples count as failed.
     fn samples(&self, case: &Case, work: &DesignWork<'_>) -> SampleStatistics {
         let mut statistics = SampleStatistics::default();
         if case.imperfection.is_none() {
@@ -436,7 +437,7 @@ impl Evaluator {
             let punctured = guarded(|| self.substrate(case)).flatten().and_then(|substrate| {
                 guarded(|| samples::puncture(case, &substrate, &mut statistics, work))
             });
-            // All samples failed for one reason; the statistics state their number.
+            // All samples failed for the same reason, so only their number is recorded.
             if punctured.is_err() {
                 statistics.puncture_failed = Some(case.samples.count);
             }
@@ -454,16 +455,16 @@ impl Evaluator {
     }
 
     pub(super) fn slopes(&self, case: &Case) -> Result<Arc<StiffnessSlopes>, Outcome> {
-        // A footprint that cannot be meshed is a failure of the calibration, not of a path.
+        // An invalid footprint is a failure of the springs, not of a path.
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.slopes(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
     }
 
-    /// Returns the substrate under a row of `case`.
+    /// Returns the stiffness of the substrate under a row of `case`.
     ///
     /// # Errors
     ///
-    /// If its springs cannot be computed.
+    /// If the springs of the substrate cannot be computed.
     pub fn substrate(&self, case: &Case) -> Result<Arc<RowStiffness>, Outcome> {
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.row(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
@@ -488,9 +489,9 @@ fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {
     Ok(FlexureResult::of_sample(&bent))
 }
 
-/// Splits an evaluated measure into result and path.
+/// Splits an evaluated measure into its result and its path.
 ///
-/// The path is `None` if the measure was not solved.
+/// The path is `None` if the measure failed or is not requested.
 fn split_solution<R, P>(
     evaluated: Evaluated<R, P>,
     without_path: fn(Outcome) -> R,
@@ -508,9 +509,9 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
     let is_missing = |outcome: &Outcome| *outcome != Outcome::Complete;
     let (outcome, end) = match measure {
         Measure::Coverage if result.coverage.is_some() => return None,
-        // A closed form only fails through an error in the program.
+        // The coverage has a closed form, so only an error in the program makes it fail.
         Measure::Coverage => (Outcome::Internal, None),
-        // Derivatives exist if their measures do.
+        // A derivative is missing only together with its measure, which has a failure of its own.
         Measure::Sensitivity => return None,
         Measure::Puncture => {
             let puncture = result.puncture?;
@@ -519,8 +520,8 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
                 .flatten()
                 .find(is_missing)
             {
-                // The missing value belongs to unloading, or to another load position without a
-                // stored path.
+                // The path is complete. Unloading, the row across, another body or another load
+                // position failed, and the path of this failure is not stored.
                 Some(other) if puncture.outcome == Outcome::Complete => (other, None),
                 _ => (puncture.outcome, solved.puncture.as_ref().map(PathEnd::of_puncture)),
             }

@@ -1,4 +1,4 @@
-//! Rows do not depend on other designs that are solved.
+//! The row of a design does not depend on other designs, on stored paths or on other columns.
 
 use std::collections::BTreeSet;
 use std::iter;
@@ -11,7 +11,7 @@ use run::{Evaluator, GapChange, Patience};
 use skin::Design;
 use sweep::{Case, Measure, Parameter, Sweep};
 
-/// Returns the axes of a small grid.
+/// Returns the axes of a small grid of 12 designs.
 fn axes() -> Vec<(&'static str, Vec<f64>)> {
     vec![
         ("gap_over_t", vec![0.1, 0.4]),
@@ -20,7 +20,7 @@ fn axes() -> Vec<(&'static str, Vec<f64>)> {
     ]
 }
 
-/// Returns the rows of the sweep over these axes, sorted, without numbers.
+/// Solves the sweep over these axes, and returns its rows sorted and without design numbers.
 fn rows(axes: &[(&str, Vec<f64>)]) -> BTreeSet<Vec<String>> {
     let axes: Vec<_> = axes.iter().map(|(key, values)| format!("{key} = {values:?}")).collect();
     let axes = axes.join("\n");
@@ -40,7 +40,7 @@ fn rows(axes: &[(&str, Vec<f64>)]) -> BTreeSet<Vec<String>> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
-    /// A row does not depend on the designs solved before it, nor on its position.
+    /// Shuffled axes and values change the order in which the evaluator solves the designs.
     #[test]
     fn rows_do_not_depend_on_their_order(
         axes in Just(axes()).prop_shuffle().prop_flat_map(|axes| {
@@ -55,9 +55,9 @@ proptest! {
     }
 }
 
-/// `row` and `solve` give the same row.
+/// `Evaluator::row` and `Evaluator::solve` give the same row.
 ///
-/// The paths of `solve` include every fold, and the stretches at every point.
+/// Only the paths of `solve` contain every fold, and the gap stretch at every point.
 #[test]
 fn rows_do_not_depend_on_whether_paths_are_stored() {
     let text = "name = 'x'\nmeasures = ['puncture', 'flexure']\n[designs]\ngap_over_t = 0.1\nlength_over_t = [0.2, 1]\nslant_deg = 75";
@@ -73,7 +73,7 @@ fn rows_do_not_depend_on_whether_paths_are_stored() {
     }
 }
 
-/// Skins with every needle, friction, failure, a row across and several load positions.
+/// Definitions with free, guided and round needles, friction, failure, and a row across.
 const SKINS: [&str; 4] = [
     "[designs]\ngap_over_t = [0.1, 0.5]\nlength_over_t = 0.4\nslant_deg = [0, 45, 70]",
     "[designs]\ngap_over_t = [0.1, 0.5]\nlength_over_t = 0.4\nslant_deg = [45, 70]\n\
@@ -85,7 +85,7 @@ const SKINS: [&str; 4] = [
      [puncture]\nneedle = 'guided'\nneedle_radius_over_t = 0.3\ncritical_tilt_deg = [5, 10]",
 ];
 
-/// Calls `check` with the sweep of each skin and each of its cases.
+/// Calls `check` with each sweep of [`SKINS`] and the index of each of its designs.
 fn for_each_skin(mut check: impl FnMut(&Sweep, u64)) {
     for skin in SKINS {
         let text = format!("name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n{skin}");
@@ -94,7 +94,7 @@ fn for_each_skin(mut check: impl FnMut(&Sweep, u64)) {
     }
 }
 
-/// Rows for the critical state omit the values along the path, and have all others.
+/// Rows of the critical state have all values except the values along the path.
 #[test]
 fn critical_state_rows_omit_only_values_along_the_path() {
     let (mut compared, mut omitted) = (0, BTreeSet::new());
@@ -109,7 +109,7 @@ fn critical_state_rows_omit_only_values_along_the_path() {
                 assert_eq!(found.to_string(), expected.to_string(), "{} {index}", column.name);
                 compared += 1;
             } else if !matches!(expected, Cell::Empty) {
-                // A count of zero is a number, too.
+                // An omitted count is 0, not empty.
                 assert!(matches!(found, Cell::Empty | Cell::Count(0)), "{}", column.name);
                 omitted.insert(column.name.to_string());
             }
@@ -121,7 +121,7 @@ fn critical_state_rows_omit_only_values_along_the_path() {
     assert!(compared > 500 && omitted.len() > 12, "{compared} {omitted:?}");
 }
 
-/// A column solved alone has the value and the derivatives that it has among all others.
+/// A column has the same value and derivatives if only the parts that it needs are solved.
 #[test]
 fn a_column_solved_alone_equals_the_column_of_a_whole_row() {
     let unloaded = "[designs]\ngap_over_t = 0.2\nlength_over_t = 0.4\nslant_deg = 60\n\
@@ -146,7 +146,7 @@ fn a_column_solved_alone_equals_the_column_of_a_whole_row() {
             assert_eq!(found, expected, "{} of {skin}", column.name);
             let of_column = |row: &DesignRow| {
                 let mut derivatives = row.result.sensitivity.clone();
-                // Parameters of a part that is left out have no derivative instead of one of 0.
+                // Derivatives of 0 are dropped: they are missing if a part of the design is not solved.
                 derivatives.retain(|d| d.measure == column.name && d.left != Some(0.0));
                 derivatives
             };
@@ -161,11 +161,10 @@ fn a_column_solved_alone_equals_the_column_of_a_whole_row() {
     assert!(compared > 100 && left_out > 500, "{compared} {left_out}");
 }
 
-/// `GapChange::beside` returns the same changes as `GapChange::solve`.
-///
-/// The latter also solves the nominal design.
+/// `GapChange::solve` solves the nominal design, and starts the changed gaps at the end of its
+/// puncture. Without this end, `GapChange::beside` follows their paths from rest.
 #[test]
-fn gap_changes_reuse_the_values_of_a_known_design() {
+fn gap_changes_do_not_depend_on_the_start_of_the_puncture() {
     for_each_skin(|sweep, index| {
         let number = sweep.grid().number(index).to_string();
         let columns =
@@ -175,12 +174,21 @@ fn gap_changes_reuse_the_values_of_a_known_design() {
         let measured: Vec<(&str, f64)> =
             solved.measures.iter().map(|change| (change.column.as_str(), change.value)).collect();
         assert!(measured.len() > 2, "{solved:?}");
-        let beside = GapChange::beside(sweep, &number, &measured, Patience::Unlimited);
-        assert_eq!(beside.as_ref(), Some(&solved));
+        let beside = GapChange::beside(sweep, &number, &measured, None, Patience::Unlimited);
+        let beside = beside.expect("a design");
+        assert_eq!((&beside.design, beside.gap), (&solved.design, solved.gap));
+        for (near, followed) in solved.measures.iter().zip(&beside.measures) {
+            assert_eq!((&near.column, near.value), (&followed.column, followed.value));
+            for (near, followed) in near.changed.iter().zip(followed.changed) {
+                let difference = near.zip(followed).map(|(a, b)| (a - b).abs() / b.abs().max(1e-6));
+                assert_eq!(near.is_some(), followed.is_some(), "{solved:?} {beside:?}");
+                assert!(difference.is_none_or(|d| d < 1e-8), "{near:?} {followed:?}");
+            }
+        }
     });
 }
 
-/// Derivatives with respect to some parameters are the same as among all.
+/// Derivatives with respect to selected parameters do not depend on the other parameters.
 #[test]
 fn selected_derivatives_equal_the_derivatives_among_all() {
     let keys = ["gap_over_t", "slant_deg", "c1", "needle_friction"];
@@ -192,7 +200,7 @@ fn selected_derivatives_equal_the_derivatives_among_all() {
         let mut all = evaluator.row(number, &case).result.sensitivity;
         all.retain(|derivative| keys.contains(&derivative.parameter));
         let mut some = evaluator.row_and_end(number, &case, Some(&chosen)).0.result.sensitivity;
-        // The modulus gives the derivatives with respect to the prefactor of the contact law.
+        // With the prefactor, derivatives with respect to the modulus are returned, too.
         some.retain(|derivative| keys.contains(&derivative.parameter));
         assert_eq!(some, all, "{index}");
         compared += some.len();
@@ -200,9 +208,7 @@ fn selected_derivatives_equal_the_derivatives_among_all() {
     assert!(compared > 300, "{compared}");
 }
 
-/// The coverage of slanted scales changes with the gap as in the closed form.
-///
-/// Columns that are not measured are omitted.
+/// The changes of the coverage agree with its closed form, and unmeasured columns are omitted.
 #[test]
 fn gap_changes_match_the_closed_form_of_the_coverage() {
     let text = "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = [0.2, 0.4]\nlength_over_t = 0.5\nslant_deg = 60";
