@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use crate::colors::INK;
 
-/// Fonts of all drawings: the embedded font and others of the same metrics.
+/// Fonts of all drawings: the embedded font, then replacements of about the same widths.
 const FONTS: &str = "Liberation Sans, Arial, Helvetica, sans-serif";
 
 /// A point on paper, px: x to the right, y down.
 pub(crate) type Spot = [f64; 2];
 
-/// An element with attributes and content.
+/// An SVG element with attributes, text and child elements.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Element {
     name: &'static str,
@@ -34,7 +34,7 @@ impl Element {
         self
     }
 
-    /// Adds an attribute in px.
+    /// Adds an attribute with a value in px, rounded to 0.01 px.
     pub(crate) fn at(self, name: &'static str, value: f64) -> Self {
         self.with(name, px(value))
     }
@@ -56,14 +56,16 @@ impl Element {
     fn write(&self, out: &mut String, depth: usize) {
         let _ = write!(out, "<{}", self.name);
         for (name, value) in &self.attributes {
-            let _ = write!(out, " {name}=\"{}\"", escaped(value));
+            let _ = write!(out, " {name}=\"");
+            push_escaped(out, value);
+            out.push('"');
         }
         if self.inside.is_empty() && self.text.is_none() {
             out.push_str("/>");
             return;
         }
         out.push('>');
-        out.push_str(&escaped(self.text.as_deref().unwrap_or_default()));
+        push_escaped(out, self.text.as_deref().unwrap_or_default());
         // White space inside a text element would be visible.
         let lines = self.name != "text" && !self.inside.is_empty();
         for element in &self.inside {
@@ -91,8 +93,19 @@ fn new_line(out: &mut String, depth: usize) {
     out.extend(std::iter::repeat_n(' ', depth));
 }
 
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+/// Appends `text` to `out`, with the special characters of XML escaped.
+fn push_escaped(out: &mut String, mut text: &str) {
+    while let Some(at) = text.bytes().position(|byte| matches!(byte, b'&' | b'<' | b'>' | b'"')) {
+        out.push_str(&text[..at]);
+        out.push_str(match text.as_bytes()[at] {
+            b'&' => "&amp;",
+            b'<' => "&lt;",
+            b'>' => "&gt;",
+            _ => "&quot;",
+        });
+        text = &text[at + 1..];
+    }
+    out.push_str(text);
 }
 
 /// Formats a coordinate to a hundredth of a pixel.
@@ -120,12 +133,14 @@ pub(crate) fn document(width: f64, height: f64, title: &str, inside: Vec<Element
 /// Height of the title of a drawing, px.
 const TITLE: f64 = 32.0;
 
-/// Returns the title of a drawing, in the form that [`untitled`] removes.
+/// Formats a text element as the title of a drawing; [`untitled`] finds it by its class.
 pub(crate) fn heading(title: Element) -> Element {
     title.with("class", "title").with("fill", INK).with("font-weight", "bold")
 }
 
-/// Removes the title of a drawing and the space it takes, if there is one.
+/// Returns a drawing without its title and without the height of the title.
+///
+/// A drawing without a title is returned unchanged.
 pub fn untitled(svg: &str) -> String {
     without_title(svg).unwrap_or_else(|| svg.to_owned())
 }
@@ -139,7 +154,7 @@ fn without_title(svg: &str) -> Option<String> {
     let (width, height) = size.split_once(' ')?;
     let lower = px(height.parse::<f64>().ok()? - TITLE);
     let start = start.replacen(&format!("height=\"{height}\""), &format!("height=\"{lower}\""), 1);
-    // The element `title` stays, for screen readers.
+    // The SVG element `title` is kept for screen readers.
     Some(format!("{start}viewBox=\"0 {TITLE} {width} {lower}\"{}{}", end, after.trim_start()))
 }
 
@@ -160,7 +175,7 @@ fn in_millimetres(svg: &str, width: f64) -> Option<String> {
 
 /// Returns the smallest font size of a drawing printed `width` mm wide, in points.
 ///
-/// `None` without text. Subscripts and superscripts do not count.
+/// Subscripts and superscripts do not count. `None` if the drawing has no text.
 pub fn smallest_letters(svg: &str, width: f64) -> Option<f64> {
     let per_unit = POINTS_PER_MM * width / attribute(svg, " width=\"")?;
     let texts = svg.split("<text").skip(1).filter_map(|text| text.split_once('>'));
@@ -176,7 +191,7 @@ fn attribute(text: &str, start: &str) -> Option<f64> {
 /// Typographic points per millimetre.
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
-/// Returns the data of an SVG path through `points`; `text` formats the coordinates.
+/// Returns the attribute `d` of an SVG path through `points`; `text` formats the coordinates.
 pub(crate) fn path_data(points: &[Spot], closed: bool, text: fn(f64) -> String) -> String {
     let corners = points.iter().map(|[x, y]| format!("{} {}", text(*x), text(*y)));
     let line = corners.collect::<Vec<_>>().join(" L");
@@ -210,14 +225,15 @@ pub(crate) fn circle(center: Spot, radius: f64) -> Element {
     Element::new("circle").at("cx", center[0]).at("cy", center[1]).at("r", radius)
 }
 
-/// Draws an arrow with its head at `to`; the head shrinks with a short arrow.
+/// Draws an arrow with its head at `to`. A short arrow has a smaller head.
 pub(crate) fn arrow(from: Spot, to: Spot, color: &str, width: f64) -> Element {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let length = dx.hypot(dy);
     let head = (4.5 * width).min(0.7 * length);
     // Arrows have a positive length, so the direction is defined.
     let (along, across) = ([dx / length, dy / length], [-dy / length, dx / length]);
-    // Distance behind the tip and to the side of the shaft, in lengths and widths of the head.
+    // Distance of each point from the tip, in lengths of the head, and from the axis of the arrow,
+    // in half-widths of the head.
     let corners = [(0.8, 0.0), (1.0, 1.0), (0.75, 0.0), (1.0, -1.0)];
     let [end, left, notch, right] = corners.map(|(back, side)| {
         [0, 1].map(|k| to[k] - back * head * along[k] + side * 0.42 * head * across[k])
