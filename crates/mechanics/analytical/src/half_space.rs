@@ -1,19 +1,20 @@
 //! Rigid rectangles and point loads on an elastic half-space.
 //!
-//! Values are in units of `E* = E_s/(1 − ν²)`. Rectangles have the half-width `a = 1` along `x`.
-//! The stiffnesses are defined by Eq. (1) of Shafiei et al. (2021, doi 10.1016/j.jmps.2020.104176):
-//! `α` couples a rectangle with itself, `β` nearest neighbours.
+//! The modulus `E* = E_s/(1 − ν²)` is 1. Rectangles have the half-width `a = 1` along `x`; their
+//! width is the dimension in the other direction `z`. The stiffnesses are defined by Eq. (1) of
+//! Shafiei et al. (2021, doi 10.1016/j.jmps.2020.104176): `α` relates the reaction of a rectangle
+//! to its own displacement, `β` to the displacement of a nearest neighbour.
 
 use std::f64::consts::PI;
 
-/// Stiffnesses of a rigid rectangle.
+/// Stiffnesses of a rigid rectangle for displacements along `x` and `y` and for rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffnesses {
-    /// Force along `x` for a unit shift along `x`.
+    /// Force along `x` for a unit displacement along `x`.
     pub shear: f64,
-    /// Force along `y` for a unit shift along `y`.
+    /// Force along `y` for a unit displacement along `y`.
     pub normal: f64,
-    /// Moment for a unit rotation about the axis of the width.
+    /// Moment for a unit rotation about the `z` axis, the direction of the width.
     pub rocking: f64,
 }
 
@@ -24,64 +25,66 @@ impl Stiffnesses {
     }
 }
 
-/// Isolated square of side `2a`, to four decimals.
+/// Stiffnesses of an isolated square of side `2a`, to four decimals.
 ///
-/// Normal: a punch of side `s` needs `P = 1.1523 E* s δ` (N. M. Borodachev, *Contact problem for a
-/// stamp with a rectangular base*, J. Appl. Math. Mech. 40 (1976) 505), with `s = 2a`. Shear at
-/// `ν = 0.5`, and rotation: converged boundary elements.
+/// `normal` is `P/δ` of a punch of side `s = 2a` with `P = 1.1523 E* s δ` (N. M. Borodachev,
+/// *Contact problem for a stamp with a rectangular base*, J. Appl. Math. Mech. 40 (1976) 505).
+/// `shear` (for `ν = 0.5`) and `rocking` were computed with converged boundary elements.
 pub const SQUARE: Stiffnesses = Stiffnesses { shear: 1.5384, normal: 2.3046, rocking: 2.0807 };
 
-/// `α` of three squares with gaps of a tenth of their side at `ν = 0.5`.
+/// Stiffnesses `α` of the middle one of three squares, for `ν = 0.5`.
 ///
-/// From converged boundary elements, truncated after three decimals.
+/// The gaps between the squares are a tenth of their side. Computed with converged boundary
+/// elements and truncated after three decimals.
 pub const THREE_SQUARES_DIRECT: Stiffnesses =
     Stiffnesses { shear: 2.699, normal: 3.376, rocking: 2.473 };
 
-/// `β` of the same three squares.
+/// Stiffnesses `β` between the middle square and its neighbour, as for [`THREE_SQUARES_DIRECT`].
 pub const THREE_SQUARES_COUPLING: Stiffnesses =
     Stiffnesses { shear: 0.993, normal: 1.082, rocking: -0.428 };
 
-/// Returns the displacement of the centre of a square under a unit pressure.
+/// Returns the normal displacement at the centre of a square that carries a unit pressure.
 ///
-/// The side of the square is 2. The value `8 asinh(1)/π` is the integral of Boussinesq's solution.
+/// The side of the square is 2. The value `8 asinh(1)/π` is the integral of Boussinesq's solution
+/// over the square.
 pub fn loaded_square_centre() -> f64 {
     8.0 * 1_f64.asinh() / PI
 }
 
-/// Returns the normal displacement at distance `r` from a unit normal load.
+/// Returns the normal displacement at distance `r` from a unit normal point load.
 ///
-/// This is the solution of Boussinesq.
+/// This is Boussinesq's solution.
 pub fn point_load(r: f64) -> f64 {
     1.0 / (PI * r)
 }
 
-/// Returns the displacement along a unit tangential load, at distance `r` ahead.
+/// Returns the displacement in the direction of a unit tangential point load.
 ///
-/// This is the solution of Cerruti.
+/// The displacement is taken at distance `r` from the load, on its line of action. This is
+/// Cerruti's solution.
 pub fn tangential_point_load(r: f64, poisson_ratio: f64) -> f64 {
     1.0 / (PI * r * (1.0 - poisson_ratio))
 }
 
-/// Returns the normal displacement at distance `r` in the plane of a unit couple.
+/// Returns the normal displacement in the plane of a unit couple at distance `r` from it.
 ///
-/// This is the derivative of [`point_load`].
+/// The value is the magnitude of the derivative of [`point_load`] with respect to `r`.
 pub fn point_couple(r: f64) -> f64 {
     1.0 / (PI * r * r)
 }
 
-/// Returns the stiffnesses of an isolated rectangle `2 × width` at `ν = 0.5`.
+/// Returns the stiffnesses of an isolated rectangle `2 × width` for `ν = 0.5`.
 ///
-/// By the formulas of A. Pais, E. Kausel, *Soil Dyn. Earthq. Eng.* 7 (1988) 213, doi
-/// 10.1016/S0267-7261(88)80005-8, with an accuracy of about 6 %.
-///
-/// With the half-sides `B ≤ L` the formulas are written for `G/(1 − ν) = E*/2`.
+/// Uses the formulas of A. Pais, E. Kausel, *Soil Dyn. Earthq. Eng.* 7 (1988) 213, doi
+/// 10.1016/S0267-7261(88)80005-8, which are accurate to about 6 %. The formulas contain the
+/// half-sides `B ≤ L` and the shear modulus `G`, with `G/(1 − ν) = E*/2`.
 pub fn pais_kausel(width: f64) -> Stiffnesses {
     let half = width / 2.0;
-    // The scale tilts about the axis of its width.
     let (b, ratio) = (half.min(1.0), half.max(1.0) / half.min(1.0));
+    // The scale tilts about the axis along its width, which is the longer axis if `wide`.
     let wide = half >= 1.0;
     let rocking = if wide { 3.2 * ratio + 0.8 } else { 3.73 * ratio.powf(2.4) + 0.27 };
-    // Shear across the longer side.
+    // The formula for shear has this additional term for forces across the longer side.
     let across = if wide { 0.8 * (ratio - 1.0) } else { 0.0 };
     Stiffnesses {
         shear: b / 6.0 * (6.8 * ratio.powf(0.65) + 2.4 + across),
@@ -92,8 +95,8 @@ pub fn pais_kausel(width: f64) -> Stiffnesses {
 
 /// Returns the normal stiffness of an isolated rectangle `2 × width`.
 ///
-/// By the formula of G. Gazetas, *J. Geotech. Eng.* 117 (1991) 1363, doi
-/// 10.1061/(ASCE)0733-9410(1991)117:9(1363), with an accuracy of about 6 %.
+/// Uses the formula of G. Gazetas, *J. Geotech. Eng.* 117 (1991) 1363, doi
+/// 10.1061/(ASCE)0733-9410(1991)117:9(1363), which is accurate to about 6 %.
 pub fn gazetas_normal(width: f64) -> f64 {
     let half = width / 2.0;
     let (b, ratio) = (half.min(1.0), half.max(1.0) / half.min(1.0));

@@ -1,24 +1,25 @@
-//! Puncture of a scale without neighbours.
+//! Closed-form solution for the puncture of a scale without neighbours.
 //!
-//! The load `F` acts downwards at `r` from the node of a scale that has rotated by `ψ` clockwise
-//! and is held only by its own springs,
+//! Only its own springs hold the scale. A downward load `F` acts on the point `r` of the scale,
+//! relative to its node. The scale rotates by `ψ` clockwise, its node moves up by `y`, and the
+//! loaded point moves down by `u`:
 //!
 //! ```text
 //! k_y y = −F,    k_φ ψ = F (r_x cos ψ + r_y sin ψ),    k_y = a α_y,  k_φ = a³ α_φ
 //! u = −y + r_x sin ψ + r_y (1 − cos ψ)
 //! ```
 //!
-//! so `F(ψ)` and `u(ψ)` are known in closed form, and so are the energies `½ k_y y²` and
-//! `½ k_φ ψ²`. Forces are in units of `E* t²`, lengths in units of `t`.
+//! These equations give `F(ψ)`, `u(ψ)` and the energies `½ k_y y²` and `½ k_φ ψ²` in closed form.
+//! Forces are in units of `E* t²`, lengths in units of `t`.
 
-/// Scale held by its own springs.
+/// Punctured scale that only its own two springs hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IsolatedScale {
-    /// `k_y = a α_y`.
+    /// Stiffness `k_y = a α_y` of the spring for vertical displacement.
     pub normal: f64,
-    /// `k_φ = a³ α_φ`.
+    /// Stiffness `k_φ = a³ α_φ` of the spring for rotation.
     pub rotation: f64,
-    /// `r`: point of the load relative to the node of the scale at rest.
+    /// Vector `r` from the node to the loaded point, in the scale at rest.
     pub arm: [f64; 2],
 }
 
@@ -29,18 +30,18 @@ impl IsolatedScale {
         self.rotation * psi / (self.arm[0] * cos + self.arm[1] * sin)
     }
 
-    /// Returns the displacement `u` of the loaded point at the tilt `psi` (radians).
+    /// Returns the downward displacement `u` of the loaded point at the tilt `psi` (radians).
     pub fn displacement(&self, psi: f64) -> f64 {
         let (sin, cos) = psi.sin_cos();
         self.sink(psi) + self.arm[0] * sin + self.arm[1] * (1.0 - cos)
     }
 
-    /// Returns the settlement `−y` of the node at the tilt `psi` (radians).
+    /// Returns the downward displacement `−y` of the node at the tilt `psi` (radians).
     pub fn sink(&self, psi: f64) -> f64 {
         self.force(psi) / self.normal
     }
 
-    /// Returns the elastic energy of the substrate at the tilt `psi` (radians).
+    /// Returns the elastic energy of both springs at the tilt `psi` (radians).
     pub fn energy(&self, psi: f64) -> f64 {
         0.5 * (self.force(psi).powi(2) / self.normal + self.rotation * psi.powi(2))
     }
@@ -58,15 +59,15 @@ mod tests {
     const SCALE: IsolatedScale = IsolatedScale { normal: 0.8, rotation: 0.3, arm: [1.2, 1.0] };
 
     #[test]
-    fn the_initial_stiffness_is_the_slope_at_rest() {
+    fn the_initial_stiffness_is_the_slope_of_the_load_curve_at_rest() {
         let psi = 1e-7;
         let slope = SCALE.force(psi) / SCALE.displacement(psi);
         assert!((slope / SCALE.initial_stiffness() - 1.0).abs() < 1e-6, "{slope}");
     }
 
-    /// `dU = F du` along the path.
+    /// Checks `dU = F du` with the trapezoidal rule.
     #[test]
-    fn the_work_of_the_load_is_the_energy() {
+    fn the_work_of_the_load_equals_the_elastic_energy() {
         let (steps, end) = (2000, 0.4);
         let work: f64 = (0..steps)
             .map(|k| {

@@ -1,42 +1,47 @@
 //! Rigid strips on an elastic half-plane, the limit of long rectangles.
 //!
-//! In plane strain, `u_y' = −2/(π E*) ∫ p ln|x − ξ| dξ + const`. With `p = Σ aₙ Tₙ(τ)/√(1 − τ²)` on
-//! each strip, `∫ Tₙ(τ)/√(1 − τ²) ln|t − τ| dτ` is `−(π/n) Tₙ(t)` on the strip and `−(π/n) wⁿ` off
-//! it, `w = t − sgn t √(t² − 1)` (N. I. Muskhelishvili, *Singular Integral Equations*, Noordhoff
-//! 1953). The rotation is odd in `x`, so the constant has no effect, and end effects stay at the
-//! ends of a long rectangle.
+//! A pressure `p` displaces the surface in plane strain by
+//! `u_y = −2/(π E*) ∫ p ln|x − ξ| dξ + const`. On each strip `p = Σ aₙ Tₙ(τ)/√(1 − τ²)` with the
+//! Chebyshev polynomials `Tₙ` and the coordinate `τ` from −1 to 1 on this strip. For `n ≥ 1` the
+//! integral `∫ Tₙ(τ)/√(1 − τ²) ln|t − τ| dτ` is `−(π/n) Tₙ(t)` on the strip and `−(π/n) wⁿ` beside
+//! it, where `w = t − sgn t √(t² − 1)` (N. I. Muskhelishvili, *Singular Integral Equations*,
+//! Noordhoff 1953).
+//!
+//! For a rotation of the middle strip the pressure is odd in `x`, so the constant has no effect,
+//! and the ends of a long rectangle disturb the pressure only in their vicinity.
 
 use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-/// Moment per length for a unit rotation of an isolated strip.
+/// Moment per unit length for a unit rotation of an isolated strip.
 ///
-/// The strip has half-width 1, and `E* = 1`.
+/// The half-width of the strip is 1, and `E* = 1`.
 pub const ALONE: f64 = 0.25 * PI;
 
-/// Moments per length for a unit rotation of the middle one of three strips.
+/// Moments per unit length for a unit rotation of the middle one of three strips.
 ///
-/// The outer strips are fixed.
+/// The two outer strips are fixed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rocking {
-    /// `α_φ`: moment on the middle strip.
+    /// Moment `α_φ` on the middle strip.
     pub direct: f64,
-    /// `β_φ`: moment on a neighbour, with the sign of Eq. (1) of Shafiei et al. (2021).
+    /// Moment on an outer strip, as `β_φ` with the sign of Eq. (1) of Shafiei et al. (2021).
     pub coupling: f64,
 }
 
-/// Returns `α_φ` and `β_φ` per length of three strips at gaps `gap`.
+/// Returns `α_φ` and `β_φ` per unit length of three strips with gaps `gap` between them.
 ///
-/// The strips have half-width 1. Uses `2 terms` Chebyshev polynomials on each strip. `None` if the
-/// equations are singular.
+/// The half-width of each strip is 1. The pressure on each strip consists of the Chebyshev
+/// polynomials below order `2 terms`. `None` if the equations are singular.
 pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
     let centre = 2.0 + gap;
     let size = 3 * terms;
     let mut points = vec![0.0; size];
     for k in 0..2 * terms {
         let point = (PI * (k as f64 + 0.5) / (2 * terms) as f64).cos();
-        // The positive half of the middle strip, then the right strip.
+        // Collocation points lie on the right half of the middle strip and on the right strip. The
+        // left side follows by antisymmetry.
         if k < terms {
             points[k] = point;
         }
@@ -47,7 +52,8 @@ pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
         let x = points[i];
         let potential = match j.checked_sub(terms) {
             None => log_potential(2 * j + 1, x),
-            // The left strip mirrors the right one and carries the opposite pressure.
+            // The pressure on the left strip is the mirror image of the pressure on the right
+            // strip, with the opposite sign.
             Some(n) => log_potential(n, x - centre) - log_potential(n, -x - centre),
         };
         -2.0 / PI * potential
@@ -57,7 +63,7 @@ pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
     Some(Rocking { direct: 0.5 * PI * loads[0], coupling: -0.5 * PI * loads[terms + 1] })
 }
 
-/// Returns `∫ Tₙ(τ)/√(1 − τ²) ln|t − τ| dτ` over `−1 … 1`.
+/// Returns the integral of `Tₙ(τ)/√(1 − τ²) ln|t − τ|` over `τ` from −1 to 1.
 fn log_potential(n: usize, t: f64) -> f64 {
     let order = n as f64;
     match (n, t.abs() <= 1.0) {
@@ -80,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn strips_far_apart_are_alone() {
+    fn strips_far_apart_respond_like_an_isolated_strip() {
         let far = three_strips(1e4, 8).unwrap();
         assert!((far.direct - ALONE).abs() < 1e-6 && far.coupling.abs() < 1e-6);
     }

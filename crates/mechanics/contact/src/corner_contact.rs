@@ -3,67 +3,76 @@
 use crate::corners::Corners;
 use crate::gap::CornerEdge;
 
-/// Contact forces at one level of a pair; each is an unknown with a condition.
+/// Number of contact forces at one level of a pair.
+///
+/// Each force is an unknown with a complementarity condition.
 pub const FORCES: usize = 3;
 
-/// Force of a contact of two corners.
+/// One of the three contact forces at one level of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Force {
-    /// `λ`: force of the corner on the edge on which it arrived.
+    /// `λ`: own force, between the corner and the edge that are in contact.
     Own,
-    /// `λ'`: force of the partner, the other corner on the other edge.
+    /// `λ'`: force of the partner, the contact of the other corner with the other edge.
     Partner,
-    /// `λ''`: force of the flush contact, at the other end of the two edges.
+    /// `λ''`: force of the flush contact, at the other end of two edges that lie flush.
     Flush,
 }
 
 impl Force {
-    /// The three forces in the order of their numbers.
+    /// The three forces, in the order of arrays with one entry per force.
     pub const ALL: [Self; FORCES] = [Self::Own, Self::Partner, Self::Flush];
 }
 
 /// Contact state of two corners at one level of a pair.
 ///
-/// Corner `P` of the left and corner `Q` of the right scale ([`Corners`]) meet here. Each may rest
-/// on an edge that ends in the other. With the normals `m_A` (of the right scale's left edge) and
-/// `m_B` (inward, of the left scale's right edge), both pointing left, and `D = P − Q`:
+/// At each level corner `P` of the left scale and corner `Q` of the right scale may touch
+/// ([`Corners`]). `P` may rest on an edge of the right scale that ends at `Q`, and `Q` on an edge
+/// of the left scale that ends at `P`. `m_A` is the outward normal of the left edge of the right
+/// scale, and `m_B` the inward normal of the right edge of the left scale; both point to the left.
+/// With `D = P − Q` there are three contacts:
 ///
 /// ```text
 /// A,  P on the left edge:              force  λ m_A on P,  gap D·m_A
 /// B,  Q on the right edge:             force −λ m_B on Q,  gap D·m_B
-/// C,  P on the top or Q on the base:   force along the normal m_C of that end, gap D·m_C
+/// C,  P on the top or Q on the base:   force along the normal m_C of top or base, gap D·m_C
 /// ```
 ///
-/// C replaces A or B if the side of the tip leans beyond level. A corner that slides to the end of
-/// its edge meets the other corner. The force cannot jump from one normal to the other: it turns
-/// between them while the corners stay together. Both forces then act, and the law holds along
-/// their sum,
+/// One of `P` and `Q` is a tip, an acute corner. If the side that ends in the tip has rotated
+/// beyond parallel to the neighbour's top or base, C replaces B (upper level) or A (lower level).
+///
+/// A corner that slides to the end of its edge reaches the other corner. There the force turns
+/// continuously from one normal to the other while the corners stay together. Both forces act, and
+/// the law applies to their sum,
 ///
 /// ```text
 /// v ≡ D + δ(|f|) f/|f| = 0,    f = λ m + λ' m'                                     (C5)
 /// ```
 ///
-/// With the contact's own force `λ`, normal `m` and edge direction `s`, the partner's `λ'` and
-/// `m'`, and `σ = ±1` for the end of the edge with the partner, this becomes
+/// `λ`, `m` and `s` are the force, the normal and the edge direction of the own contact, `λ'` and
+/// `m'` the force and the normal of its partner. `σ s` with `σ = ±1` points to the end of the edge
+/// at which the other corner lies. As complementarity conditions,
 ///
 /// ```text
 /// 0 ≤ λ   ⟂   v·m ≥ 0         (closed or open)
 /// 0 ≤ λ'  ⟂  −σ v·s ≥ 0       (at the end of the edge or short of it)              (C6)
 /// ```
 ///
-/// and `v·m = g + δ(λ)` while `λ' = 0`. If the side of the tip is level with the neighbour's end,
-/// they lie flush: the corner rests on the side and the tip on the end. Both contacts act while the
-/// force moves from one to the other, and the law holds for their sum. `β ≥ 0` is the angle by
-/// which the side is short of level, or beyond level if only the tip rests:
+/// and `v·m = g + δ(λ)` while `λ' = 0`.
+///
+/// If the side that ends in the tip is parallel to the neighbour's top or base, both edges lie
+/// flush: the neighbour's corner rests on the side, and the tip on the top or base. Both contacts
+/// act while the force moves from one contact to the other, and the law applies to the sum of their
+/// forces. `β ≥ 0` is the angle between the side and the top or base:
 ///
 /// ```text
 /// 0 ≤ λ    ⟂  g + δ(λ + λ'') ≥ 0
 /// 0 ≤ λ''  ⟂  β ≥ 0                                                                (C7)
 /// ```
 ///
-/// A force that begins to act (+) or vanishes (−) changes the state. `e` is the contact's own
-/// corner and edge, `e'` the partner's, `e''` the flush one. The last column names the force with
-/// the condition that the outgoing path must satisfy.
+/// The state changes if a force begins to act (+) or vanishes (−). `e`, `e'` and `e''` are the
+/// corner and edge of the own contact, of its partner and of the flush contact. The last column
+/// names the force with the condition that the outgoing path must satisfy.
 ///
 /// | State | Force | Next state | Forces | Condition of |
 /// |---|---|---|---|---|
@@ -83,15 +92,17 @@ pub enum CornerContact {
     Open,
     /// A corner rests on an edge: `λ` acts.
     Edge(CornerEdge),
-    /// The two corners coincide: `λ` and `λ'` act.
+    /// Corner on corner: both corners coincide, `λ` and `λ'` act.
     ///
     /// The value is the corner and edge in contact before the corners coincided.
     Corner(CornerEdge),
-    /// A side and the neighbour's end lie flush: `λ`, at the given edge, and `λ''` act.
+    /// A side and the neighbour's top or base lie flush: `λ` and `λ''` act.
+    ///
+    /// The value is the corner and edge of `λ`.
     Flush(CornerEdge),
 }
 
-/// Result of a force that begins to act or vanishes.
+/// Change of the contact state when a force begins to act or vanishes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transition {
     /// Next state.
@@ -103,7 +114,7 @@ pub struct Transition {
 }
 
 impl CornerContact {
-    /// Returns the corner and edge of the force `λ`, or `None` if the contact is open.
+    /// Returns the corner and edge of the own force `λ`, or `None` if the contact is open.
     pub fn edge(self) -> Option<CornerEdge> {
         match self {
             Self::Open => None,
@@ -111,13 +122,15 @@ impl CornerContact {
         }
     }
 
-    /// Returns the corners and edges of the loaded contacts: its own and the flush one.
+    /// Returns the corner and edge of the own force `λ` and of the flush force `λ''`.
+    ///
+    /// `None` for a force that does not act in this state.
     pub fn carrying(self) -> [Option<CornerEdge>; 2] {
         let flush = if let Self::Flush(edge) = self { edge.flush() } else { None };
         [self.edge(), flush]
     }
 
-    /// Returns flags of the forces that act.
+    /// Returns true for each force that acts in this state, in the order of [`Force::ALL`].
     pub fn acting(self) -> [bool; FORCES] {
         match self {
             Self::Open => [false, false, false],
@@ -127,10 +140,11 @@ impl CornerContact {
         }
     }
 
-    /// Applies the table of transitions to the current `forces`.
+    /// Returns the transition that occurs when `force` begins to act or vanishes.
     ///
-    /// A force that has already vanished changes nothing. `None` if the force cannot act next in
-    /// this state.
+    /// `acts` is true if the force begins to act; `forces` are the current values of all forces.
+    /// The result follows the table of [`CornerContact`]. If a force vanishes that does not act,
+    /// the state stays the same. `None` if the force cannot begin to act in this state.
     pub fn transition(
         self,
         force: Force,
@@ -141,12 +155,12 @@ impl CornerContact {
         let [own, partner, flush] = forces;
         let (contact, forces, valid) = match (self, force, acts) {
             (Self::Open, Force::Own, true) => {
-                // An open contact stores no corner, so determine the one that faces an edge at
-                // closure.
+                // The state `Open` stores no corner, so find the corner that faces an edge now.
                 (Self::Edge(corners.facing()?.0), forces, Force::Own)
             }
             (Self::Edge(edge) | Self::Flush(edge), Force::Partner, true) => {
-                // Corner on corner replaces both contacts of the flush edges.
+                // In the state corner on corner one contact carries the forces of both contacts
+                // of flush edges.
                 let forces = [own + flush, partner, 0.0];
                 (Self::reached_corner(edge, corners), forces, Force::Partner)
             }
@@ -154,8 +168,7 @@ impl CornerContact {
             (Self::Edge(_), Force::Own, false) => (Self::Open, forces, Force::Own),
             (Self::Corner(edge), Force::Own, false) => {
                 let [_, other] = corners.together(edge);
-                // The remaining force becomes the own force; the vanished one becomes the
-                // partner's.
+                // The partner becomes the own contact, so the two forces change places.
                 (Self::Edge(other), [partner, own, flush], Force::Partner)
             }
             (Self::Corner(edge), Force::Partner, false) => {
@@ -172,7 +185,7 @@ impl CornerContact {
         Some(Transition { contact, forces, valid })
     }
 
-    /// Returns the state of a corner that has reached the end of its edge.
+    /// Returns the next state of a corner that has reached the end of its edge.
     fn reached_corner(edge: CornerEdge, corners: &Corners) -> Self {
         if corners.are_sides_parallel() {
             Self::Edge(corners.together(edge)[1])

@@ -1,4 +1,4 @@
-//! The two corners that may meet at one level of a pair.
+//! The two corners that may touch at one level of a pair: gaps, normals and angles.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -6,23 +6,24 @@ use geometry::{Corner, Vec2};
 
 use crate::gap::{CornerEdge, Gap, Meeting, Pair, Pose};
 
-/// Angle (radians) below which two edges count as parallel.
+/// Angle (radians) below which two sides count as parallel.
 ///
-/// Between such edges, the force of two corners in contact would turn within the round-off of a
-/// stiff contact. It is transferred at once, which skips a part of the path as small as this angle.
+/// Between nearly parallel sides, the approach of a stiff contact is too small to resolve the state
+/// corner on corner. The contact then switches to the other side at once. The error is of the order
+/// of this angle.
 const PARALLEL: f64 = 1e-6;
 
-/// Level of a pair at which two corners may meet.
+/// Level of a pair at which two corners may touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// Tops: top right corner of the left scale, top left corner of the right one.
+    /// Top right corner of the left scale and top left corner of the right scale.
     Upper,
-    /// Bases: bottom right corner of the left scale, bottom left of the right one.
+    /// Bottom right corner of the left scale and bottom left corner of the right scale.
     Lower,
 }
 
 impl Level {
-    /// Returns the corners that meet, of the left and the right scale.
+    /// Returns the corner of the left scale and the corner of the right scale at this level.
     pub(crate) fn corners(self) -> [Corner; 2] {
         match self {
             Self::Upper => [Corner::TopRight, Corner::TopLeft],
@@ -30,9 +31,7 @@ impl Level {
         }
     }
 
-    /// Returns the contact of the tip with the neighbour's end.
-    ///
-    /// The tip is the sharp corner of this level.
+    /// Returns the contact of the tip, the acute corner, with the neighbour's top or base.
     fn tip_on_end(self) -> CornerEdge {
         match self {
             Self::Upper => CornerEdge::TopRightOnTop,
@@ -40,7 +39,7 @@ impl Level {
         }
     }
 
-    /// Returns the contact of the tip with the neighbour's side.
+    /// Returns the contact of the tip, the acute corner, with the neighbour's side.
     pub(crate) fn tip_on_side(self) -> CornerEdge {
         match self {
             Self::Upper => CornerEdge::TopRightOnLeftEdge,
@@ -48,7 +47,7 @@ impl Level {
         }
     }
 
-    /// Returns the contact of the neighbour's corner with the side ending in the tip.
+    /// Returns the contact of the neighbour's corner with the side that ends in the tip.
     fn corner_on_side(self) -> CornerEdge {
         match self {
             Self::Upper => CornerEdge::TopLeftOnRightEdge,
@@ -57,17 +56,22 @@ impl Level {
     }
 }
 
-/// Two corners that may meet at one level of a pair, in given poses.
+/// Two corners that may touch at one level of a pair, in given poses.
 ///
 /// ```text
 /// upper level:   P = TR of the left scale,   Q = TL of the right scale
 /// lower level:   P = BR of the left scale,   Q = BL of the right scale
 /// ```
 ///
-/// One of the two corners, `P` above and `Q` below, has the acute angle of the slanted scale: the
-/// *tip*. It may rest on the neighbour's side or on the neighbour's *end*, its top or base. The
-/// neighbour's corner may rest on the side that ends in the tip. The inclination of that side
-/// relative to the neighbour's end decides between tip on end and corner on side.
+/// An acute corner of a slanted scale is a *tip*: `P` at the upper level, `Q` at the lower level.
+/// The top and the base are the *end faces* of a scale. Three contacts are possible at a level:
+///
+/// - tip on side: the tip rests on the neighbour's side;
+/// - tip on end: the tip rests on the neighbour's end face;
+/// - corner on side: the neighbour's corner rests on the side that ends in the tip.
+///
+/// The angle between the side that ends in the tip and the neighbour's end face decides between tip
+/// on end and corner on side.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners<'a> {
     pub(crate) level: Level,
@@ -75,35 +79,35 @@ pub struct Corners<'a> {
     pub(crate) poses: [&'a Pose; 2],
 }
 
-/// Angle with its derivative with respect to the rotation of the left scale.
-///
-/// The derivative with respect to the rotation of the right scale is the opposite.
+/// Angle in radians, with its derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Angle {
     pub(crate) value: f64,
+    /// Derivative with respect to the rotation of the left scale.
+    ///
+    /// The derivative with respect to the rotation of the right scale is `-slope`.
     pub(crate) slope: f64,
 }
 
 impl<'a> Corners<'a> {
-    /// Selects the corners at a level of `pair`.
-    ///
-    /// `poses` holds the poses of the left and the right scale.
+    /// Creates the corners at `level` of `pair`, with the poses of the left and the right scale.
     pub fn new(level: Level, pair: &'a Pair, poses: [&'a Pose; 2]) -> Self {
         Self { level, pair, poses }
     }
 
-    /// Returns the corner that faces an edge while the contact is open, with its gap.
+    /// Returns the corner and edge that face each other in an open contact, with the gap.
     ///
-    /// The gap is over `t`. If both corners have their foot within an edge, the corner of the left
-    /// scale counts. `None` if neither has.
+    /// A corner faces an edge if its projection (foot) lies within the edge. If both corners do,
+    /// the corner of the left scale is returned, and `None` if neither does. The gap is in units of
+    /// `t`.
     pub fn facing(&self) -> Option<(CornerEdge, f64)> {
         self.meeting().map(|(edge, meeting)| (edge, meeting.gap))
     }
 
-    /// Returns the corner of [`Self::facing`] with its relation to the edge.
+    /// Returns the corner and edge of [`Self::facing`], with their relative position.
     pub(crate) fn meeting(&self) -> Option<(CornerEdge, Meeting)> {
         let (leaning, on_side) = (self.leaning(), self.level.tip_on_side());
-        // The corner of the left scale comes first; at the upper level it is the tip.
+        // The corner of the left scale is first in the list; at the upper level it is the tip.
         let edges = match self.level {
             Level::Upper => [on_side, leaning],
             Level::Lower => [leaning, on_side],
@@ -111,49 +115,49 @@ impl<'a> Corners<'a> {
         self.pair.facing(edges, self.poses)
     }
 
-    /// Computes the gap between a corner and an edge of this level.
+    /// Computes the gap between a corner and an edge of this level, with derivatives.
     pub fn gap(&self, edge: CornerEdge) -> Gap {
         let [left, right] = self.poses;
         self.pair.gap(edge, left, right)
     }
 
-    /// Returns the normal of an edge of this level, in the poses.
+    /// Returns the direction of a contact force on the left scale, in the current poses.
     pub(crate) fn normal(&self, edge: CornerEdge) -> Vec2 {
         edge.normal(self.pair, self.poses).0
     }
 
-    /// Computes the tangential displacement between a corner and an edge of this level.
+    /// Computes the tangential displacement between a corner and an edge, as [`Pair::slide`].
     pub(crate) fn slide(&self, edge: CornerEdge) -> Gap {
         let [left, right] = self.poses;
         self.pair.slide(edge, left, right)
     }
 
-    /// Returns the two contacts that meet in the state corner on corner.
+    /// Returns the two contacts that act in the state corner on corner: own and partner.
     ///
-    /// The first is the contact `edge` that reached the corner, in the form that it would have on
-    /// leaving it; the second is its partner.
+    /// `edge` is the own contact at the time when the corners coincided. Where this was corner on
+    /// side or tip on end, the current angle of the side selects which of them is returned.
     pub fn together(&self, edge: CornerEdge) -> [CornerEdge; 2] {
         let (leaning, on_side) = (self.leaning(), self.level.tip_on_side());
         if edge == on_side { [on_side, leaning] } else { [leaning, on_side] }
     }
 
-    /// Returns true if the facing sides are parallel up to a negligible angle.
+    /// Returns true if the two facing sides of the pair are parallel up to a negligible angle.
     ///
-    /// The force then need not turn from the normal of one to the normal of the other.
+    /// A contact that reaches the corner then switches to the other side at once.
     pub fn are_sides_parallel(&self) -> bool {
-        // A slant turns an edge clockwise.
+        // A slant rotates a side clockwise.
         let [of_left, of_right] = self.pair.scales();
         let at_rest = of_left.slant() - of_right.slant();
-        // Rotations accumulate over full turns, so compare their sine.
+        // Rotations may contain full turns, so compare the sine of their difference.
         (self.turned() - at_rest).sin().abs() < PARALLEL
     }
 
-    /// Computes the rotation of the left scale relative to the right one, radians.
+    /// Returns the rotation of the left scale relative to the right scale, radians.
     fn turned(&self) -> f64 {
         self.poses[0].rotation - self.poses[1].rotation
     }
 
-    /// Returns corner on side or tip on end, by the inclination of the side.
+    /// Returns corner on side or tip on end, depending on the angle of the side.
     fn leaning(&self) -> CornerEdge {
         if self.beyond_level() > 0.0 {
             self.level.tip_on_end()
@@ -162,9 +166,10 @@ impl<'a> Corners<'a> {
         }
     }
 
-    /// Computes the angle (radians) of the side of the tip beyond the neighbour's end.
+    /// Returns the angle from the neighbour's end face to the side that ends in the tip, radians.
     ///
-    /// At zero the side is level with that end.
+    /// The angle is zero if side and end face are parallel, and positive if the side has rotated
+    /// beyond this position, so that only the tip can rest on the end face.
     fn beyond_level(&self) -> f64 {
         let [of_left, of_right] = self.pair.scales();
         let from_the_vertical = match self.level {
@@ -174,20 +179,20 @@ impl<'a> Corners<'a> {
         from_the_vertical - FRAC_PI_2
     }
 
-    /// Computes `β` of (C7), the angle to the flush state.
+    /// Returns the angle `β` of (C7) between the side that ends in the tip and the end face.
     ///
-    /// If the corner rests on the side (`flush` is then the tip on the end), `β` is the angle by
-    /// which the side is short of level. If the tip rests on the end, `β` is the angle beyond
-    /// level.
+    /// `flush` is the contact that begins to act at `β = 0`. `β` is positive as long as the other
+    /// contact alone can act: before the parallel position if `flush` is tip on end, beyond it if
+    /// `flush` is corner on side.
     pub(crate) fn angle_to_flush(&self, flush: CornerEdge) -> Angle {
         let toward = if flush == self.level.tip_on_end() { -1.0 } else { 1.0 };
         let turning = if self.level == Level::Upper { -1.0 } else { 1.0 };
         Angle { value: toward * self.beyond_level(), slope: toward * turning }
     }
 
-    /// Returns true if a flush corner has not passed the far end of its edge.
+    /// Returns true if the corner of the contact `flush` has not passed the far end of its edge.
     ///
-    /// The far end is the one away from the meeting corners.
+    /// The far end is opposite to the end at which the two corners of this level lie.
     pub(crate) fn is_within_far_end(&self, flush: CornerEdge) -> bool {
         let foot = self.pair.foot(flush, self.poses);
         match (self.level, flush == self.level.tip_on_end()) {

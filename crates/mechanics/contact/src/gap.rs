@@ -5,32 +5,32 @@ mod tests;
 
 use geometry::{Corner, Parallelogram, Vec2};
 
-/// Displacement and rotation of a scale.
+/// Displacement and rotation of a scale from rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Displacement of the node, over `t`.
+    /// Displacement of the node, in units of `t`.
     pub displacement: Vec2,
-    /// Rotation `φ`, counter-clockwise, radians.
+    /// Counter-clockwise rotation `φ`, radians.
     pub rotation: f64,
     cos: f64,
     sin: f64,
 }
 
 impl Pose {
-    /// Creates the pose with node displacements `x`, `y` and `rotation`.
+    /// Creates a pose from the displacement `(x, y)` of the node and the rotation in radians.
     pub fn new(x: f64, y: f64, rotation: f64) -> Self {
-        // Computed once for all vectors that turn with the scale.
+        // Sine and cosine are stored, because many vectors are rotated with each pose.
         let (sin, cos) = rotation.sin_cos();
         Self { displacement: Vec2::new(x, y), rotation, cos, sin }
     }
 
-    /// Rotates a vector with the scale.
+    /// Returns the vector `v` of the scale at rest after the rotation of the scale.
     pub fn turn(&self, v: Vec2) -> Vec2 {
         Vec2::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
     }
 }
 
-/// Corner of one scale and edge of its neighbour that may touch.
+/// Combination of a corner of one scale and an edge of its neighbour that may touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CornerEdge {
     /// Top right corner of the left scale on the left edge of the right scale.
@@ -48,8 +48,8 @@ pub enum CornerEdge {
 }
 
 impl CornerEdge {
-    /// All six combinations, the tips on a top or a base last.
-    // In the order of the variants: a pair indexes its corners and edges by variant.
+    /// All six combinations, in the order of the variants.
+    // The order must not change: `Pair` stores an array that is indexed by variant.
     pub const ALL: [Self; 6] = [
         Self::TopRightOnLeftEdge,
         Self::TopLeftOnRightEdge,
@@ -59,7 +59,7 @@ impl CornerEdge {
         Self::BottomLeftOnBase,
     ];
 
-    /// Returns the name, the corner and the edge.
+    /// Returns the name, the corner, and the function that constructs the edge of a scale.
     fn parts(self) -> (&'static str, Corner, fn(&Parallelogram) -> Edge) {
         match self {
             Self::TopRightOnLeftEdge => ("TR on left edge", Corner::TopRight, Edge::left),
@@ -71,12 +71,12 @@ impl CornerEdge {
         }
     }
 
-    /// Returns the short name used in tables.
+    /// Returns the short name for result tables.
     pub fn name(self) -> &'static str {
         self.parts().0
     }
 
-    /// Returns the corner that touches.
+    /// Returns the corner that touches the edge.
     pub fn corner(self) -> Corner {
         self.parts().1
     }
@@ -86,10 +86,10 @@ impl CornerEdge {
         matches!(self, Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge | Self::TopRightOnTop)
     }
 
-    /// Returns the contact at the other end of two edges that lie flush.
+    /// Returns the second contact of two edges that lie flush, at their other end.
     ///
-    /// For the tip on the neighbour's end this is the neighbour's corner on the side of the tip,
-    /// and vice versa. `None` for a tip on a side.
+    /// For a tip (acute corner) on the neighbour's top or base this is the neighbour's corner on
+    /// the side that ends in the tip, and vice versa. `None` for a tip on the neighbour's side.
     pub fn flush(self) -> Option<Self> {
         match self {
             Self::TopLeftOnRightEdge => Some(Self::TopRightOnTop),
@@ -101,42 +101,44 @@ impl CornerEdge {
     }
 }
 
-/// Gap with its derivatives with respect to the six coordinates of a pair.
+/// Gap between a corner and an edge, with derivatives by the six coordinates of a pair.
 ///
-/// The coordinates are `(x, y, φ)` of the left and `(x, y, φ)` of the right scale.
+/// The coordinates are `(x, y, φ)` of the left scale and `(x, y, φ)` of the right scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// `g`, over `t`; negative where the corner has passed the edge.
+    /// Gap `g` in units of `t`; negative if the corner has passed the edge.
     pub value: f64,
-    /// `∇g`.
+    /// Gradient `∇g`.
     pub gradient: [f64; 6],
-    /// `∇²g`, by its nonzero entries.
+    /// Nonzero entries of the Hessian `∇²g`.
     pub curvature: Curvature,
-    /// Position of the foot of the corner on the edge, from 0 to 1.
+    /// Position of the foot, the projection of the corner onto the edge, as a fraction of the edge.
     ///
-    /// It is 0 at the base, or at the left end of a base or a top.
+    /// A side runs from 0 at the base to 1 at the top; a base or a top from 0 at the left to 1 at
+    /// the right end. Values outside this range lie beyond an end of the edge.
     pub foot: f64,
     /// Outward normal of the edge: the direction of the force on the corner.
     pub normal: Vec2,
 }
 
 /// Nonzero second derivatives (C3) of a gap.
+///
+/// `A` is the scale with the corner, `B` the scale with the edge; `u` and `φ` are displacement and
+/// rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curvature {
-    /// True if the left scale has the corner.
+    /// True if the corner belongs to the left scale.
     pub corner_is_left: bool,
-    /// `n'`: by the displacement of the corner's scale and the rotation of the edge's scale.
-    ///
-    /// By the displacement of the edge's scale the derivative is opposite.
+    /// `n' = ∂²g/∂u_A∂φ_B = −∂²g/∂u_B∂φ_B`.
     pub normal_turned: Vec2,
-    /// `ρ·n`: by both rotations; opposite by the rotation of the corner's scale twice.
+    /// `ρ·n = ∂²g/∂φ_A∂φ_B = −∂²g/∂φ_A²`.
     pub arm: f64,
-    /// `−D·n`: by the rotation of the edge's scale twice.
+    /// `−D·n = ∂²g/∂φ_B²`.
     pub distance: f64,
 }
 
 impl Curvature {
-    /// Returns `∇²g`, a symmetric matrix.
+    /// Returns the symmetric Hessian `∇²g` in the coordinates of the pair.
     pub fn hessian(&self) -> [[f64; 6]; 6] {
         // First coordinates of the scale with the corner (A) and of the scale with the edge (B).
         let (a, b) = if self.corner_is_left { (0, 3) } else { (3, 0) };
@@ -152,12 +154,12 @@ impl Curvature {
     }
 }
 
-/// Two neighbouring scales at rest.
+/// Shapes and relative position of two neighbouring scales at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// Left and right scale.
+    /// Shapes of the left and the right scale.
     scales: [Parallelogram; 2],
-    /// Node of the right scale at rest, relative to the node of the left one.
+    /// Vector from the node of the left scale to the node of the right scale at rest.
     offset: Vec2,
     /// Undeformed corner and edge of each contact, in the order of [`CornerEdge`].
     meetings: [(Vec2, Edge); 6],
@@ -168,11 +170,11 @@ pub struct Pair {
 struct Edge {
     /// Outward unit normal.
     normal: Vec2,
-    /// Distance from the node.
+    /// Distance of the edge from the node of the scale, along the normal.
     distance: f64,
-    /// Start of the edge: at the base, or at the left end of a base or a top.
+    /// Start: the lower end of a side, or the left end of a base or a top.
     start: Vec2,
-    /// Vector from start to end, divided by its squared length.
+    /// Vector from the start to the end of the edge, divided by its squared length.
     along: Vec2,
 }
 
@@ -209,20 +211,22 @@ impl Edge {
     }
 }
 
-/// Rotates a vector by 90° counter-clockwise.
+/// Returns the vector `v` rotated by 90° counter-clockwise.
 pub fn quarter(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 
 impl Pair {
-    /// Creates a pair of equal scales with nodes `pitch` apart (over `t`).
+    /// Creates a pair of equal scales on a flat row.
+    ///
+    /// `pitch` is the distance between the nodes in units of `t`.
     pub fn new(scale: Parallelogram, pitch: f64) -> Self {
         Self::between([scale; 2], Vec2::new(pitch, 0.0))
     }
 
-    /// Creates a pair of a left and a right scale.
+    /// Creates a pair from the left and the right scale.
     ///
-    /// `offset` leads from the node of the left scale to the node of the right one (over `t`).
+    /// `offset` is the vector from the left to the right node at rest, in units of `t`.
     pub fn between(scales: [Parallelogram; 2], offset: Vec2) -> Self {
         let meetings = CornerEdge::ALL.map(|corner_edge| {
             let [left, right] = &scales;
@@ -238,22 +242,22 @@ impl Pair {
         self.scales
     }
 
-    /// Returns the right node relative to the left one, at rest, over `t`.
+    /// Returns the vector from the left to the right node at rest, in units of `t`.
     pub fn offset(&self) -> Vec2 {
         self.offset
     }
 
-    /// Returns the outward normal, at rest, of the edge that a corner meets.
+    /// Returns the outward normal of the edge of `corner_edge` in the scale at rest.
     pub fn normal(&self, corner_edge: CornerEdge) -> Vec2 {
         self.meetings[corner_edge as usize].1.normal
     }
 
-    /// Computes the gap between a corner and an edge, with all its derivatives.
+    /// Computes the gap between a corner and an edge, with first and second derivatives.
     ///
-    /// `ρ` is the vector from the node of scale `A` to its corner, turned by `φ_A`. `n` is the
-    /// outward normal of the edge and `n'` its quarter turn, both turned by `φ_B`. `e` is the
-    /// distance of the edge from the node of `B`, and `D` the vector from the node of `B` to the
-    /// corner. A prime is a quarter turn counter-clockwise:
+    /// Scale `A` has the corner, scale `B` the edge. In the deformed configuration `ρ` is the
+    /// vector from the node of `A` to the corner, `D` the vector from the node of `B` to the
+    /// corner, and `n` the outward normal of the edge. `e` is the distance of the edge from the
+    /// node of `B`. A prime denotes a rotation by 90° counter-clockwise:
     ///
     /// ```text
     /// g = D·n − e                                                                  (C1)
@@ -267,12 +271,12 @@ impl Pair {
         meeting.along(corner_edge, meeting.normal, meeting.gap)
     }
 
-    /// Computes the tangential displacement between corner and edge, with derivatives.
+    /// Computes the tangential coordinate of a corner along an edge, with derivatives.
     ///
-    /// It is positive if the left scale moves in the direction of the contact force on it, turned
-    /// by 90° counter-clockwise. It is measured from the node of the scale with the edge. The
-    /// derivatives are (C1) to (C3) with the quarter turn of the normal, as in [`Pair::gap`];
-    /// `normal` is the sliding direction of the scale with the corner.
+    /// The coordinate is zero at the node of the scale with the edge. It increases if the left
+    /// scale moves in the direction of the contact force on the left scale, rotated by 90°
+    /// counter-clockwise. Value and derivatives follow from (C1) to (C3) of [`Pair::gap`] with `n'`
+    /// for `n` and `e = 0`. The field `normal` of the result is `n'`.
     pub fn slide(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Gap {
         let meeting = self.meeting(corner_edge, left, right);
         let along = quarter(meeting.normal);
@@ -284,12 +288,12 @@ impl Pair {
         self.meeting(corner_edge, left, right).gap
     }
 
-    /// Computes the position of the foot of a corner on an edge, as [`Gap::foot`].
+    /// Computes the position of the foot of a corner on an edge, defined as in [`Gap::foot`].
     pub(crate) fn foot(&self, corner_edge: CornerEdge, [left, right]: [&Pose; 2]) -> f64 {
         self.meeting(corner_edge, left, right).foot
     }
 
-    /// Returns the first of `corner_edges` with its foot within the edge.
+    /// Returns the first of `corner_edges` for which the foot of the corner lies within the edge.
     pub(crate) fn facing(
         &self,
         corner_edges: [CornerEdge; 2],
@@ -301,6 +305,7 @@ impl Pair {
         })
     }
 
+    /// Computes the position of a corner relative to an edge in the given poses.
     #[inline]
     fn meeting(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Meeting {
         let (corner_pose, edge_pose, offset) = if corner_edge.corner_is_left() {
@@ -310,7 +315,8 @@ impl Pair {
         };
         let (corner, edge) = &self.meetings[corner_edge as usize];
         let arm = corner_pose.turn(*corner);
-        // Relative positions, so that the position of the pair in a long row costs no digits.
+        // Only relative positions are used, so the precision does not depend on the position of the
+        // pair in a long row.
         let to_corner = offset + (corner_pose.displacement - edge_pose.displacement) + arm;
         let normal = edge_pose.turn(edge.normal);
         let gap = to_corner.dot(&normal) - edge.distance;
@@ -319,22 +325,27 @@ impl Pair {
     }
 }
 
-/// Corner at an edge of the neighbour, deformed.
+/// Position of a corner relative to an edge of the neighbour, in deformed poses.
 pub(crate) struct Meeting {
+    /// Vector `ρ` from the node of the scale with the corner to the corner.
     arm: Vec2,
+    /// Outward normal `n` of the edge.
     normal: Vec2,
+    /// Vector `D` from the node of the scale with the edge to the corner.
     to_corner: Vec2,
+    /// Gap `g`, in units of `t`.
     pub(crate) gap: f64,
+    /// Position of the foot, as [`Gap::foot`].
     foot: f64,
 }
 
 impl Meeting {
-    /// Computes the gradient of the gap.
+    /// Returns the gradient of the gap.
     pub(crate) fn gradient(&self, corner_edge: CornerEdge) -> [f64; 6] {
         self.gradient_along(corner_edge, self.normal)
     }
 
-    /// Differentiates the coordinate of the corner along a direction fixed to the edge.
+    /// Returns the gradient of the coordinate of the corner along a direction fixed to the edge.
     #[inline]
     fn gradient_along(&self, corner_edge: CornerEdge, direction: Vec2) -> [f64; 6] {
         let (of_corner, of_edge) =
@@ -347,7 +358,9 @@ impl Meeting {
         }
     }
 
-    /// Evaluates the coordinate of the corner along a direction fixed to the edge.
+    /// Adds the derivatives to the coordinate `value` of the corner along `direction`.
+    ///
+    /// `direction` is fixed to the edge: its normal, or the normal rotated by 90°.
     #[inline]
     fn along(&self, corner_edge: CornerEdge, direction: Vec2, value: f64) -> Gap {
         let curvature = Curvature {
@@ -361,6 +374,7 @@ impl Meeting {
     }
 }
 
+/// Sets the entries `(row, column)` and `(column, row)` of a symmetric matrix.
 fn set(hessian: &mut [[f64; 6]; 6], row: usize, column: usize, value: f64) {
     hessian[row][column] = value;
     hessian[column][row] = value;

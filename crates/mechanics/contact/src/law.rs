@@ -1,4 +1,4 @@
-//! Contact law, Eq. (5).
+//! Power law between force and approach of a contact, Eq. (5) of Shafiei et al. (2021).
 
 use geometry::OutOfRange;
 
@@ -15,7 +15,7 @@ impl Law {
     /// Constants as printed by Shafiei et al. (2021): `C₁ = 1.1`, `C₂ = 0.23`.
     pub const PRINTED: Self = Self { c1: 1.1, c2: 0.23 };
 
-    /// Printed constants exchanged; finite elements support this reading.
+    /// Printed constants with exchanged values, which agree better with finite elements.
     pub const EXCHANGED: Self = Self { c1: 0.23, c2: 1.1 };
 }
 
@@ -25,41 +25,43 @@ impl Law {
 /// δ(λ) = L (λ/λ₀)^(1/C₂),    λ₀ = C₁ L b E_ct                                      (C4)
 /// ```
 ///
-/// This is Eq. (5) in compliance form. For `C₂ < 1` the stiffness is infinite at first touch, so
-/// the force as a function of the approach is unsuitable for Newton's method. The approach as a
-/// function of the force is smooth, with zero slope at zero. For `C₂ > 1` the compliance is
-/// infinite at first touch, but drops quickly: at `10⁻¹² λ₀` the slope is moderate. Below this
-/// force a parabola with the same value and slope replaces the law.
+/// This is Eq. (5) solved for the approach. For `C₂ < 1` the derivative `dλ/dδ` is infinite at
+/// `δ = 0`, so `λ(δ)` is unsuitable for Newton's method, while `δ(λ)` is smooth and has zero slope
+/// at `λ = 0`. For `C₂ > 1` the slope of `δ(λ)` is infinite at `λ = 0` but moderate from
+/// `10⁻¹² λ₀` on. Below this force a parabola replaces the power law, with the value and the slope
+/// of the power law at `10⁻¹² λ₀`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactLaw {
-    /// `λ₀`, the force at `δ = L`.
+    /// Force `λ₀` at the approach `δ = L`.
     force: f64,
-    /// `L`.
+    /// Length `L`, in units of `t`.
     length: f64,
+    /// Exponent `C₂`.
     exponent: f64,
     /// Coefficient of friction `μ` between two scales.
     friction: f64,
 }
 
-/// Force, as a fraction of `λ₀`, below which a parabola keeps the slope finite.
+/// Force, as a fraction of `λ₀`, below which a parabola replaces the power law for `C₂ > 1`.
 const SMALLEST_FORCE: f64 = 1e-12;
 
-/// Approach of two scales under a contact force.
+/// Approach of two scales under a contact force `λ`, with its derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
-    /// Approach `δ`, over `t`.
+    /// Approach `δ`, in units of `t`.
     pub value: f64,
-    /// `dδ/dλ`.
+    /// Derivative `dδ/dλ`.
     pub slope: f64,
 }
 
 impl ContactLaw {
-    /// Creates the law for scales of length `L` and width `b` (over `t`).
+    /// Creates the law without friction for scales of length `L` and width `b`.
     ///
-    /// The contact modulus `E_ct` is in the modulus unit of the forces.
+    /// Both lengths are in units of `t`. `modulus` is the contact modulus `E_ct`, in units of the
+    /// modulus by which forces are divided (`E*` in puncture, `E_m` in bending).
     ///
     /// # Errors
-    /// If a number is not positive and finite.
+    /// If a constant, a length or the modulus is not positive and finite.
     pub fn new(law: Law, length: f64, width: f64, modulus: f64) -> Result<Self, OutOfRange> {
         let numbers = [
             ("c1 of the contact law", law.c1),
@@ -76,7 +78,7 @@ impl ContactLaw {
         Ok(Self { force, length, exponent: law.c2, friction: 0.0 })
     }
 
-    /// Adds Coulomb friction with the coefficient `μ`.
+    /// Returns the law with the coefficient `friction` of Coulomb friction.
     ///
     /// # Errors
     /// If the coefficient is negative or not finite.
@@ -91,14 +93,15 @@ impl ContactLaw {
         Ok(Self { friction, ..self })
     }
 
-    /// Returns the coefficient of friction between two scales.
+    /// Returns the coefficient of friction `μ` between two scales.
     pub fn friction(&self) -> f64 {
         self.friction
     }
 
-    /// Computes the approach under a force, Eq. (C4).
+    /// Computes the approach `δ` under the force `λ`, Eq. (C4).
     ///
-    /// Negative forces, through which Newton's method may pass, give an odd continuation.
+    /// Newton iterations may pass through negative forces, so `δ` is continued as an odd function:
+    /// `δ(−λ) = −δ(λ)`.
     pub fn approach(&self, force: f64) -> Approach {
         let n = self.exponent.recip();
         let ratio = force / self.force;
@@ -106,7 +109,7 @@ impl ContactLaw {
             return self.first_approach(n, ratio / SMALLEST_FORCE);
         }
         let value = self.length * ratio.abs().powf(n).copysign(ratio);
-        // Derived from the value, to save a second power.
+        // Computed from the value, because a second power would be expensive.
         let slope = if ratio.abs() > SMALLEST_FORCE {
             n * value / force
         } else {
@@ -115,11 +118,12 @@ impl ContactLaw {
         Approach { value, slope }
     }
 
-    /// Evaluates the parabola `(2 − n) x − (1 − n) x |x|`.
+    /// Computes the approach at small forces by the parabola `(2 − n) x − (1 − n) x |x|`.
     ///
-    /// It meets `xⁿ` smoothly at `x = 1`. `x` is relative to the smallest force. Value and slope
-    /// must be consistent: while a contact opens, the path turns within these forces, and Newton's
-    /// method follows it.
+    /// `x` is the force divided by the smallest force of the power law. At `x = 1` the parabola has
+    /// the value and the slope of `xⁿ`. The returned slope is the exact derivative of the value:
+    /// while a contact opens, the equilibrium path may turn at such small forces, and Newton's
+    /// method must converge there.
     fn first_approach(&self, n: f64, x: f64) -> Approach {
         let unit = self.length * SMALLEST_FORCE.powf(n);
         Approach {
@@ -128,7 +132,7 @@ impl ContactLaw {
         }
     }
 
-    /// Computes the elastic energy `∫ λ dδ = λ δ / (1 + C₂)` of a contact.
+    /// Returns the elastic energy `∫ λ dδ = λ δ/(1 + C₂)` of a contact under the force `λ`.
     pub fn energy(&self, force: f64) -> f64 {
         force * self.approach(force).value / (1.0 + self.exponent)
     }
@@ -145,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn force_and_approach_obey_equation_5() {
+    fn force_and_approach_satisfy_equation_5() {
         for (law, contact) in laws() {
             for force in [1e-3, 0.1, 20.0, 900.0] {
                 let approach = contact.approach(force).value;
@@ -156,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn slope_is_the_derivative_on_both_sides_of_zero() {
+    fn slope_is_the_derivative_for_positive_and_negative_forces() {
         for (_, contact) in laws() {
             for force in [-3.0_f64, -0.02, 0.02, 3.0] {
                 let h = 1e-6 * force.abs();
@@ -168,11 +172,9 @@ mod tests {
         }
     }
 
-    /// Also holds for an exponent with infinite slope at zero.
-    ///
-    /// The parabola replaces the power law there.
+    /// Checks the parabola for a law with `C₂ > 1`, around the smallest force of the power law.
     #[test]
-    fn slope_is_the_derivative_at_first_touch() {
+    fn slope_is_the_derivative_of_the_parabola_at_small_forces() {
         let (law, contact) = laws()[1];
         let smallest = 1e-12 * law.c1 * 0.4 * 1.5 * 7000.0;
         for part in [-0.9, -0.1, 0.1, 0.5, 0.9, 1.0, 1.1, 2.0] {
@@ -184,14 +186,14 @@ mod tests {
     }
 
     #[test]
-    fn the_slope_at_first_touch_is_finite() {
+    fn the_slope_at_zero_force_is_finite() {
         for (_, contact) in laws() {
             assert!(contact.approach(0.0).slope.is_finite());
         }
     }
 
     #[test]
-    fn energy_is_the_work_of_the_force() {
+    fn energy_equals_the_work_of_the_force() {
         for (_, contact) in laws() {
             let n = 20_000;
             let work: f64 = (0..n)
@@ -207,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn constants_must_be_positive() {
+    fn constants_that_are_not_positive_are_refused() {
         let error = ContactLaw::new(Law { c1: 1.1, c2: 0.0 }, 1.0, 1.0, 1.0).unwrap_err();
         assert_eq!(error.to_string(), "c2 of the contact law is 0, expected a positive number");
     }

@@ -1,7 +1,8 @@
-//! Overlap of deformed scales, for the interpenetration audit.
+//! Overlap of deformed scales, for the interpenetration audit and for drawings.
 //!
-//! This module uses collision queries instead of gaps. They handle scales in general position, but
-//! lose digits on aligned edges, so equilibria must never use them.
+//! This module uses collision queries of a geometry library instead of gaps. The queries accept
+//! scales in any relative position, but lose precision for parallel edges, so they are not used for
+//! computing equilibria.
 
 use geometry::{Parallelogram, Vec2};
 use parry2d_f64::math::{Pose as Placement, Vector};
@@ -11,21 +12,21 @@ use parry2d_f64::transformation::convex_polygons_intersection_points;
 
 use crate::gap::Pose;
 
-/// Overlapping pair of scales.
+/// Two scales that overlap, and the depth of their overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overlap {
-    /// Index of the left scale.
+    /// Index of the left scale in the row.
     pub left: usize,
-    /// Index of the right scale.
+    /// Index of the right scale in the row.
     pub right: usize,
-    /// Least displacement that separates the two scales, over `t`.
+    /// Length of the smallest translation that separates the two scales, in units of `t`.
     pub depth: f64,
 }
 
-/// Finds all overlapping pairs of scales of a row, neighbours or not.
+/// Returns all pairs of scales of a row that overlap, also pairs that are not neighbours.
 ///
-/// `standing(i)` returns the shape of scale `i` and its node at rest. Displacements count from
-/// these nodes.
+/// `standing(i)` returns the shape of scale `i` and the position of its node at rest. `poses[i]`
+/// contains the displacement from this position.
 pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, Vec2), poses: &[Pose]) -> Vec<Overlap> {
     let extents: Vec<Extents> = poses
         .iter()
@@ -35,7 +36,7 @@ pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, Vec2), poses: &[Pose
             Extents::new(&scale, pose, node)
         })
         .collect();
-    // `begins[k]`: leftmost extent of scale `k` and all scales to its right.
+    // `begins[k]` is the left end of the extents of scale `k` and all scales with larger indices.
     let mut begins: Vec<f64> = extents.iter().map(|extents| extents.horizontal.0).collect();
     for k in (1..begins.len()).rev() {
         begins[k - 1] = begins[k - 1].min(begins[k]);
@@ -58,10 +59,13 @@ pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, Vec2), poses: &[Pose
     overlaps
 }
 
-/// Extents of a scale: horizontal, and normal to the side edges at its `slant`.
+/// Extents of a deformed scale in two fixed directions, for fast rejection of distant scales.
 struct Extents {
+    /// Smallest and largest horizontal coordinate of the corners.
     horizontal: (f64, f64),
+    /// Smallest and largest coordinate normal to the sides of the scale at rest.
     across: (f64, f64),
+    /// Slant of the scale in radians, which defines the direction of `across`.
     slant: f64,
 }
 
@@ -73,41 +77,46 @@ impl Extents {
         Self { horizontal: extent(&corners, Vec2::x()), across, slant }
     }
 
-    /// Returns true if one of the two directions separates the scales.
+    /// Returns true if the extents in one of the two directions do not overlap.
     fn are_apart(&self, other: &Self) -> bool {
-        // Extents across the sides are comparable only for equal slants.
+        // The extents `across` have the same direction only for equal slants.
         let alike = self.slant == other.slant;
         apart(self.horizontal, other.horizontal) || (alike && apart(self.across, other.across))
     }
 }
 
-/// Computes the polygon in which two scales overlap; empty if they do not.
+/// Returns the corners of the polygon in which two equal scales overlap, or an empty vector.
 ///
-/// `offset` is the distance between the nodes of the scales at rest.
+/// `offset` is the horizontal distance between the nodes of both scales at rest.
 pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &Pose) -> Vec<Vec2> {
     let [first, second] = [(left, Vec2::zeros()), (right, Vec2::new(offset, 0.0))]
         .map(|(pose, at)| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y)));
     let mut polygon = Vec::new();
-    // For drawings only: this function is unreliable for edges that lie on each other.
+    // This function is unreliable if edges lie on each other, so use it only for drawings.
     convex_polygons_intersection_points(&first, &second, &mut polygon);
     polygon.iter().map(|v| Vec2::new(v.x, v.y)).collect()
 }
 
+/// Returns the depth of the overlap of two scales, or `None` if they do not overlap.
+///
+/// `offset` is the vector from the first to the second node at rest.
 fn depth(scales: [&Parallelogram; 2], offset: Vec2, poses: [&Pose; 2]) -> Option<f64> {
     let [first, second] = [(0, Vec2::zeros()), (1, offset)].map(|(i, at)| {
         let points = corners(scales[i], poses[i], at).map(|v| Vector::new(v.x, v.y));
         ConvexPolygon::from_convex_polyline_unmodified(points.to_vec())
     });
-    // The corners already have their final positions.
+    // The corners are already in their deformed positions.
     let here = Placement::IDENTITY;
     let contact = query::contact(&here, &first?, &here, &second?, 0.0).ok()??;
     (contact.dist < 0.0).then_some(-contact.dist)
 }
 
+/// Returns the deformed positions of the corners of a scale with its node at `at` at rest.
 fn corners(scale: &Parallelogram, pose: &Pose, at: Vec2) -> [Vec2; 4] {
     scale.corners().map(|corner| at + pose.displacement + pose.turn(corner))
 }
 
+/// Returns the smallest and largest coordinate of `points` along a direction.
 fn extent(points: &[Vec2], direction: Vec2) -> (f64, f64) {
     points
         .iter()
@@ -115,6 +124,7 @@ fn extent(points: &[Vec2], direction: Vec2) -> (f64, f64) {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
 }
 
+/// Returns true if two intervals do not overlap.
 fn apart(a: (f64, f64), b: (f64, f64)) -> bool {
     a.1 < b.0 || b.1 < a.0
 }
@@ -128,7 +138,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn a_scale_pushed_into_its_neighbour_overlaps_by_as_much() {
+    fn a_scale_displaced_by_more_than_the_gap_overlaps_by_the_difference() {
         let scale = Parallelogram::new(0.5, 0.0).unwrap();
         let poses =
             [Pose::new(0.0, 0.0, 0.0), Pose::new(-0.25, 0.02, 0.0), Pose::new(0.0, 0.0, 0.0)];
@@ -139,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn scales_that_jump_over_a_neighbour_are_found() {
+    fn a_scale_that_has_passed_its_neighbour_overlaps_with_the_next_scale() {
         let scale = Parallelogram::new(0.1, 45.0).unwrap();
         let rest = Pose::new(0.0, 0.0, 0.0);
         let poses = [Pose::new(0.55, 0.0, 0.0), rest, rest];
@@ -148,16 +158,18 @@ mod tests {
     }
 
     #[test]
-    fn an_overlap_beyond_scales_in_between_is_found() {
+    fn an_overlap_of_scales_that_are_not_neighbours_is_found() {
         let scale = Parallelogram::new(0.1, 0.0).unwrap();
-        // The two scales between are displaced far to the right.
+        // The two scales between the first and the last are displaced far to the right.
         let poses = [0.0, 0.9, 0.9, -0.85].map(|x| Pose::new(x, 0.0, 0.0));
         let found = overlaps(|i| (scale, Vec2::new(0.3 * i as f64, 0.0)), &poses);
         assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 3)]);
         assert_relative_eq!(found[0].depth, 0.15, epsilon = 1e-9);
     }
 
-    /// Computes the overlap of two convex polygons by the separating-axis theorem.
+    /// Computes the depth of the overlap of two convex polygons by the separating-axis theorem.
+    ///
+    /// Negative if the polygons do not overlap.
     fn overlap(first: &[Vec2; 4], second: &[Vec2; 4]) -> f64 {
         let edges = [first, second].into_iter().flat_map(|corners| {
             (0..4).map(|i| quarter((corners[(i + 1) % 4] - corners[i]).normalize()))
@@ -194,9 +206,9 @@ mod tests {
     }
 
     #[test]
-    fn the_overlap_of_two_tilted_blocks_is_a_triangle_of_the_right_area() {
+    fn the_overlap_of_a_tilted_and_an_upright_block_is_a_triangle_of_known_area() {
         let scale = Parallelogram::new(0.5, 0.0).unwrap();
-        // The left block leans over its neighbour's vertical edge with its top right corner.
+        // The top right corner of the tilted left block has passed the left side of its neighbour.
         let phi = 0.2_f64;
         let left = Pose::new(0.0, -0.2, -phi);
         let polygon = overlap_polygon(&scale, 1.1, &left, &Pose::new(0.0, 0.0, 0.0));

@@ -1,4 +1,4 @@
-//! Forces and conditions of a contact of two corners, with all derivatives.
+//! Forces and complementarity conditions of a contact of two corners, with derivatives.
 
 use geometry::Vec2;
 
@@ -13,30 +13,30 @@ pub const COORDINATES: usize = 6;
 /// Indices of the rotations of the two scales among the coordinates.
 pub(crate) const ROTATIONS: [usize; 2] = [2, 5];
 
-/// Value of an equation with its derivatives.
+/// Value of an equation of the system, with its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Equation {
-    /// Value of the equation.
+    /// Value: the residual of a balance, or the left-hand side of a condition `… ≥ 0`.
     pub value: f64,
     /// Derivatives with respect to the coordinates of the pair.
     pub by_coordinate: [f64; COORDINATES],
-    /// Derivatives with respect to the three forces, in the order of [`Force::ALL`].
+    /// Derivatives with respect to the three contact forces, in the order of [`Force::ALL`].
     pub by_force: [f64; FORCES],
 }
 
 /// Contribution of a contact of two corners to the equations of a system.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CornerResponse {
-    /// Negative generalised force of the contact in each coordinate of the pair.
+    /// Negative generalised force of the contact on each coordinate of the pair.
     pub balance: [Equation; COORDINATES],
-    /// Conditions (C6) and (C7) of the three forces, which hold if not negative.
+    /// Condition (C6) or (C7) of each force; it is satisfied if its value is not negative.
     ///
-    /// `None` for a force that cannot act next in this state.
+    /// `None` for a force that cannot begin to act in this state.
     pub conditions: [Option<Equation>; FORCES],
 }
 
 impl CornerContact {
-    /// Evaluates forces, conditions and their derivatives at the given `forces`.
+    /// Evaluates balance and conditions, with derivatives, at the given `forces`.
     pub fn response(
         self,
         corners: &Corners,
@@ -51,7 +51,9 @@ impl CornerContact {
         response
     }
 
-    /// Evaluates the conditions of the forces that do not act.
+    /// Evaluates the conditions of the forces that do not act in this state.
+    ///
+    /// `None` for a force that acts, or that cannot begin to act.
     pub fn resting_conditions(self, corners: &Corners) -> [Option<Equation>; FORCES] {
         match self {
             Self::Open => [open_condition(corners), None, None],
@@ -65,12 +67,12 @@ impl CornerContact {
         }
     }
 
-    /// Evaluates the response without the conditions of the forces that do not act.
+    /// Evaluates the balance, and the conditions of the forces that act.
     ///
-    /// `held` is a friction coefficient for corner on corner: each force on the left scale gains a
-    /// part `held` times as large, turned by 90° counter-clockwise, that acts at its own corner. It
-    /// represents friction carried over from the contact that arrived, and does not enter the
-    /// contact law.
+    /// `held` is a ratio of friction to normal force for corner on corner. For each normal force on
+    /// the left scale, the balance contains a friction force: the normal force times `held`,
+    /// rotated by 90° counter-clockwise, at the corner of this normal force. `held` is the ratio at
+    /// which the corners coincided. Friction does not enter the contact law.
     pub fn acting_response(
         self,
         corners: &Corners,
@@ -84,9 +86,9 @@ impl CornerContact {
             Self::Corner(edge) => {
                 let edges = corners.together(edge);
                 let mut response = Together::new(corners, edges).response(law, forces);
-                // Friction acts at the corner that rests on an edge. Corners approach each other
-                // under force, so one common point would change the moments by a jump as a corner
-                // reaches or leaves the end of its edge.
+                // Each friction force acts at the corner that rests on its edge. The corners are
+                // the approach `δ` apart, so with one common point of action the moments would
+                // jump when a corner reaches or leaves the end of its edge.
                 if held != 0.0 {
                     for (which, edge) in [Force::Own, Force::Partner].into_iter().zip(edges) {
                         response.add_force(which, &corners.slide(edge), forces, held);
@@ -96,7 +98,7 @@ impl CornerContact {
             }
             Self::Flush(edge) => {
                 let mut response = CornerResponse::edge(edge, corners, law, forces);
-                // `flush` always exists here: a tip on a side never becomes flush.
+                // `flush()` is always `Some`, because a tip on a side never becomes flush.
                 if let Some(flush) = edge.flush() {
                     response.add_force(Force::Flush, &corners.gap(flush), forces, 1.0);
                     response.conditions[Force::Flush as usize] =
@@ -107,9 +109,10 @@ impl CornerContact {
         }
     }
 
-    /// Returns the forces of both corners and of the flush contact on the left scale.
+    /// Returns the contact forces on the left scale: at the two corners, and of the flush contact.
     ///
-    /// The forces on the right scale are opposite.
+    /// The first vector is the sum of `λ` and `λ'` with their directions, the second belongs to
+    /// `λ''`. The forces on the right scale are opposite.
     pub fn forces_on_left(self, corners: &Corners, forces: [f64; FORCES]) -> [Vec2; 2] {
         let [own, partner, flush] = forces;
         match self {
@@ -128,7 +131,7 @@ impl CornerContact {
 }
 
 impl CornerResponse {
-    /// Evaluates a corner on an edge: the first condition of (C6) or of (C7).
+    /// Evaluates a corner on an edge: balance, and the first condition of (C6) or (C7).
     fn edge(edge: CornerEdge, corners: &Corners, law: &ContactLaw, forces: [f64; FORCES]) -> Self {
         let gap = corners.gap(edge);
         let approach = law.approach(forces[Force::Own as usize] + forces[Force::Flush as usize]);
@@ -146,7 +149,9 @@ impl CornerResponse {
         Self { balance, conditions: [Some(condition), None, None] }
     }
 
-    /// Adds the balance of `ratio` times one of the forces, which acts along a gap or a slide.
+    /// Adds to the balance the force `which`, multiplied by `ratio`.
+    ///
+    /// `gap` is the coordinate in the direction of the force: a gap, or a slide for friction.
     fn add_force(&mut self, which: Force, gap: &Gap, forces: [f64; FORCES], ratio: f64) {
         let (force, hessian) = (ratio * forces[which as usize], gap.curvature.hessian());
         for (i, row) in self.balance.iter_mut().enumerate() {
@@ -159,20 +164,20 @@ impl CornerResponse {
     }
 }
 
-/// Evaluates the gap of an open contact; `None` if no corner faces an edge.
+/// Evaluates the condition of an open contact, its gap; `None` if no corner faces an edge.
 fn open_condition(corners: &Corners) -> Option<Equation> {
     let (edge, meeting) = corners.meeting()?;
     let (value, by_coordinate) = (meeting.gap, meeting.gradient(edge));
     Some(Equation { value, by_coordinate, ..Equation::default() })
 }
 
-/// Evaluates the second condition of (C6) for a corner on an edge.
+/// Evaluates the second condition of (C6) for a corner on an edge while `λ' = 0`.
 fn partner_condition(edge: CornerEdge, corners: &Corners) -> Equation {
     let [_, partner] = corners.together(edge);
     Together::new(corners, [edge, partner]).short_of_the_end()
 }
 
-/// Evaluates `β` of (C7).
+/// Evaluates the condition `β ≥ 0` of (C7).
 fn flush_condition(corners: &Corners, flush: CornerEdge) -> Equation {
     let angle = corners.angle_to_flush(flush);
     let mut condition = Equation { value: angle.value, ..Equation::default() };
@@ -183,11 +188,14 @@ fn flush_condition(corners: &Corners, flush: CornerEdge) -> Equation {
 }
 
 impl CornerEdge {
-    /// Returns the force direction on the left scale and the rotation that turns it.
+    /// Returns the direction of the contact force on the left scale.
+    ///
+    /// The second value is the index of the coordinate, the rotation of the scale with the edge,
+    /// with which the direction rotates.
     pub(crate) fn normal(self, pair: &Pair, [left, right]: [&Pose; 2]) -> (Vec2, usize) {
         let (normal, [with_left, with_right]) = (pair.normal(self), ROTATIONS);
-        // The corner is pushed along the outward normal of the edge; the other scale in the
-        // opposite direction.
+        // The force on the scale with the corner acts along the outward normal of the edge, the
+        // force on the scale with the edge in the opposite direction.
         if self.corner_is_left() {
             (right.turn(normal), with_right)
         } else {
@@ -196,21 +204,24 @@ impl CornerEdge {
     }
 }
 
-/// Two corners at or near each other, with the directions at them.
+/// Relative position of the two corners `P` and `Q` of a level, and the directions of their forces.
 pub(crate) struct Together {
-    /// `D = P − Q`.
+    /// Vector `D = P − Q`.
     apart: Vec2,
-    /// Vector from the node of each scale to its corner, turned.
+    /// Vectors from the node of the left scale to `P` and from the node of the right scale to `Q`.
     pub(crate) arms: [Vec2; 2],
-    /// `m` of the contact itself and of its partner.
+    /// Normal `m` of the own contact and normal `m'` of its partner.
     pub(crate) normals: [Vec2; 2],
-    /// Index of the rotation that turns each normal.
+    /// Index of the coordinate, a rotation, with which each of the two normals rotates.
     turns: [usize; 2],
-    /// `s` of the contact itself, times `σ`.
+    /// Direction `σ s` along the edge of the own contact.
+    ///
+    /// `D·σs` is positive if the corner of the own contact has passed the end of its edge.
     beyond: Vec2,
 }
 
 impl Together {
+    /// Computes the relative position for the own contact `own` and its partner.
     pub(crate) fn new(corners: &Corners, [own, partner]: [CornerEdge; 2]) -> Self {
         let Corners { level, pair, poses } = *corners;
         let [left, right] = poses;
@@ -220,35 +231,35 @@ impl Together {
         let apart = (left.displacement - right.displacement) + (arms[0] - arms[1]) - pair.offset();
         let [(normal, turn), (other_normal, other_turn)] =
             [own, partner].map(|edge| edge.normal(pair, poses));
-        // A normal that points left, turned clockwise, points up its edge. The tip leaves the
-        // neighbour's side towards the end of that side, and the neighbour's corner leaves the side
-        // of the tip towards the tip.
+        // If the tip passes the end of the neighbour's side, `D` points up along this side: along
+        // the normal, which points to the left, rotated clockwise. In the other two contacts `D`
+        // points along the normal rotated counter-clockwise.
         let beyond = if own == level.tip_on_side() { -quarter(normal) } else { quarter(normal) };
         Self { apart, arms, normals: [normal, other_normal], turns: [turn, other_turn], beyond }
     }
 
-    /// Returns the component of a vector along the edge, beyond its end.
+    /// Returns the component `v·σs` of a vector along the edge of the own contact.
     pub(crate) fn overrun(&self, v: Vec2) -> f64 {
         v.dot(&self.beyond)
     }
 
-    /// Returns the distances of a vector along the edge's normal and short of its end.
+    /// Returns the components `v·m` and `−v·σs` of (C6).
     fn distances(&self, v: Vec2) -> [f64; 2] {
         [v.dot(&self.normals[0]), -self.overrun(v)]
     }
 
-    /// Evaluates the second condition of (C6), `v = D`, while the partner's force is 0.
+    /// Evaluates the second condition of (C6) with `v = D`, while the partner's force is 0.
     fn short_of_the_end(&self) -> Equation {
         let mut condition = Equation { value: -self.overrun(self.apart), ..Equation::default() };
         for (i, slope) in condition.by_coordinate.iter_mut().enumerate() {
             *slope = -self.overrun(self.apart_slope(i));
         }
-        // The edge turns with its scale, and with it the direction beyond its end.
+        // The direction `σs` rotates with the scale of the edge.
         condition.by_coordinate[self.turns[0]] -= self.apart.dot(&quarter(self.beyond));
         condition
     }
 
-    /// Evaluates corner on corner: both forces act, (C5) and (C6).
+    /// Evaluates the state corner on corner, in which both forces act, by (C5) and (C6).
     fn response(&self, law: &ContactLaw, [own, partner, _]: [f64; FORCES]) -> CornerResponse {
         let force = own * self.normals[0] + partner * self.normals[1];
         let turning = std::array::from_fn(|i| self.force_slope([own, partner], i));
@@ -257,7 +268,9 @@ impl Together {
         CornerResponse { balance, conditions: [Some(closed), Some(at_end), None] }
     }
 
-    /// Evaluates the conditions (C6) under a force `f` with derivatives `turning`.
+    /// Evaluates both conditions (C6) under a force `f`.
+    ///
+    /// `turning` contains the derivative of `f` with respect to each coordinate of the pair.
     fn conditions(
         &self,
         law: &ContactLaw,
@@ -282,8 +295,8 @@ impl Together {
 
     /// Evaluates the balance of both scales under a force `f`.
     ///
-    /// `turning` holds the derivatives of `f` with respect to each coordinate. `parts` holds the
-    /// derivatives with respect to `λ` and `λ'`.
+    /// `turning` contains the derivative of `f` with respect to each coordinate, `parts` the
+    /// derivatives of `f` with respect to `λ` and `λ'`.
     fn balance(
         &self,
         f: Vec2,
@@ -299,14 +312,15 @@ impl Together {
                 by_force: [own, partner, 0.0],
             }
         });
-        // Turning an arm turns the direction in which its corner moves.
+        // A rotation of a scale also rotates the direction in which a further rotation moves its
+        // corner.
         let [left, right] = ROTATIONS;
         balance[left].by_coordinate[left] += f.dot(&self.arms[0]);
         balance[right].by_coordinate[right] -= f.dot(&self.arms[1]);
         balance
     }
 
-    /// Returns `∂D` by a coordinate of the pair.
+    /// Returns the derivative of `D` with respect to a coordinate of the pair.
     pub(crate) fn apart_slope(&self, coordinate: usize) -> Vec2 {
         match coordinate {
             0 => Vec2::x(),
@@ -318,7 +332,9 @@ impl Together {
         }
     }
 
-    /// Returns `∂f` by a coordinate of the pair: a normal turns with its scale.
+    /// Returns the derivative of the force `f` with respect to a coordinate of the pair.
+    ///
+    /// It is not zero only for rotations, because each normal rotates with the scale of its edge.
     fn force_slope(&self, forces: [f64; 2], coordinate: usize) -> Vec2 {
         let mut slope = Vec2::zeros();
         for ((&normal, &turn), force) in self.normals.iter().zip(&self.turns).zip(forces) {
@@ -330,21 +346,23 @@ impl Together {
     }
 }
 
-/// Secant form of the law along a force `f`.
+/// Secant compliance `h = δ/|f|` of the contact law under a force `f`, with its derivative.
 ///
-/// `δ f/|f| = h f` and `d(h f) = h df + (h'/|f|) (f·df) f`.
+/// With a prime for the derivative by `|f|`, `δ f/|f| = h f` and
+/// `d(h f) = h df + (h'/|f|) (f·df) f`.
 pub(crate) struct Secant {
-    /// `h = δ/|f|`.
+    /// Secant compliance `h`.
     pub(crate) compliance: f64,
-    /// `h'/|f|`.
+    /// Coefficient `h'/|f|`.
     pub(crate) growth: f64,
 }
 
 impl Secant {
+    /// Evaluates the contact law under the force `f`.
     pub(crate) fn new(law: &ContactLaw, f: Vec2) -> Self {
         let force = f.norm();
         if force == 0.0 {
-            // In the limit of zero force the secant is the tangent.
+            // In the limit of zero force the secant compliance is the slope of the law.
             return Self { compliance: law.approach(0.0).slope, growth: 0.0 };
         }
         let approach = law.approach(force);
@@ -352,7 +370,7 @@ impl Secant {
         Self { compliance, growth: (approach.slope - compliance) / (force * force) }
     }
 
-    /// Returns the change of `h f` under a change `df` of the force.
+    /// Returns the change `d(h f)` for a change `df` of the force.
     fn slope(&self, f: Vec2, df: Vec2) -> Vec2 {
         self.compliance * df + self.growth * f.dot(&df) * f
     }

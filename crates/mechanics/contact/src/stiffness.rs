@@ -6,31 +6,32 @@ use crate::gap::Gap;
 use crate::law::ContactLaw;
 use crate::response::{COORDINATES, ROTATIONS, Secant, Together};
 
-/// Tangent of a contact by the coordinates of its pair and its force components:
+/// Symmetric tangent of a contact in the coordinates of its pair and the components of its force.
 ///
 /// ```text
 /// [[A, B], [Bᵀ, −C]]      stiffness  A + B C⁻¹ Bᵀ                                     (C8)
 /// ```
 ///
-/// On an edge the only component is `λ`; flush contacts have `λ` and `λ''`. Corner on corner has
-/// the components of `f` along the fixed axes, because `λ` and `λ'` turn with the scales and would
-/// not give a symmetric tangent. `C` is positive semidefinite, and zero for a rigid contact.
+/// The force components are `λ` on an edge, and `λ` and `λ''` for a flush contact. Corner on corner
+/// has the components of `f` along fixed axes, because the directions of `λ` and `λ'` rotate with
+/// the scales, so that the tangent would not be symmetric. `C` is positive semidefinite, and zero
+/// for a rigid contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactStiffness {
-    /// `A`, by the coordinates of the pair.
+    /// Matrix `A`, in the coordinates of the pair.
     pub by_coordinate: [[f64; COORDINATES]; COORDINATES],
-    /// The columns of `B`.
+    /// Columns of the matrix `B`, one for each force component.
     pub by_force: Vec<[f64; COORDINATES]>,
-    /// Matrix `C`; with one force component only the first entry of `C` counts.
+    /// Matrix `C`; with one force component only its first entry is used.
     pub compliance: [[f64; 2]; 2],
 }
 
 impl CornerContact {
-    /// Returns true if corner on corner lies on a ridge of the energy.
+    /// Returns true if the state corner on corner lies on a ridge of the energy.
     ///
-    /// The condition (C5) holds the corners together. On a ridge, however, the energy decreases to
-    /// either side: the partner's force turns the force towards the end of the edge, and the corner
-    /// lies short of this end, so that it could also slide back along the edge.
+    /// On a ridge the equilibrium (C5) is unstable. The partner's force has a component towards the
+    /// end of the edge of the own contact, so the corner lies short of this end and could also
+    /// slide back along the edge, which decreases the energy.
     pub fn is_on_ridge(self, corners: &Corners) -> bool {
         match self {
             Self::Corner(edge) => {
@@ -65,14 +66,14 @@ impl CornerContact {
             }
         }
         let sum = forces[Force::Own as usize] + forces[Force::Flush as usize];
-        // Flush forces share one approach, a function of their sum, so all entries are equal.
+        // `λ` and `λ''` share one approach, a function of their sum, so all entries are equal.
         stiffness.compliance = [[law.approach(sum).slope; 2]; 2];
         stiffness
     }
 }
 
 impl ContactStiffness {
-    /// Adds a force that acts along a gap.
+    /// Adds a contact force in the direction of a gap, with a new force component.
     fn add_gap(&mut self, gap: &Gap, force: f64) {
         self.by_force.push(gap.gradient.map(|slope| -slope));
         for (row, hessian) in self.by_coordinate.iter_mut().zip(gap.curvature.hessian()) {
@@ -84,10 +85,12 @@ impl ContactStiffness {
 }
 
 impl Together {
+    /// Computes the stiffness of corner on corner under the forces `λ` and `λ'`.
     fn stiffness(&self, law: &ContactLaw, forces: [f64; 2]) -> ContactStiffness {
         let f = forces[0] * self.normals[0] + forces[1] * self.normals[1];
         let mut stiffness = ContactStiffness::default();
-        // Turning an arm turns the direction in which its corner moves.
+        // A rotation of a scale also rotates the direction in which a further rotation moves its
+        // corner.
         let [left, right] = ROTATIONS;
         stiffness.by_coordinate[left][left] = f.dot(&self.arms[0]);
         stiffness.by_coordinate[right][right] = -f.dot(&self.arms[1]);

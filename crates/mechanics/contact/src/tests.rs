@@ -1,4 +1,4 @@
-//! Forces and conditions of the contact states of two corners.
+//! Tests of forces, conditions and transitions of the contact states of two corners.
 
 mod tips;
 mod transitions;
@@ -15,7 +15,7 @@ use crate::response::{COORDINATES, CornerResponse, Equation};
 
 /// Corner-edge combinations with their levels.
 ///
-/// Rotating a pair by 180° reverses this order.
+/// A rotation of the pair by 180° exchanges the first entry with the last, and so on.
 const EDGES: [(Level, CornerEdge); 6] = [
     (Level::Upper, CornerEdge::TopRightOnLeftEdge),
     (Level::Upper, CornerEdge::TopLeftOnRightEdge),
@@ -28,6 +28,9 @@ const EDGES: [(Level, CornerEdge); 6] = [
 /// Number of coordinates of a pair plus its three forces.
 const COUPLED: usize = COORDINATES + FORCES;
 
+/// Contact state at one level of a pair, with its law.
+///
+/// An argument `z` of its functions contains the coordinates of the pair and the three forces.
 struct Case {
     level: Level,
     contact: CornerContact,
@@ -36,17 +39,18 @@ struct Case {
 }
 
 impl Case {
+    /// Evaluates the response without friction.
     fn at(&self, z: &[f64; COUPLED]) -> CornerResponse {
         self.with_friction(z, 0.0)
     }
 
-    /// Returns the corner that faces an edge, with its edge.
+    /// Returns the corner and edge that face each other.
     fn facing(&self, z: &[f64; COUPLED]) -> Option<CornerEdge> {
         let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
         Corners::new(self.level, &self.pair, [&left, &right]).facing().map(|(edge, _)| edge)
     }
 
-    /// Evaluates the response with a friction coefficient for corner on corner.
+    /// Evaluates the response with the ratio `held` of friction to normal force at corners.
     fn with_friction(&self, z: &[f64; COUPLED], held: f64) -> CornerResponse {
         let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
         let acting = self.contact.acting();
@@ -58,7 +62,7 @@ impl Case {
         self.contact.acting_response(&corners, &self.law, forces, held)
     }
 
-    /// Adds the friction of the force of a corner that slides on an edge.
+    /// Adds to `balance` the friction of a corner that slides on an edge.
     fn add_sliding(&self, balance: &mut [f64; COORDINATES], z: &[f64; COUPLED], friction: f64) {
         let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
         let slide = self.pair.slide(self.contact.edge().unwrap(), &left, &right);
@@ -68,24 +72,25 @@ impl Case {
     }
 }
 
-/// Constructor of a state of closed contact.
+/// Constructor of a closed contact state from its corner and edge.
 type Closed = fn(CornerEdge) -> CornerContact;
 
+/// Creates a pair of equal scales with a closed contact at entry `edge` of [`EDGES`].
 fn case(edge: usize, slant: f64, law: Law, closed: Closed) -> Case {
     let (level, edge) = EDGES[edge];
     let pair = Pair::new(Parallelogram::new(0.4, slant).unwrap(), 1.0);
-    // A soft law, so that its part of the tangent is visible.
+    // With a soft law the compliance contributes visibly to the tangent.
     let law = ContactLaw::new(law, 0.8, 1.0, 3.0).unwrap();
     Case { level, contact: closed(edge), pair, law }
 }
 
-/// Returns one of the closed states that are possible with an edge.
+/// Returns one of the closed states that are possible at entry `edge` of [`EDGES`].
 fn closed(edge: usize, state: usize) -> Closed {
     let states: [Closed; 3] = [CornerContact::Edge, CornerContact::Corner, CornerContact::Flush];
     states[state % if EDGES[edge].1.flush().is_some() { 3 } else { 2 }]
 }
 
-/// Returns the derivatives of an equation with respect to coordinates and forces.
+/// Returns the derivatives of an equation with respect to all entries of `z`.
 fn derivatives(equation: &Equation) -> [f64; COUPLED] {
     std::array::from_fn(|i| match i {
         0..COORDINATES => equation.by_coordinate[i],
@@ -93,7 +98,7 @@ fn derivatives(equation: &Equation) -> [f64; COUPLED] {
     })
 }
 
-/// Returns the equations of a state: balance, and conditions of acting forces.
+/// Returns the equations of a state: the balance and the conditions of the acting forces.
 fn equations(response: &CornerResponse, acting: [bool; FORCES]) -> Vec<Equation> {
     let conditions = response.conditions.iter().zip(acting).filter(|(_, acts)| *acts);
     let conditions = conditions.map(|(condition, _)| condition.unwrap());
@@ -145,7 +150,7 @@ proptest! {
         }
     }
 
-    /// Force and moment do not jump where a sliding corner reaches the end of its edge.
+    /// Compares the friction in the states edge and corner on corner at the same `z`.
     #[test]
     fn friction_is_continuous_where_a_corner_reaches_the_end_of_its_edge(
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
@@ -154,10 +159,12 @@ proptest! {
         prop_assume!(friction != 0.0);
         let z = with(q, [force, 0.0, 0.0]);
         let at_end = case(edge, slant, Law::PRINTED, CornerContact::Corner);
-        // The frictionless balance is continuous only in equilibrium, so compare friction alone.
+        // The frictionless balance is continuous only in equilibrium, so the comparison is limited
+        // to friction.
         let without = at_end.at(&z).balance.map(|equation| equation.value);
         let mut expected = without;
-        // With the scale leaning, another edge may have replaced the edge of the contact.
+        // Depending on the rotation of the scales, the contact of the tip with a top or base
+        // replaces the contact of a corner with a side, or vice versa.
         let (left, right) = (Pose::new(q[0], q[1], q[2]), Pose::new(q[3], q[4], q[5]));
         let [own, _] = Corners::new(at_end.level, &at_end.pair, [&left, &right]).together(EDGES[edge].1);
         let on_edge = Case { contact: CornerContact::Edge(own), ..case(edge, slant, Law::PRINTED, CornerContact::Edge) };
@@ -168,7 +175,7 @@ proptest! {
         }
     }
 
-    /// Conditions of edge end and flush contact are needed before their forces act.
+    /// Checks the conditions of the partner and the flush contact while their forces do not act.
     #[test]
     fn resting_conditions_agree_with_finite_differences(
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
@@ -183,7 +190,7 @@ proptest! {
                 z[j] += h;
                 case.at(&z).conditions[force as usize]
             });
-            // The flush contact may be out of reach.
+            // The condition of the flush contact is `None` beyond the far end of its edge.
             if let (Some(low), Some(high)) = (low, high) {
                 let difference = (high.value - low.value) / 2e-6;
                 let ours = ours.conditions[force as usize].unwrap().by_coordinate[j];
@@ -193,7 +200,7 @@ proptest! {
     }
 
     #[test]
-    fn the_slope_of_an_open_contact_agrees_with_finite_differences(
+    fn the_gradient_of_an_open_contact_agrees_with_finite_differences(
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.2_f64..0.2),
     ) {
         let case = case(edge, slant, Law::PRINTED, |_| CornerContact::Open);
@@ -217,7 +224,7 @@ proptest! {
         }
     }
 
-    /// A pair rotated by 180° has left and right, and upper and lower exchanged.
+    /// Rotates a pair by 180°, which exchanges left and right scale and upper and lower level.
     #[test]
     fn rotation_by_180_degrees_exchanges_the_levels(
         edge in 0_usize..6, slant in 0.0_f64..80.0, state in 0_usize..3,
@@ -234,7 +241,7 @@ proptest! {
                 assert_relative_eq!(ours.value, there.value, epsilon = 1e-12);
             }
         }
-        // The forces are opposite, and left and right scale are exchanged.
+        // The rotation reverses forces and exchanges the left and the right scale.
         for (k, row) in [3, 4, 0, 1].into_iter().enumerate() {
             let column = [0, 1, 3, 4][k];
             assert_relative_eq!(ours.balance[column].value, -there.balance[row].value, epsilon = 1e-12);
@@ -242,14 +249,14 @@ proptest! {
     }
 }
 
-/// Joins coordinates and forces.
+/// Joins coordinates and forces to an argument `z` of [`Case`].
 fn with(q: [f64; COORDINATES], forces: [f64; FORCES]) -> [f64; COUPLED] {
     std::array::from_fn(|i| if i < COORDINATES { q[i] } else { forces[i - COORDINATES] })
 }
 
-/// Returns the displacements of a pair rotated by 180°.
+/// Returns the coordinates of the pair with coordinates `q` after a rotation by 180°.
 ///
-/// Tops become bases, so the nodes are the midpoints of the former tops.
+/// Tops become bases, so the nodes of the rotated pair are the midpoints of the former tops.
 fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
     let top = Vec2::new(slant.to_radians().tan(), 1.0);
     let [[a, b, c], [d, e, f]] = [3, 0].map(|first| {
@@ -260,9 +267,9 @@ fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
     [a, b, c, d, e, f]
 }
 
-/// Two rotated blocks with a corner exactly at the end of the other's edge.
+/// Places a corner exactly at the end of an edge of the other scale.
 ///
-/// The corner belongs to the left block.
+/// At this point balance and conditions must agree between both states.
 #[test]
 fn edge_and_corner_states_agree_at_their_transition() {
     let (alike, leaning) = ([-0.05, 0.03], [0.05, -0.03]);
@@ -276,7 +283,8 @@ fn edge_and_corner_states_agree_at_their_transition() {
     ] {
         let [edge, corner] = [CornerContact::Edge as Closed, CornerContact::Corner]
             .map(|closed| case(k, slant, Law::EXCHANGED, closed));
-        // Place the left scale so that D = −δ m, which puts the foot at the end of the edge.
+        // Newton's method for the position of the left scale: both conditions (C6) are zero, so
+        // D = −δ m and the corner is at the end of the edge.
         let mut z = [0.0, 0.0, phi[0], 0.0, 0.0, phi[1], 0.7, 0.0, 0.0];
         for _ in 0..30 {
             let [a, b] = [0, 1].map(|k| edge.at(&z).conditions[k].unwrap());
@@ -289,7 +297,7 @@ fn edge_and_corner_states_agree_at_their_transition() {
         for (edge, corner) in edge.balance.iter().zip(&corner.balance) {
             assert_relative_eq!(edge.value, corner.value, epsilon = 1e-12);
         }
-        // The last condition is the flush one, which corner on corner does not have.
+        // Corner on corner has no condition of a flush contact.
         for k in 0..2 {
             let [edge, corner] = [edge, corner].map(|response| response.conditions[k].unwrap());
             assert_relative_eq!(edge.value, corner.value, epsilon = 1e-12);
@@ -299,7 +307,7 @@ fn edge_and_corner_states_agree_at_their_transition() {
 }
 
 #[test]
-fn a_corner_short_of_the_end_of_its_edge_keeps_its_partner_at_rest() {
+fn the_partner_force_does_not_act_while_a_corner_is_short_of_the_end_of_its_edge() {
     let pair = Pair::new(Parallelogram::new(0.4, 30.0).unwrap(), 1.0);
     let law = ContactLaw::new(Law::PRINTED, 0.8, 1.0, 3.0).unwrap();
     let (left, right) = (Pose::new(0.2, -0.1, 0.0), Pose::new(0.0, 0.0, 0.0));
@@ -318,7 +326,8 @@ fn a_corner_short_of_the_end_of_its_edge_keeps_its_partner_at_rest() {
 fn sides_are_parallel_where_their_directions_agree() {
     let scales = [50.0, 30.0].map(|slant| Parallelogram::new(0.4, slant).unwrap());
     let pair = Pair::between(scales, Vec2::new(1.0, 0.0));
-    // The left scale leans by 20° more, and turns back by the same angle.
+    // The slant of the left scale is 20° larger, so a relative rotation by 20° makes the sides
+    // parallel.
     for (left, right, expected) in [
         (20.0, 0.0, true),
         (25.0, 5.0, true),
@@ -337,7 +346,9 @@ fn sides_are_parallel_where_their_directions_agree() {
     }
 }
 
-/// Returns the edges faced by the corners of both levels at the given positions.
+/// Returns the corner and edge that face each other at the upper and at the lower level.
+///
+/// `left` and `right` are the displacements of the scales.
 fn faced(slant: f64, pitch: f64, left: [f64; 2], right: [f64; 2]) -> [Option<CornerEdge>; 2] {
     let pair = Pair::new(Parallelogram::new(0.5, slant).unwrap(), pitch);
     let poses = [left, right].map(|[x, y]| Pose::new(x, y, 0.0));
@@ -352,11 +363,12 @@ fn corners_face_the_sides_of_their_neighbours() {
     let right_corner =
         [CornerEdge::TopLeftOnRightEdge, CornerEdge::BottomLeftOnRightEdge].map(Some);
     assert_eq!(faced(60.0, 1.2, rest, rest), [left_corner[0], right_corner[1]]);
-    // Where a corner has left the edge, the neighbour's corner faces an edge of this scale.
+    // If the corner of one scale faces no edge, the corner of the other scale does.
     assert_eq!(faced(0.0, 1.2, [0.0, 0.1], rest), [right_corner[0], left_corner[1]]);
     assert_eq!(faced(0.0, 1.2, rest, [0.0, 0.1]), [left_corner[0], right_corner[1]]);
-    // Upright blocks at equal height: both face an edge, and the left corner comes first.
+    // Both corners of upright blocks at equal height face an edge; the corner of the left scale
+    // has priority.
     assert_eq!(faced(0.0, 1.2, rest, rest), left_corner);
-    // Far below its neighbour, a corner faces no edge.
+    // No corner faces an edge if the left scale lies far below its neighbour.
     assert_eq!(faced(60.0, 3.0, [0.0, -0.6], rest)[0], None);
 }

@@ -2,14 +2,15 @@
 
 use crate::{Parallelogram, Vec2, polygon_distance};
 
-/// Largest angle (radians) between the normals of the punctured scale and of any other scale.
+/// Largest angle between the normal of a scale and the normal of the punctured scale, radians.
 ///
-/// Scales farther around a body face away from the load.
+/// Scales at larger angles face away from the load and do not belong to the row.
 const FARTHEST_ANGLE: f64 = 80.0 * std::f64::consts::PI / 180.0;
 
-/// A body of constant curvature; the default is flat.
+/// Cylindrical body of constant curvature under a row of scales; the default is flat.
 ///
-/// Nodes lie on a circle of radius `R` at equal arc lengths, and scales stand along its normals.
+/// The nodes of the scales lie at equal arc lengths on a circle of radius `R`. The `y` axis of each
+/// scale is the outward normal of the circle at its node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Body {
     /// `t/R`: positive for a convex body, negative for a concave one, 0 for a flat one.
@@ -22,9 +23,10 @@ impl Body {
         self.curvature == 0.0
     }
 
-    /// Returns the tangent frame at the arc length `arc` (over `t`, to the right).
+    /// Returns the tangent frame at the arc length `arc`.
     ///
-    /// Its position and angle are relative to the frame at `arc = 0`.
+    /// The arc length is in units of `t` and positive to the right. Position and angle of the
+    /// returned frame are relative to the frame at `arc = 0`.
     pub fn frame(&self, arc: f64) -> Frame {
         let angle = arc * self.curvature;
         let (sin, cos) = angle.sin_cos();
@@ -34,9 +36,10 @@ impl Body {
         Frame { origin, angle, cos, sin }
     }
 
-    /// Returns the height of the surface at a distance `x` along the tangent at 0.
+    /// Returns the height of the surface above the tangent at the arc length 0.
     ///
-    /// Beyond the sides of a convex body it is the height of its centre.
+    /// `x` is the distance along this tangent. For `|x| ≥ R`, beside the circle, returns the height
+    /// of its centre. Lengths are in units of `t`.
     pub fn height(&self, x: f64) -> f64 {
         let squared = (self.curvature * x).powi(2);
         if squared < 1.0 {
@@ -46,49 +49,53 @@ impl Body {
         }
     }
 
-    /// Returns the distance between the faces of two neighbours with nodes a pitch apart, over `t`.
+    /// Returns the shortest distance between two neighbouring scales, in units of `t`.
     ///
-    /// It has no meaning if they overlap.
+    /// The arc length between the two nodes is `pitch`. The result is meaningless if the scales
+    /// overlap.
     pub fn distance(&self, left: &Parallelogram, right: &Parallelogram, pitch: f64) -> f64 {
         let frame = self.frame(pitch);
         let neighbour = right.corners().map(|corner| frame.origin + frame.outward(corner));
         polygon_distance(&left.corners(), &neighbour)
     }
 
-    /// Counts the scales on each side of the punctured one that face the load.
+    /// Returns the number of scales that face the load on each side of the punctured scale.
     ///
-    /// Their normals are within 80° of its normal. `None` for a flat body, which sets no limit.
+    /// A scale faces the load if the angle between its normal and the normal of the punctured scale
+    /// is below 80°. `None` for a flat body, on which every scale faces the load.
     pub fn scales_beside(&self, pitch: f64) -> Option<usize> {
         let step = pitch * self.curvature.abs();
-        // A body of vanishing curvature has more scales than an integer can count; the conversion
-        // saturates.
+        // The number exceeds `usize` for a tiny curvature; the conversion then saturates.
         (step > 0.0).then(|| ((FARTHEST_ANGLE / step).ceil() as usize).saturating_sub(1))
     }
 }
 
-/// `sin x / x`.
+/// Returns `sin x / x`, and 1 for `x = 0`.
 fn sinc(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { x.sin() / x }
 }
 
-/// Tangent frame of a body at the node of a scale, relative to another tangent frame.
+/// Tangent frame of a body at the node of a scale.
+///
+/// Its position and angle are given relative to a reference frame, the tangent frame at another
+/// point of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// Position of the node in the other frame, over `t`.
+    /// Position of the node in the reference frame, in units of `t`.
     pub origin: Vec2,
-    /// Angle `θ` by which the frame is rotated, clockwise, radians.
+    /// Clockwise rotation `θ` of this frame relative to the reference frame, radians.
     pub angle: f64,
     cos: f64,
     sin: f64,
 }
 
 impl Frame {
-    /// Rotates a vector of this frame to the other frame.
+    /// Converts the components of a vector from this frame to the reference frame.
     pub fn outward(&self, v: Vec2) -> Vec2 {
         Vec2::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
     }
 
-    /// Rotates a vector of the other frame to this frame.
+    /// Converts the components of a vector from the reference frame to this frame.
     pub fn inward(&self, v: Vec2) -> Vec2 {
         Vec2::new(self.cos * v.x - self.sin * v.y, self.cos * v.y + self.sin * v.x)
     }
@@ -101,7 +108,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     #[test]
-    fn frames_lie_on_a_circle_and_compose() {
+    fn frames_lie_on_a_circle_and_can_be_chained() {
         let body = Body { curvature: 0.25 };
         let [first, second, both] = [0.7, 1.2, 1.9].map(|arc| body.frame(arc));
         let centre = Vec2::new(0.0, -4.0);
@@ -133,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_convex_body_opens_the_scales_and_a_concave_one_closes_them() {
+    fn coverage_is_smaller_on_a_convex_body_and_larger_on_a_concave_body() {
         let row = Row::new(Parallelogram::new(0.5, 60.0).unwrap(), 0.3).unwrap();
         let [convex, flat, concave] =
             [0.1, 0.0, -0.05].map(|curvature| row.coverage_on(Body { curvature }));
@@ -143,7 +150,7 @@ mod tests {
     #[test]
     fn scales_that_face_away_from_the_load_are_not_counted() {
         let body = Body { curvature: -0.25 };
-        // Five pitches of 1.1 span 78.8°, six 94.5°.
+        // On a radius of 4, five pitches of 1.1 span 78.8° and six pitches span 94.5°.
         assert_eq!(body.scales_beside(1.1), Some(5));
         assert_eq!(Body::default().scales_beside(1.1), None);
     }

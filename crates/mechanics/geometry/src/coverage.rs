@@ -1,18 +1,19 @@
 //! Coverage of a row in closed form.
 
-/// Difference below which two lengths (over `t`) count as equal.
+/// Difference below which two lengths, in units of `t`, count as equal.
 ///
-/// `tan 45°` is not exactly 1 in floating point, and a line that only touches a scale must not
-/// count as crossing it. The value is far above the rounding errors of lengths of order 1 (about
-/// 1e-15) and far below any relevant length.
+/// A line that only touches a scale must not count as crossing it, although `tan 45°` is not
+/// exactly 1 in floating point. The value is far above the rounding errors of lengths of order 1
+/// (about 1e-15) and far below any relevant length.
 const TOUCH: f64 = 1e-12;
 
-/// Returns the coverage for shift `S` of the top, base `2a` and pitch `p`.
+/// Returns the coverage of a row with shift `S` of the top, base `2a` and pitch `p`.
 ///
-/// All are over `t`. Measured in `y tan α` from the base up, neighbour `k = 1, 2 …` covers
-/// `[S − k p, S − k p + 2a] ∩ [0, S]` of the line. For `k ≤ S/p` the neighbour begins within the
-/// line and is covered as a whole, because its upper end `S − k p + 2a` lies below `S` (`2a < p`).
-/// The next neighbour may extend into the line from below the base by `S − k p + 2a`.
+/// The three lengths are in units of `t`. A vertical line runs from the top right corner of a scale
+/// to the base. With positions on this line given as `y tan α`, from 0 at the base to `S` at the
+/// top, neighbour `k = 1, 2 …` covers `[S − k p, S − k p + 2a] ∩ [0, S]`. For `k ≤ S/p` the line
+/// crosses the neighbour completely, because its interval starts above 0 and ends below `S`
+/// (`2a < p`). The line may end inside the next neighbour, which then covers `[0, S − k p + 2a]`.
 pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
     if shift < TOUCH {
         return 0.0;
@@ -20,26 +21,28 @@ pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
     let whole = ((shift + TOUCH) / pitch).floor();
     let partial = shift - (whole + 1.0) * pitch + base;
     let partial = if partial > TOUCH { partial } else { 0.0 };
-    // A scale that the line misses by less than `TOUCH` counts as fully crossed, which would exceed
-    // a short line.
+    // The sum may exceed a short line, because a scale counts as fully crossed even if the line
+    // ends up to `TOUCH` above its lower end.
     ((whole * base + partial) / shift).min(1.0)
 }
 
-/// Distance over the pitch at which a scale counts as just reaching the line.
+/// Tolerance for a scale that just reaches the end of the line, in units of the pitch.
 const NEAR: f64 = 1e-9;
 
-/// Returns the one-sided rate of [`coverage`].
+/// Returns the one-sided directional derivative of [`coverage`].
 ///
-/// `rates` are the rates of shift, base and pitch.
+/// `rates` are the rates of change of shift, base and pitch.
 pub(crate) fn coverage_rate([shift, base, pitch]: [f64; 3], rates: [f64; 3]) -> f64 {
     if shift < TOUCH {
-        // The line ends above the substrate between two bases.
+        // Upright scales: the line runs along the side of its own scale and crosses no neighbour,
+        // also after a small change.
         return 0.0;
     }
     let [shifts, bases, pitches] = rates;
     let whole = (shift / pitch).round();
     let at_pitch = (shift - whole * pitch).abs() <= NEAR * pitch;
-    // If a scale just reaches the line, the direction of change decides whether it counts as whole.
+    // If the lower end of a scale coincides with the end of the line, the direction of change
+    // decides whether the line crosses the scale completely.
     let whole = match at_pitch {
         true if shifts >= whole * pitches => whole,
         true => whole - 1.0,
@@ -57,7 +60,7 @@ mod tests {
     use super::{coverage, coverage_rate};
     use proptest::prelude::*;
 
-    /// Computes the coverage by its definition, a sum over neighbours by interval.
+    /// Returns the coverage by its definition: the sum of the covered intervals of all neighbours.
     fn by_intervals(shift: f64, base: f64, pitch: f64) -> f64 {
         let mut sum = 0.0;
         for k in 1..=(shift / pitch).ceil() as u32 + 1 {
@@ -89,7 +92,7 @@ mod tests {
         fn coverage_never_exceeds_one_at_round_off(
             whole in 1_u32..9, base in 0.001_f64..0.1, gap in 1e-13_f64..1e-11, part in 0.0_f64..1.0,
         ) {
-            // The line ends just before the end of the last scale that it crosses.
+            // The line ends up to 1e-12 before it has crossed the last scale completely.
             let pitch = base + gap;
             let value = coverage(f64::from(whole) * pitch - part * 1e-12, base, pitch);
             prop_assert!(value <= 1.0, "{value}");
@@ -105,7 +108,7 @@ mod tests {
         }
     }
 
-    /// Computes the one-sided difference quotient in a direction.
+    /// Returns the one-sided difference quotient of the coverage in the direction `rates`.
     fn difference(at: [f64; 3], rates: [f64; 3]) -> f64 {
         let h = 1e-5;
         let [here, near, far] = [0.0, h, 2.0 * h].map(|h| {
@@ -125,7 +128,7 @@ mod tests {
             let at = [shift, base, base + gap];
             let ours = coverage_rate(at, rates);
             let off = (ours - difference(at, rates)).abs();
-            // Skip cases in which the number of crossed scales changes within the difference.
+            // Skip cases in which the number of crossed scales changes within the difference step.
             let places = [shift / at[2], (shift + base) / at[2]];
             let apart = places.iter().all(|place| (place - place.round()).abs() > 1e-3);
             prop_assert!(!apart || off < 1e-6 * (1.0 + ours.abs()), "{ours} {off}");
@@ -133,9 +136,9 @@ mod tests {
     }
 
     #[test]
-    fn coverage_has_one_sided_rates_where_the_count_changes() {
-        // The line ends at the near corner of the first neighbour's base, and at the far corner of
-        // the second.
+    fn coverage_has_one_sided_rates_where_the_number_of_crossed_scales_changes() {
+        // The line ends at the left corner of the base of the first neighbour, at the right corner
+        // of the base of the second neighbour, and at the right corner of the base of the first.
         for at in [[1.25, 0.5, 1.75], [3.5, 0.5, 1.75], [1.75, 0.5, 1.75]] {
             let mut kinks = 0;
             for rates in [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 1.0]] {
@@ -150,14 +153,14 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_only_touches_the_next_scale_is_exposed() {
-        // d = t tan 45°: the line ends on the corner of the neighbour's base.
+    fn coverage_is_zero_if_the_line_only_touches_the_next_scale() {
+        // d = t tan 45°: the line ends at the left corner of the base of the neighbour.
         assert_eq!(coverage(45.0_f64.to_radians().tan(), 0.5, 1.5), 0.0);
         assert_eq!(coverage(0.0, 1.0, 1.1), 0.0);
     }
 
     #[test]
-    fn best_of_the_reference_study_is_at_45_degrees() {
+    fn best_coverage_of_the_reference_study_is_at_45_degrees() {
         let [best, others @ ..] = [45.0, 15.0, 30.0, 60.0, 75.0]
             .map(|slant: f64| coverage(slant.to_radians().tan(), 1.0, 1.1));
         assert!((best - 0.9).abs() < 1e-12);

@@ -1,10 +1,11 @@
 //! Undeformed geometry of scales and rows of scales.
 //!
-//! A scale is a parallelogram of height `t` that leans by the slant `α`. Scales with bases `2a` at
-//! gaps `d` form a row of pitch `p = 2a + d`. Lengths are in units of the scale thickness `t`; `y`
-//! points up out of the substrate, and angles are counter-clockwise. The coverage of a row is the
-//! fraction of a vertical line, dropped from the top right corner of a scale, that lies inside the
-//! scales to its right (Eq. G2 of `docs/theory/model.md`):
+//! A scale is a parallelogram of height `t`. Its sides are inclined by the slant `α` from the
+//! vertical. Scales with bases `2a` at gaps `d` form a row of pitch `p = 2a + d`. Lengths are in
+//! units of the scale thickness `t`; `y` points up out of the substrate, and angles are
+//! counter-clockwise. The coverage of a row is the fraction of a vertical line from the top right
+//! corner of a scale down to the substrate that lies inside the scales to the right of this scale
+//! (Eq. G2 of `docs/theory/model.md`):
 //!
 //! ```text
 //! λ = Σₖ |[S − k p, S − k p + 2a] ∩ [0, S]| / S,     S = t tan α,  k = 1, 2 …
@@ -15,10 +16,10 @@
 //! | [`Parallelogram`] | one scale: half-width of its base and slant |
 //! | [`Corner`] | a corner of a scale |
 //! | [`Row`] | identical scales at a constant gap: pitch, coverage |
-//! | [`RowChange`] | rates at which the lengths of a row change, for the rate of its coverage |
+//! | [`RowChange`] | rates of change of the lengths of a row, for derivatives of the coverage |
 //! | [`UnevenRow`] | scales of unequal slants at unequal gaps |
 //! | [`Body`], [`Frame`] | a curved body under a row, and its tangent frames |
-//! | [`OutOfRange`] | error of a parameter out of range, with the accepted values |
+//! | [`OutOfRange`] | error for a parameter outside its valid range |
 //!
 //! ```
 //! use geometry::{Parallelogram, Row};
@@ -42,5 +43,5 @@ pub use parallelogram::{Corner, Parallelogram};
 pub use row::{Row, RowChange};
 pub use uneven_row::{UnevenRow, clearance, polygon_distance};
 
-/// Point or vector of the plane, in units of `t`.
+/// Point or vector in the plane of the row, in units of `t`.
 pub type Vec2 = nalgebra::Vector2<f64>;

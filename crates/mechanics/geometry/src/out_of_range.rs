@@ -1,6 +1,6 @@
-//! Error of a parameter outside its valid range.
+//! Error for a parameter outside its valid range.
 
-/// Parameter outside its valid range.
+/// Error for a parameter outside its valid range.
 ///
 /// All crates that check parameters share this error, so that every message names the quantity, the
 /// given value and the accepted values.
@@ -19,12 +19,12 @@ pub struct OutOfRange {
     pub quantity: &'static str,
     /// Given value.
     pub value: f64,
-    /// Accepted values, in words.
+    /// Description of the accepted values.
     pub expected: &'static str,
 }
 
 impl OutOfRange {
-    /// Returns an error unless the condition `holds` for `value`.
+    /// Returns an error for `value` if the condition `holds` is false.
     ///
     /// # Errors
     /// If `holds` is false.

@@ -1,4 +1,4 @@
-//! Shape of a single scale.
+//! Parallelogram shape of a single scale, and its corners.
 
 use crate::{OutOfRange, Vec2};
 
@@ -15,7 +15,9 @@ use crate::{OutOfRange, Vec2};
 pub struct Parallelogram {
     half_base: f64,
     slant: f64,
-    /// `tan α`, stored because corners are evaluated often.
+    /// Shift `S = tan α` of the top relative to the base, in units of `t`.
+    ///
+    /// Stored because corners are evaluated often.
     shift: f64,
 }
 
@@ -38,7 +40,9 @@ impl Corner {
 }
 
 impl Parallelogram {
-    /// Creates a scale with `half_base` (over `t`) and slant `slant_deg` (degrees).
+    /// Creates a scale that is upright or leans to the right.
+    ///
+    /// `half_base` is the half-width `a` of the base in units of `t`; `slant_deg` is in degrees.
     ///
     /// # Errors
     /// If `half_base` is not positive and finite, or the slant lies outside `[0°, 90°)`.
@@ -49,9 +53,10 @@ impl Parallelogram {
         Self::leaning(half_base, slant_deg)
     }
 
-    /// Creates a scale that may lean to the left, with a negative slant.
+    /// Creates a scale that may also lean to the left, with a negative slant.
     ///
-    /// Designs lean to the right; single scales of an imperfect row may lean to the left.
+    /// The scales of a design lean to the right, but a scale of an imperfect row may lean to the
+    /// left. `half_base` is in units of `t`; `slant_deg` is in degrees.
     ///
     /// # Errors
     /// If `half_base` is not positive and finite, or the slant lies outside `(−90°, 90°)`.
@@ -63,7 +68,7 @@ impl Parallelogram {
         Ok(Self { half_base, slant, shift: slant.tan() })
     }
 
-    /// Returns the half-width `a` of the base, over `t`.
+    /// Returns the half-width `a` of the base, in units of `t`.
     pub fn half_base(&self) -> f64 {
         self.half_base
     }
@@ -73,12 +78,12 @@ impl Parallelogram {
         self.slant
     }
 
-    /// Returns the shift `S = t tan α` of the top relative to the base, over `t`.
+    /// Returns the shift `S/t = tan α` of the top relative to the base.
     pub fn shift(&self) -> f64 {
         self.shift
     }
 
-    /// Returns the position of a corner relative to the node, undeformed.
+    /// Returns the position of a corner relative to the node in the undeformed scale.
     pub fn corner(&self, corner: Corner) -> Vec2 {
         let (a, s) = (self.half_base, self.shift());
         match corner {
@@ -89,9 +94,9 @@ impl Parallelogram {
         }
     }
 
-    /// Returns the undeformed corners relative to the node.
+    /// Returns the positions of all corners relative to the node in the undeformed scale.
     ///
-    /// They are ordered counter-clockwise from the bottom left.
+    /// The order is counter-clockwise from the bottom left corner, as in [`Corner::ALL`].
     pub fn corners(&self) -> [Vec2; 4] {
         Corner::ALL.map(|corner| self.corner(corner))
     }

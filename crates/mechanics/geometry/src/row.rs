@@ -2,7 +2,7 @@
 
 use crate::{Body, Corner, OutOfRange, Parallelogram, Vec2, coverage};
 
-/// Row of identical scales with the gap `d` at the base.
+/// Row of identical scales with equal gaps between neighbouring bases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     scale: Parallelogram,
@@ -10,7 +10,9 @@ pub struct Row {
 }
 
 impl Row {
-    /// Creates a row of `scale`s with gap `gap` (over `t`) between neighbouring bases.
+    /// Creates a row of copies of `scale` with the gap `gap` between neighbouring bases.
+    ///
+    /// The gap is in units of `t`.
     ///
     /// # Errors
     /// If the gap is not positive and finite.
@@ -19,34 +21,34 @@ impl Row {
         Ok(Self { scale, gap })
     }
 
-    /// Returns the shape of the scales.
+    /// Returns the shape that all scales share.
     pub fn scale(&self) -> &Parallelogram {
         &self.scale
     }
 
-    /// Returns the gap `d` between neighbouring bases, over `t`.
+    /// Returns the gap `d` between neighbouring bases, in units of `t`.
     pub fn gap(&self) -> f64 {
         self.gap
     }
 
-    /// Returns the pitch `p = 2a + d`, over `t`.
+    /// Returns the pitch `p = 2a + d`, in units of `t`.
     pub fn pitch(&self) -> f64 {
         2.0 * self.scale.half_base() + self.gap
     }
 
-    /// Returns the coverage `λ = t_s / t` (`docs/theory/model.md`, Eq. G2).
+    /// Returns the coverage `λ = t_s/t` (`docs/theory/model.md`, Eq. G2).
     ///
-    /// This is the total length, over the thickness, of the scales to the right of a scale along a
-    /// vertical line dropped from its top right corner.
+    /// A vertical line runs from the top right corner of a scale down to the substrate. `t_s` is
+    /// the length of this line inside the scales further to the right.
     ///
-    /// The coverage is 0 for an exposed substrate, and always below 1.
+    /// The coverage is 0 if the line crosses no scale, and always below 1.
     pub fn coverage(&self) -> f64 {
         coverage::coverage(self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch())
     }
 
-    /// Returns the distance between the faces of two neighbours on a body, over `t`.
+    /// Returns the shortest distance between two neighbouring scales on a body, in units of `t`.
     ///
-    /// It has no meaning if they overlap.
+    /// The result is meaningless if the scales overlap.
     pub fn clearance_on(&self, body: Body) -> f64 {
         if body.is_flat() {
             return self.gap * self.scale.slant().cos();
@@ -56,15 +58,15 @@ impl Row {
 
     /// Returns the coverage of the row on a curved body.
     ///
-    /// The line runs along the normal of the scale from its top right corner to the surface of the
-    /// body, through the neighbours on the right, which stand along their own normals. The
-    /// coverage is the fraction of the line inside them.
+    /// A line runs from the top right corner of a scale, opposite to the normal of this scale, down
+    /// to the surface of the body. The coverage is the fraction of the line that lies inside the
+    /// neighbours on the right, each of which is aligned with its own normal.
     pub fn coverage_on(&self, body: Body) -> f64 {
         let corner = self.scale.corner(Corner::TopRight);
         let line = [corner, Vec2::new(corner.x, body.height(corner.x))];
         let length = line[0].y - line[1].y;
-        // The base of a crossed neighbour is at most about one shift of the top away; twice the
-        // shift is a safe bound.
+        // The distance to the base of the farthest crossed neighbour is about the shift of the top
+        // corner. Twice this shift is a safe bound.
         let farthest = (2.0 * corner.x.abs().max(1.0) / self.pitch()).ceil() as usize + 1;
         let on_body = body.scales_beside(self.pitch()).unwrap_or(farthest);
         let inside = (1..=farthest.min(on_body)).map(|k| {
@@ -75,10 +77,10 @@ impl Row {
         (inside.sum::<f64>() / length).min(1.0)
     }
 
-    /// Returns the one-sided rate of the coverage under changes of the row's lengths.
+    /// Returns the directional derivative of the coverage along a change of the row's lengths.
     ///
-    /// The coverage has a kink where the number of crossed scales changes. There the rate is the
-    /// directional derivative along the change.
+    /// The coverage has a kink where the number of crossed scales changes. There the derivative is
+    /// one-sided, in the direction of the change.
     pub fn coverage_rate(&self, change: &RowChange) -> f64 {
         let lengths = [self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch()];
         let RowChange { shift, half_base, gap } = *change;
@@ -86,20 +88,21 @@ impl Row {
     }
 }
 
-/// Rates of change of the lengths of a row, over `t`.
+/// Rates of change of the lengths of a row, with lengths in units of `t`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RowChange {
-    /// Rate of the shift `S` of the top relative to the base.
+    /// Rate of change of the shift `S` of the top relative to the base.
     pub shift: f64,
-    /// Rate of the half-width `a` of the base.
+    /// Rate of change of the half-width `a` of the base.
     pub half_base: f64,
-    /// Rate of the gap.
+    /// Rate of change of the gap `d`.
     pub gap: f64,
 }
 
-/// Returns the length of a vertical line inside a convex polygon.
+/// Returns the length of the part of a vertical line that lies inside a convex polygon.
 ///
-/// The line is given from top to bottom, the corners counter-clockwise.
+/// `top` and `bottom` are the ends of the line. The corners of the polygon are in counter-clockwise
+/// order.
 fn length_inside([top, bottom]: [Vec2; 2], corners: &[Vec2; 4]) -> f64 {
     let (mut high, mut low) = (top.y, bottom.y);
     for (k, start) in corners.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use crate::{OutOfRange, Parallelogram, Vec2};
 
-/// Row with individual slants of the scales and individual widths of the gaps.
+/// Row in which each scale has its own slant and each gap its own width.
 ///
 /// ```text
 ///   ┌────────┐           ┌────────┐      ┌────────┐
@@ -14,18 +14,18 @@ use crate::{OutOfRange, Parallelogram, Vec2};
 pub struct UnevenRow {
     scales: Vec<Parallelogram>,
     gaps: Vec<f64>,
-    /// Distances of the nodes from the first node.
+    /// Distance of each node from the first node, in units of `t`.
     positions: Vec<f64>,
 }
 
 impl UnevenRow {
-    /// Creates a row of `scales` with `gaps` (over `t`) between neighbouring bases.
+    /// Creates a row of `scales` with `gaps` between neighbouring bases, from left to right.
     ///
-    /// There is one gap less than there are scales.
+    /// Gaps are in units of `t`. The number of gaps is the number of scales minus one.
     ///
     /// # Errors
-    /// If a gap is not positive and finite, two neighbours overlap above their bases, or the
-    /// numbers of scales and gaps do not match.
+    /// If a gap is not positive and finite, if two neighbours overlap at their tops, or if the
+    /// number of gaps is not the number of scales minus one.
     pub fn new(scales: Vec<Parallelogram>, gaps: Vec<f64>) -> Result<Self, OutOfRange> {
         let one_fewer = gaps.len() + 1 == scales.len();
         let expected = "one fewer than there are scales";
@@ -41,41 +41,43 @@ impl UnevenRow {
         Ok(Self { scales, gaps, positions })
     }
 
-    /// Returns the scales, from the left.
+    /// Returns the scales from left to right.
     pub fn scales(&self) -> &[Parallelogram] {
         &self.scales
     }
 
-    /// Returns the gaps between neighbouring bases, from the left, over `t`.
+    /// Returns the gaps between neighbouring bases from left to right, in units of `t`.
     pub fn gaps(&self) -> &[f64] {
         &self.gaps
     }
 
-    /// Returns the distance of the nodes of the scales `i` and `i + 1`, over `t`.
+    /// Returns the distance between the nodes of scales `i` and `i + 1`, in units of `t`.
     pub fn pitch(&self, i: usize) -> f64 {
         self.scales[i].half_base() + self.gaps[i] + self.scales[i + 1].half_base()
     }
 
-    /// Returns the distance of node `i` from the first node, over `t`.
+    /// Returns the distance from the first node to node `i`, in units of `t`.
     pub fn position(&self, i: usize) -> f64 {
         self.positions[i]
     }
 
-    /// Returns the distance of the last node from the first node, over `t`.
+    /// Returns the distance from the first node to the last node, in units of `t`.
     pub fn length(&self) -> f64 {
         self.positions[self.positions.len() - 1]
     }
 }
 
-/// Returns the smallest horizontal distance of two neighbours, over `t`.
+/// Returns the smallest horizontal distance between two neighbouring scales, in units of `t`.
 ///
-/// It occurs at the base, where it is `gap`, or at the top if the scales lean towards each other.
-/// Negative if they overlap.
+/// `gap` is the distance between the bases. The smallest distance occurs at the bases, or at the
+/// tops if the scales lean towards each other. Negative if the scales overlap.
 pub fn clearance(left: &Parallelogram, right: &Parallelogram, gap: f64) -> f64 {
     gap.min(gap + right.shift() - left.shift())
 }
 
-/// Computes the distance of two polygons that do not overlap.
+/// Returns the shortest distance between two polygons that do not overlap.
+///
+/// `one` and `other` are the corners of the polygons, in the order of their perimeters.
 pub fn polygon_distance(one: &[Vec2; 4], other: &[Vec2; 4]) -> f64 {
     let mut least = f64::INFINITY;
     for (corners, edges) in [(one, other), (other, one)] {
@@ -104,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn nodes_follow_from_bases_and_gaps() {
+    fn positions_of_nodes_follow_from_bases_and_gaps() {
         let row =
             UnevenRow::new(vec![scale(0.0), scale(5.0), scale(-2.0)], vec![0.1, 0.3]).unwrap();
         close(row.pitch(0), 1.1);
@@ -114,7 +116,8 @@ mod tests {
 
     #[test]
     fn scales_that_lean_into_each_other_are_refused() {
-        // tan 45° = 1: the tops are closer to each other by 1 than the bases.
+        // The left scale leans by tan 45° = 1 to the right, so the distance between the tops is
+        // smaller by 1 than the distance between the bases.
         close(clearance(&scale(45.0), &scale(0.0), 1.25), 0.25);
         close(clearance(&scale(0.0), &scale(45.0), 1.25), 1.25);
         let error = UnevenRow::new(vec![scale(45.0), scale(0.0)], vec![0.75]).unwrap_err();

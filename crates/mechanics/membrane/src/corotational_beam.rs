@@ -5,10 +5,10 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::section::positive;
 
-/// Poses of the ends of an element, `q = (x₁ y₁ φ₁ x₂ y₂ φ₂)`, or forces on them.
+/// Poses `q = (x₁ y₁ φ₁ x₂ y₂ φ₂)` of the two ends of an element, or forces and moments on them.
 pub type Ends = SVector<f64, 6>;
 
-/// Second derivatives of an energy with respect to [`Ends`].
+/// Matrix of second derivatives of an energy with respect to [`Ends`].
 pub type Stiffness = SMatrix<f64, 6, 6>;
 
 /// Two-node Euler–Bernoulli beam: small strains, arbitrarily large rotations.
@@ -17,20 +17,20 @@ pub type Stiffness = SMatrix<f64, 6, 6>;
 ///          φ₁ ⟋                      L   length at rest
 ///           ⟋ θ₁                     l   length of the chord
 ///        1 ○───────────○ 2   chord   β   angle of the chord from the x axis
-///                     θ₂ ⟍           φᵢ  direction of the axis at end i; 0 along x
-///                       φ₂ ⟍         θᵢ  the same, measured from the chord
+///                     θ₂ ⟍           φᵢ  direction of the axis at end i, from the x axis
+///                       φ₂ ⟍         θᵢ  direction of the axis at end i, from the chord
 /// ```
 ///
-/// The element deforms in the frame of its chord, which moves with it:
+/// Deformations are measured in the frame of the chord, which moves with the element:
 ///
 /// ```text
 /// d = x₂ − x₁,   l = |d|,   e = d/l = (cos β, sin β),   n = (−sin β, cos β)      (M2)
 /// u = l − L,     θᵢ = φᵢ − β = atan2(e × tᵢ, e · tᵢ),   tᵢ = (cos φᵢ, sin φᵢ)    (M3)
 /// ```
 ///
-/// The arc tangent returns the angle between two directions. Hence neither the full turns counted
-/// in `φᵢ` nor the branch of `β` matter; the only restriction is `|θᵢ| < π`. In the frame of the
-/// chord the beam is linear, with a cubic deflection and a uniform stretch:
+/// `atan2` returns the angle between the chord and the axis. Full turns in `φᵢ` and the branch of
+/// `β` therefore have no effect; the only restriction is `|θᵢ| < π`. In the frame of the chord the
+/// beam is linear, with a cubic deflection and a uniform axial strain:
 ///
 /// ```text
 /// N  = EA u/L,   M₁ = EI (4θ₁ + 2θ₂)/L,   M₂ = EI (2θ₁ + 4θ₂)/L                 (M4)
@@ -51,9 +51,9 @@ pub type Stiffness = SMatrix<f64, 6, 6>;
 ///           + N z zᵀ/l + (M₁ + M₂)(r zᵀ + z rᵀ)/l²                              (M8)
 /// ```
 ///
-/// `K` is symmetric because it derives from an energy, at equilibrium or not. The error relative to
-/// the elastica is of second order in the element length. Pure bending is exact in moments and
-/// rotations; there the nodes lie on a polygon, each side as long as its arc.
+/// `K` derives from an energy, so it is symmetric also outside equilibrium. The error relative to
+/// the elastica is of second order in the element length. In pure bending, moments and rotations
+/// are exact, and the nodes are the corners of a polygon with sides of length `L`.
 ///
 /// Sources: M. A. Crisfield, *Comput. Methods Appl. Mech. Eng.* 81 (1990) 131,
 /// doi 10.1016/0045-7825(90)90106-V, and *Non-linear Finite Element Analysis of Solids and
@@ -73,7 +73,7 @@ pub struct Local {
     pub chord_length: f64,
     /// Unit vector `e` along the chord, from end 1 to end 2.
     pub chord: Vec2,
-    /// Rotations `θ₁, θ₂` of the ends from the chord, in `[−π, π]`.
+    /// Rotations `θ₁, θ₂` of the ends relative to the chord, from −π to π.
     pub rotations: [f64; 2],
     /// Axial force `N`, positive in tension.
     pub axial_force: f64,
@@ -95,12 +95,10 @@ pub struct Response {
 }
 
 impl CorotationalBeam {
-    /// Creates an element of length `L` at rest.
-    ///
-    /// Its axial stiffness is `EA`, its bending stiffness `EI`.
+    /// Creates an element with length `L` at rest, axial stiffness `EA` and bending stiffness `EI`.
     ///
     /// # Errors
-    /// If one of them is not positive and finite.
+    /// If the length or a stiffness is not positive and finite.
     pub fn new(
         length: f64,
         axial_stiffness: f64,
@@ -118,7 +116,7 @@ impl CorotationalBeam {
         self.length
     }
 
-    /// Returns the deformations and forces in the frame of the chord (M2 to M4).
+    /// Returns the deformations and forces in the frame of the chord (M2 to M4) at the poses `q`.
     pub fn local(&self, q: &Ends) -> Local {
         let d = Vec2::new(q[3] - q[0], q[4] - q[1]);
         let chord_length = d.norm();
@@ -140,7 +138,7 @@ impl CorotationalBeam {
 
     /// Returns energies, force and tangent (M5 to M8) at the poses `q` of the ends.
     ///
-    /// Coincident ends have no chord: the response is then not finite.
+    /// If the two ends coincide, the chord has no direction and the response is not finite.
     pub fn response(&self, q: &Ends) -> Response {
         let local = self.local(q);
         let Local { chord_length: l, rotations: [theta1, theta2], axial_force, moments, .. } =
@@ -154,7 +152,7 @@ impl CorotationalBeam {
         }
     }
 
-    /// Returns the point of the deformed axis at `ξ ∈ [0, 1]` from end 1 to end 2:
+    /// Returns the point of the deformed axis at `ξ`, from 0 at end 1 to 1 at end 2:
     ///
     /// ```text
     /// x(ξ) = x₁ + l ξ e + l [θ₁ ξ (1−ξ)² − θ₂ ξ² (1−ξ)] n                       (M9)
@@ -165,7 +163,7 @@ impl CorotationalBeam {
         Vec2::new(q[0], q[1]) + chord_length * (xi * chord + deflection * quarter_turn(chord))
     }
 
-    /// Returns the first line of (M8).
+    /// Returns the material stiffness, the first line of (M8).
     fn material_stiffness(&self, gradients: &Gradients) -> Stiffness {
         let Gradients { r, b1, b2, .. } = gradients;
         let axial = self.axial_stiffness / self.length;
@@ -176,7 +174,7 @@ impl CorotationalBeam {
     }
 }
 
-/// Gradients of the deformations with respect to the poses of the ends (M6).
+/// Vectors `r`, `z`, `b₁` and `b₂` of (M6) to (M8), built from gradients of the deformations.
 struct Gradients {
     r: Ends,
     z: Ends,
@@ -195,13 +193,13 @@ impl Gradients {
         Self { r: Ends::new(-e.x, -e.y, 0.0, e.x, e.y, 0.0), z, b1, b2 }
     }
 
-    /// Returns the force (M7).
+    /// Returns the internal force (M7).
     fn force(&self, local: &Local) -> Ends {
         let [m1, m2] = local.moments;
         local.axial_force * self.r + m1 * self.b1 + m2 * self.b2
     }
 
-    /// Returns the second line of (M8).
+    /// Returns the geometric stiffness, the second line of (M8).
     fn geometric_stiffness(&self, local: &Local) -> Stiffness {
         let Self { r, z, .. } = self;
         let l = local.chord_length;
@@ -211,13 +209,13 @@ impl Gradients {
     }
 }
 
-/// Returns the angle from a unit vector to the direction `phi` (M3), in `[−π, π]`.
+/// Returns the angle from the unit vector `e` to the direction `phi` (M3), from −π to π.
 fn angle_from(e: Vec2, phi: f64) -> f64 {
     let (sin, cos) = phi.sin_cos();
     (e.x * sin - e.y * cos).atan2(e.x * cos + e.y * sin)
 }
 
-/// Returns the vector turned counter-clockwise by 90°.
+/// Returns the vector `v` rotated counter-clockwise by 90°.
 pub(crate) fn quarter_turn(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }

@@ -1,4 +1,4 @@
-//! Membrane of a gap as an extensible elastica.
+//! Model of the membrane in a gap as an extensible elastica.
 
 use std::sync::Arc;
 
@@ -10,36 +10,37 @@ use crate::gap::check;
 use crate::lobatto::Lobatto;
 use crate::{RigidArm, Section, Span};
 
-/// Membrane of a gap: one spectral element of the extensible elastica.
+/// Membrane in a gap, modelled by one spectral element of the extensible elastica.
 ///
-/// Between two rigid bases the membrane carries no load, so one force `F` acts in the whole gap.
-/// With the arc length `S` at rest, the direction `θ(S)` of the axis, `t = (cos θ, sin θ)` and its
-/// quarter turn `n`, the membrane is a beam without shear and without deformation of its section:
+/// No load acts on the membrane between two rigid bases, so the internal force `F` is constant
+/// within the gap. `S` is the arc length at rest, `θ(S)` the direction of the axis,
+/// `t = (cos θ, sin θ)` its unit vector, and `n` is `t` rotated by 90° counter-clockwise. The
+/// membrane is a beam without shear deformation:
 ///
 /// ```text
 /// r' = (1 + ε) t,   N = F·t = EA ε,   M = EI θ',   EI θ" = −(1 + ε) F·n         (M18)
 /// ```
 ///
-/// This is the limit of co-rotational elements of vanishing length. With the force in units of the
-/// axial stiffness, `F = EA f`, and the vector `Δ` from the end at the left base to the end at the
-/// right base, the equations make stationary
+/// Co-rotational elements converge to this model as their length decreases. With `F = EA f` and the
+/// vector `Δ` from the left to the right end of the membrane, equilibria are the stationary points
+/// of
 ///
 /// ```text
 /// Π(θ, f) = ∫ ½ EI θ'² dS − EA ∫ (f·t + ½ (f·t)²) dS + EA f·Δ                   (M19)
 /// ```
 ///
-/// and its stationary value is the energy `∫ ½ (EI θ'² + EA ε²) dS`. The direction is a polynomial
-/// through the Gauss–Lobatto–Legendre points of the gap, which also serve for integration. To order
-/// `n`,
+/// The value of `Π` at an equilibrium is the energy `∫ ½ (EI θ'² + EA ε²) dS`. The direction `θ` is
+/// a polynomial of degree `n`, given by its values at the Gauss–Lobatto–Legendre points `ξᵢ` of the
+/// gap. These points and their weights `wᵢ` are also used for integration:
 ///
 /// ```text
 /// θᵢ = φ ξᵢ + ψᵢ,   ψ₀ = ψₙ = 0,   εᵢ = f·tᵢ                                    (M20)
 /// Π = EI/2d (φ² + Σᵢⱼ ψᵢ Kᵢⱼ ψⱼ) − EA d Σᵢ wᵢ (εᵢ + ½ εᵢ²) + EA f·Δ             (M21)
 /// ```
 ///
-/// so pure bending, `ψ = 0` and `f = 0`, is exact. The error decreases faster than any power of
-/// `1/n` once the points resolve the boundary layers of length `√(EI/(N (1+ε)))` at the bases, that
-/// is from about `n² ≈ d/length`.
+/// Pure bending (`ψ = 0`, `f = 0`) is therefore exact. The error decreases faster than any power of
+/// `1/n` once the points resolve the boundary layers of length `b = √(EI/(N (1+ε)))` at the bases,
+/// from about `n² = d/b` on.
 ///
 /// The state of a gap of order `n` has [`Self::unknowns`] entries, in the frame of the left scale:
 ///
@@ -47,18 +48,18 @@ use crate::{RigidArm, Section, Span};
 /// z = (ψ₁ … ψₙ₋₁, f₁, f₂, uₓ, u_y, φ)                                           (M22)
 /// ```
 ///
-/// with the displacement and the rotation `(uₓ, u_y, φ)` of the right scale. The unknowns `ψ` and
-/// `f` belong to the gap, with the equations `∂Π/∂ψ = 0` and `∂Π/∂f = 0`; eliminating them leaves
-/// the force of the membrane on its right scale. Because `f` is a multiplier, two eigenvalues of
-/// the tangent are negative at every stable equilibrium.
+/// with the displacement and the rotation `(uₓ, u_y, φ)` of the right scale. The interior unknowns
+/// `ψ` and `f` are determined by `∂Π/∂ψ = 0` and `∂Π/∂f = 0`. The derivatives of `Π` with respect
+/// to `(uₓ, u_y, φ)` are the force and the moment that hold the right scale. Because `f` is a
+/// Lagrange multiplier, two eigenvalues of the tangent are negative at every stable equilibrium.
 ///
-/// If no force acts in the gap, `f = 0` and `ψ = 0`. The functions of a state therefore also accept
-/// a state without `ψ`, its last five entries alone, with five rows of gradient and Hessian. This
-/// is cheap while scales do not touch.
+/// If no force acts in the gap, `f = 0` and `ψ = 0`. All functions with an argument `z` therefore
+/// also accept a short state, the last five entries of (M22) without `ψ`; gradient and Hessian then
+/// have five rows. This reduces the cost while scales do not touch.
 ///
-/// Sources: E. Reissner, *Z. Angew. Math. Phys.* 23 (1972) 795, doi 10.1007/BF01602645 (without
-/// shear); S. S. Antman, *Nonlinear Problems of Elasticity*, 2nd ed., Springer (2005), ch. 4, doi
-/// 10.1007/0-387-27649-1.
+/// Sources: E. Reissner, *Z. Angew. Math. Phys.* 23 (1972) 795, doi 10.1007/BF01602645 (with shear
+/// deformation); S. S. Antman, *Nonlinear Problems of Elasticity*, 2nd ed., Springer (2005), ch. 4,
+/// doi 10.1007/0-387-27649-1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elastica {
     section: Section,
@@ -66,7 +67,7 @@ pub struct Elastica {
     rule: Arc<Lobatto>,
 }
 
-/// Energies of the membrane in a gap, over `E_m t³`.
+/// Energies of the membrane in a gap, in units of `E_m t³`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapEnergies {
     /// Stretching energy `∫ ½ EA ε² dS`.
@@ -75,28 +76,29 @@ pub struct GapEnergies {
     pub bending: f64,
 }
 
-/// Derivatives of the potential of a gap with respect to its state.
+/// First and second derivatives of the potential of a gap with respect to its state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
-    /// First derivatives, in the order of the state.
+    /// First derivatives, in the order of the entries of the state.
     pub gradient: DVector<f64>,
-    /// Second derivatives, symmetric.
+    /// Symmetric matrix of second derivatives.
     pub hessian: DMatrix<f64>,
 }
 
 /// Valid orders for [`Elastica::new`].
 ///
-/// A polynomial of order 1 cannot bend. An order above 128 is taken for a mistake.
+/// With order 1 the direction is linear, so the membrane could only bend to an arc. An order above
+/// 128 is refused as a probable mistake.
 const ORDERS: std::ops::RangeInclusive<usize> = 2..=128;
 
 impl Elastica {
-    /// Creates the membrane of a section over a span.
+    /// Creates a membrane with the cross-section `section` in the gap `span`.
     ///
-    /// Its direction is a polynomial of degree `order`.
+    /// The direction of the axis is a polynomial of degree `order`.
     ///
     /// # Errors
-    /// If the gap is not positive and finite, the half-base negative, the offset not finite, or the
-    /// order outside 2 … 128.
+    /// If the gap is not positive and finite, the half-base is negative, the offset is not finite,
+    /// or the order is outside 2 … 128.
     pub fn new(section: Section, span: Span, order: usize) -> Result<Self, OutOfRange> {
         check(&span)?;
         let accepted = ORDERS.contains(&order);
@@ -104,56 +106,55 @@ impl Elastica {
         Ok(Self { section, span, rule: Lobatto::shared(order) })
     }
 
-    /// Creates a membrane of the same section and order over another span.
+    /// Creates a membrane in another gap with the section and the order of `self`.
     ///
     /// # Errors
-    /// If the gap is not positive and finite, the half-base negative, or the offset not finite.
+    /// If the gap is not positive and finite, the half-base is negative, or the offset is not
+    /// finite.
     pub fn over(&self, span: Span) -> Result<Self, OutOfRange> {
         check(&span)?;
         // The quadrature rule depends only on the order, so both membranes share it.
         Ok(Self { span, ..self.clone() })
     }
 
-    /// Returns the order `n`.
+    /// Returns the order `n`, the degree of the polynomial for the direction.
     pub fn order(&self) -> usize {
         self.rule.order()
     }
 
-    /// Returns the number of unknowns `ψ` and `f` of the gap.
-    ///
-    /// They are the first `n + 1` of the state.
+    /// Returns the number `n + 1` of interior unknowns `ψ` and `f`, the first entries of a state.
     pub fn interior(&self) -> usize {
         self.order() + 1
     }
 
-    /// Returns the number of entries `n + 4` of the state (M22).
+    /// Returns the number `n + 4` of entries of a state (M22).
     pub fn unknowns(&self) -> usize {
         self.interior() + 3
     }
 
-    /// Returns the distance `2a + d` between the nodes of the scales at rest.
+    /// Returns the distance `2a + d` between the nodes of the two scales at rest, in units of `t`.
     pub fn pitch(&self) -> f64 {
         2.0 * self.span.half_base + self.span.gap
     }
 
-    /// Returns the reference sizes of the entries of the gradient.
-    ///
-    /// They are in the order of the state.
+    /// Returns a reference size for each entry of the gradient, for tolerances on residuals.
     pub fn units(&self) -> DVector<f64> {
         let [axial, bending] = self.stiffness();
         let mut units = DVector::from_element(self.unknowns(), bending);
         let f = self.order() - 1;
-        // Closure equations are scaled by the length of the gap, force equations, as for beam
-        // elements, by the force of a displacement `t`.
+        // The derivatives with respect to `f` are displacements times `EA`, with the gap `d` as
+        // their reference. Forces are compared with the axial force of a displacement by 1, as for
+        // beam elements.
         units.rows_mut(f, 2).fill(axial * self.span.gap);
         units.rows_mut(f + 2, 2).fill(axial / self.span.gap);
         units
     }
 
-    /// Computes the derivatives of the potential (M21) at a state.
+    /// Computes the derivatives of the potential (M21) at the state `z`.
     ///
-    /// The gradient holds the residuals of the gap's own unknowns, then the force `(Fₓ, F_y)` (over
-    /// `E_m t²`) and the moment about its node (over `E_m t³`) required to hold the right scale.
+    /// The gradient consists of the residuals of the equations for `ψ` and `f`, followed by the
+    /// force `(Fₓ, F_y)` (in units of `E_m t²`) and the moment about the node (in units of
+    /// `E_m t³`) that hold the right scale.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -180,7 +181,7 @@ impl Elastica {
             coupling += xi * mixed;
             let mut stretching = hessian.fixed_view_mut::<2, 2>(f, f);
             stretching -= weight * (along * along.transpose());
-            // The directions at both ends are given by the bases and are not unknowns.
+            // The bases prescribe the directions at both ends, so these have no unknown `ψ`.
             if (1..=f).contains(&i) {
                 gradient[i - 1] += torque;
                 hessian[(i - 1, i - 1)] += stiffness;
@@ -199,7 +200,7 @@ impl Elastica {
         Derivatives { gradient, hessian }
     }
 
-    /// Computes the energies at a state that satisfies the gap's own equations.
+    /// Computes the energies at a state `z` that satisfies the equations for `ψ` and `f`.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -208,15 +209,16 @@ impl Elastica {
         let curvatures = self.curvatures(z);
         let density =
             |(i, section): (usize, Direction)| 0.5 * self.weight(i) * section.strain.powi(2);
-        // The rule is exact for this integral: the square of `θ'` is of degree `2n − 2` (M15).
+        // The rule is exact for this integral, because `θ'²` is a polynomial of degree `2n − 2`
+        // (M15).
         let bending = curvatures.component_mul(&curvatures).dot(&self.rule.weights)
             * (0.5 * bending * self.span.gap.powi(2));
         GapEnergies { axial: self.sections(z).map(density).sum(), bending }
     }
 
-    /// Computes the largest strain `|ε| + ½ h |θ'|` at the surface of the membrane.
+    /// Returns the largest strain `|ε| + ½ h |θ'|` at the surface of the membrane.
     ///
-    /// The maximum is over the points of the gap.
+    /// Evaluates only the Gauss–Lobatto–Legendre points.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -229,9 +231,9 @@ impl Elastica {
         })
     }
 
-    /// Computes the deformed axis from base to base, in `intervals ≥ 1` intervals.
+    /// Returns `intervals + 1` points of the deformed axis from the left to the right base.
     ///
-    /// Positions are relative to the node of the left scale.
+    /// Positions are relative to the node of the left scale. `intervals` is at least 1.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -241,7 +243,8 @@ impl Elastica {
         let width = 1.0 / intervals as f64;
         let mut axis = vec![self.arms()[0].lever(0.0)];
         for k in 0..intervals {
-            // The cosine of a polynomial is not a polynomial, so each interval uses the whole rule.
+            // `t(θ)` is not a polynomial, so each interval is integrated with all points of the
+            // rule.
             let points = self.rule.points.iter().zip(&self.rule.weights).map(|(xi, weight)| {
                 let angle = self.rule.interpolate(&angles, (k as f64 + xi) * width);
                 let section = Direction::new(angle, force);
@@ -252,7 +255,7 @@ impl Elastica {
         axis
     }
 
-    /// Transfers the state `z` to another order by interpolating its direction.
+    /// Converts the state `z` to the order of the membrane `to` by interpolating the direction.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -263,12 +266,12 @@ impl Elastica {
         psi.chain(z[z.len() - 5..].iter().copied()).collect()
     }
 
-    /// Returns `EA` and `EI/d`.
+    /// Returns the axial stiffness `EA` and the rotational stiffness `EI/d` of the gap.
     fn stiffness(&self) -> [f64; 2] {
         [self.section.axial_stiffness(), self.section.bending_stiffness() / self.span.gap]
     }
 
-    /// Returns `EA d wᵢ`.
+    /// Returns `EA d wᵢ`, the weight of point `i` in the axial energy.
     fn weight(&self, i: usize) -> f64 {
         self.section.axial_stiffness() * self.span.gap * self.rule.weights[i]
     }
@@ -279,19 +282,21 @@ impl Elastica {
         [half_base, -half_base].map(|x| RigidArm::new(Vec2::new(x, -axis_offset)))
     }
 
-    /// Returns the vector from the node of the right scale to the end of the membrane.
+    /// Returns the vector from the node of the right scale to the right end of the membrane.
+    ///
+    /// `phi` is the rotation of the right scale.
     fn lever(&self, phi: f64) -> Vec2 {
         self.arms()[1].lever(phi)
     }
 
-    /// Computes `Δ`.
+    /// Computes the vector `Δ` from the left to the right end of the membrane.
     fn base_to_base(&self, z: &[f64]) -> Vec2 {
         let ElasticaState { displacement, phi, .. } = ElasticaState::new(z);
         let node = Vec2::new(self.pitch(), 0.0) + displacement;
         node + self.lever(phi) - self.arms()[0].lever(0.0)
     }
 
-    /// Computes the directions `θᵢ` at the points (M20).
+    /// Computes the directions `θᵢ` at all points (M20).
     fn angles(&self, z: &[f64]) -> DVector<f64> {
         let ElasticaState { psi, phi, .. } = ElasticaState::new(z);
         let mut angles = phi * &self.rule.points;
@@ -300,16 +305,16 @@ impl Elastica {
         angles
     }
 
-    /// Computes the curvatures `θ'` at the points.
+    /// Computes the curvatures `θ'` at all points.
     fn curvatures(&self, z: &[f64]) -> DVector<f64> {
         &self.rule.derivative * self.angles(z) / self.span.gap
     }
 
-    /// Iterates over the sections at the points, in order.
+    /// Iterates over the points in order, with the index and the [`Direction`] at each point.
     fn sections<'a>(&'a self, z: &'a [f64]) -> impl Iterator<Item = (usize, Direction)> + 'a {
         let ElasticaState { psi, force, phi, .. } = ElasticaState::new(z);
         (0..=self.order()).map(move |i| {
-            // A state without `ψ` is pure bending, to an arc.
+            // A state without `ψ` is an arc, as in pure bending.
             let deviation = if (1..=psi.len()).contains(&i) { psi[i - 1] } else { 0.0 };
             (i, Direction::new(phi * self.rule.points[i] + deviation, force))
         })
@@ -336,15 +341,15 @@ impl<'a> ElasticaState<'a> {
     }
 }
 
-/// Cross-section of the membrane under a force `f`.
+/// Direction of the membrane axis at a point, and components of the force `f` at this point.
 struct Direction {
-    /// `t`.
+    /// Unit vector `t` along the axis.
     along: Vec2,
-    /// `n`.
+    /// Unit vector `n` normal to the axis.
     across: Vec2,
-    /// `ε = f·t`.
+    /// Axial strain `ε = f·t`.
     strain: f64,
-    /// `f·n`.
+    /// Component `f·n` of the force normal to the axis.
     shear: f64,
 }
 
@@ -356,7 +361,7 @@ impl Direction {
     }
 }
 
-/// Sets an entry and its mirror image in a symmetric matrix.
+/// Sets the entries `(row, column)` and `(column, row)` of a symmetric matrix.
 fn set(matrix: &mut DMatrix<f64>, [row, column]: [usize; 2], value: f64) {
     matrix[(row, column)] = value;
     matrix[(column, row)] = value;

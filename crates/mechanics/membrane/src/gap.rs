@@ -1,4 +1,4 @@
-//! Membrane in the gap between two scales, as co-rotational elements.
+//! Model of the membrane in a gap between two scales as co-rotational elements.
 
 use geometry::{OutOfRange, Vec2};
 use nalgebra::{DMatrix, DVector};
@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::section::positive;
 use crate::{CorotationalBeam, Ends, GapEnergies, Local, OffsetBeam, Response, RigidArm, Section};
 
-/// Undeformed span of the membrane in a gap; lengths over `t`.
+/// Undeformed dimensions of a gap and the adjacent bases, in units of `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Half-width `a ≥ 0` of the bases, under which the membrane is rigid.
@@ -17,14 +17,16 @@ pub struct Span {
     pub axis_offset: f64,
 }
 
-/// Membrane of a gap: `m` equal elements, rigid under the bases.
+/// Membrane in a gap, modelled by `m` equal co-rotational elements.
+///
+/// The membrane is rigid under the bases.
 ///
 /// ```text
 ///  ┌───────┐           ┌───────┐
 ///  │ left  │           │ right │        scale nodes ○ at the midpoints of the bases
 ///  └───○───┘           └───○───┘
 ///      ┆ e                 ┆
-///      ╰┄┄┄●━━━●━━━●━━━●┄┄┄╯            m = 3 elements, interior nodes ● with poses of their own
+///      ╰┄┄┄●━━━●━━━●━━━●┄┄┄╯            m = 3 elements, 2 interior nodes
 ///        a │     d     │ a
 /// ```
 ///
@@ -36,9 +38,10 @@ pub struct Span {
 /// W(u) = Σₖ Wₖ(u₃ₖ … u₃ₖ₊₅),   k = 0 … m−1,   each element of length d/m        (M14)
 /// ```
 ///
-/// so element `k` acts on the six entries of `u` from `3k` on, and a row of gaps with shared scales
-/// has a block-tridiagonal tangent. An element uses only the difference of its two displacements,
-/// added to their distance at rest, so that the position of the gap in a long row costs no digits.
+/// so element `k` contributes to the six entries of `u` from `3k` on, and the tangent of a row of
+/// gaps is block-tridiagonal. An element only uses the difference between the displacements of its
+/// two bodies and their distance at rest. The precision therefore does not depend on the position
+/// of the gap in a long row, except for the rounding of the displacements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapMembrane {
     section: Section,
@@ -47,25 +50,25 @@ pub struct GapMembrane {
     span: Span,
 }
 
-/// Energies of the membrane in a gap, and their derivatives with respect to its state.
+/// Energies of the membrane in a gap, and the derivatives of their sum by the state `u`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GapResponse {
-    /// Stretching energy.
+    /// Stretching energy of all elements.
     pub axial_energy: f64,
-    /// Bending energy.
+    /// Bending energy of all elements.
     pub bending_energy: f64,
-    /// Gradient of the sum of the energies.
+    /// Gradient of the sum of both energies.
     pub force: DVector<f64>,
-    /// Second derivatives, symmetric.
+    /// Symmetric matrix of second derivatives of the sum of both energies.
     pub tangent: DMatrix<f64>,
 }
 
 impl GapMembrane {
-    /// Creates a membrane of `elements` equal elements over a span.
+    /// Creates a membrane of `elements` equal elements in the gap `span`.
     ///
     /// # Errors
-    /// If the gap is not positive and finite, the half-base negative, the offset not finite, or the
-    /// number of elements zero.
+    /// If the gap is not positive and finite, the half-base is negative, the offset is not finite,
+    /// or the number of elements is zero.
     pub fn new(section: Section, span: Span, elements: usize) -> Result<Self, OutOfRange> {
         let count = elements as f64;
         OutOfRange::unless(elements > 0, "number of elements per gap", count, "at least 1")?;
@@ -83,19 +86,19 @@ impl GapMembrane {
         self.elements
     }
 
-    /// Returns the length `3(m + 1)` of the state.
+    /// Returns the number `3(m + 1)` of entries of the state.
     pub fn unknowns(&self) -> usize {
         3 * (self.elements + 1)
     }
 
-    /// Returns the distance `2a + d` between the nodes of the scales at rest.
+    /// Returns the distance `2a + d` between the nodes of the two scales at rest, in units of `t`.
     pub fn pitch(&self) -> f64 {
         2.0 * self.span.half_base + self.span.gap
     }
 
-    /// Returns the poses at rest of the displaced nodes.
+    /// Returns the poses `(x, y, φ)` of all nodes at rest, in the order of the state.
     ///
-    /// The node of the left scale is at 0.
+    /// The node of the left scale is the origin.
     pub fn rest(&self) -> DVector<f64> {
         let mut poses = DVector::zeros(self.unknowns());
         for node in 0..=self.elements {
@@ -106,7 +109,7 @@ impl GapMembrane {
         poses
     }
 
-    /// Returns element `k`, with its arm if it starts or ends at a scale.
+    /// Returns element `k`, including the rigid arm of an end that is attached to a scale.
     pub fn element(&self, k: usize) -> OffsetBeam {
         let Span { half_base, axis_offset, .. } = self.span;
         let mut arms = [RigidArm::NONE; 2];
@@ -119,7 +122,9 @@ impl GapMembrane {
         OffsetBeam { beam: self.beam, arms }
     }
 
-    /// Returns the response of element `k` to the entries `3k … 3k + 5` of the state.
+    /// Returns energies, force and tangent of element `k`.
+    ///
+    /// `displacements` are the entries `3k … 3k + 5` of the state.
     pub fn element_response(&self, k: usize, displacements: &Ends) -> Response {
         self.element(k).response(&self.bodies(k, displacements))
     }
@@ -142,18 +147,18 @@ impl GapMembrane {
         sum
     }
 
-    /// Returns the reference sizes of forces and moments, three for each node.
+    /// Returns the reference sizes of forces and moments for tolerances on residuals.
     ///
-    /// The nodes are the interior ones and the right scale. A finer mesh is stiffer and has
-    /// proportionally larger round-off.
+    /// The vector has three entries for each interior node and for the right scale. Sizes grow with
+    /// the number of elements, because shorter elements are stiffer and have larger round-off.
     pub fn units(&self) -> DVector<f64> {
         let axial = self.section.axial_stiffness() / self.beam.length();
         let bending = self.section.bending_stiffness() / self.beam.length();
-        // The left scale is the frame and has no equations.
+        // The left scale is the reference frame and has no equations.
         DVector::from_fn(3 * self.elements, |k, _| if k % 3 == 2 { bending } else { axial })
     }
 
-    /// Returns the energies of the gap.
+    /// Returns the stretching and the bending energy of the gap.
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
@@ -162,16 +167,16 @@ impl GapMembrane {
         GapEnergies { axial, bending }
     }
 
-    /// Returns the largest strain `|N|/EA + h max(|M₁|, |M₂|)/2EI` at the surface.
+    /// Returns the largest value of `|N|/EA + h max(|M₁|, |M₂|)/2EI` among all elements.
     ///
-    /// The maximum is over all elements.
+    /// This is the largest strain at the surface of the membrane.
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
     pub fn largest_strain(&self, u: &DVector<f64>) -> f64 {
         let half_thickness = 0.5 * self.section.thickness();
         let strains = self.local(u).into_iter().map(|local| {
-            // Moments are linear along an element, so the maximum is at an end.
+            // The moment varies linearly along an element, so its maximum is at an end.
             let curvature = local.moments[0].abs().max(local.moments[1].abs())
                 / self.section.bending_stiffness();
             local.axial_force.abs() / self.section.axial_stiffness() + half_thickness * curvature
@@ -179,7 +184,7 @@ impl GapMembrane {
         strains.fold(0.0, f64::max)
     }
 
-    /// Returns deformations and forces of all elements, in the frames of their chords.
+    /// Returns deformations and forces of each element in the frame of its chord.
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
@@ -187,10 +192,10 @@ impl GapMembrane {
         (0..self.elements).map(|k| self.element(k).local(&self.bodies(k, &entries(u, k)))).collect()
     }
 
-    /// Returns the deformed axis from base to base.
+    /// Returns points of the deformed axis from the left to the right base.
     ///
-    /// It has `intervals ≥ 1` intervals per element. Positions are relative to the rest position of
-    /// the left scale's node.
+    /// The points divide each element into `intervals ≥ 1` intervals. Positions are relative to the
+    /// node of the left scale at rest.
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
@@ -200,7 +205,7 @@ impl GapMembrane {
             let displacements = entries(u, k);
             let first = self.rest_position(k) + Vec2::new(displacements[0], displacements[1]);
             let (element, bodies) = (self.element(k), self.bodies(k, &displacements));
-            // The first point of an element is the last one of the element before.
+            // The first point of an element is the last point of the previous element.
             for i in usize::from(k > 0)..=intervals {
                 axis.push(first + element.axis_point(&bodies, i as f64 / intervals as f64));
             }
@@ -208,7 +213,9 @@ impl GapMembrane {
         axis
     }
 
-    /// Returns the rest position of the `i`-th pose, relative to the left node.
+    /// Returns the position at rest of node `i`, relative to the node of the left scale.
+    ///
+    /// Nodes 0 and `m` are the nodes of the scales.
     fn rest_position(&self, i: usize) -> Vec2 {
         let Span { half_base, axis_offset, .. } = self.span;
         if i == 0 {
@@ -220,9 +227,9 @@ impl GapMembrane {
         }
     }
 
-    /// Returns the poses of the two bodies joined by element `k`.
+    /// Returns the poses of the two nodes that element `k` connects.
     ///
-    /// The origin is at the first body.
+    /// The first node is the origin. `u` contains the displacements of both nodes.
     fn bodies(&self, k: usize, u: &Ends) -> Ends {
         let at_rest = self.rest_position(k + 1) - self.rest_position(k);
         Ends::new(0.0, 0.0, u[2], at_rest.x + (u[3] - u[0]), at_rest.y + (u[4] - u[1]), u[5])
@@ -230,7 +237,7 @@ impl GapMembrane {
 }
 
 impl GapResponse {
-    /// Adds an element that acts on the six entries from `start` on.
+    /// Adds the contribution of an element to the six entries from `start` on.
     fn add(&mut self, start: usize, element: &Response) {
         self.axial_energy += element.axial_energy;
         self.bending_energy += element.bending_energy;
@@ -241,12 +248,12 @@ impl GapResponse {
     }
 }
 
-/// Returns the six entries of the state on which element `k` acts.
+/// Returns the six entries of the state `u` that belong to the nodes of element `k`.
 fn entries(u: &DVector<f64>, k: usize) -> Ends {
     u.fixed_rows::<6>(3 * k).into_owned()
 }
 
-/// Returns an error if no membrane can bridge `span`.
+/// Returns an error if a dimension of `span` is invalid.
 pub(crate) fn check(span: &Span) -> Result<(), OutOfRange> {
     let Span { half_base, gap, axis_offset } = *span;
     positive("gap", gap)?;

@@ -1,34 +1,36 @@
-//! Soft membrane that carries the scales, one gap at a time.
+//! Soft membrane that connects rigid scales, modelled gap by gap.
 //!
-//! The membrane is bonded to the bases of rigid scales and is rigid under them. In each gap it is a
-//! thin strip in plane bending: linear elastic with small strains, but with large rotations, like
-//! the scales. Equilibria make its energy
+//! The membrane is bonded to the bases of the scales and is rigid under them. In each gap it is a
+//! thin strip in plane bending, linear elastic with small strains and arbitrarily large rotations.
+//! Equilibria are stationary points of the energy
 //!
 //! `W = ½ ∫ (EA ε² + EI κ²) ds`
 //!
-//! stationary, with the stretch `ε` of the axis and its curvature `κ`. Each gap is solved as an
-//! elastica by one spectral element, or by co-rotational Euler–Bernoulli elements, with
-//! deformations measured in a frame that rotates with the element.
+//! with the strain `ε` and the curvature `κ` of the membrane axis. Two models of a gap exist: an
+//! elastica, discretised by one spectral element, and a chain of co-rotational Euler–Bernoulli
+//! elements, in which deformations are measured in a frame that rotates with each element.
 //!
-//! Lengths are in units of the scale thickness `t` and forces in units of `E_m t²`, so moments are
-//! in units of `E_m t³`; angles are counter-clockwise. Elements take a [`NodePose`] `(x, y, φ)` of
-//! each end, a gap the displacements `(uₓ, u_y, φ)` from rest. `φ` is an unbounded real number;
-//! half turns and full turns are ordinary states.
+//! Lengths are in units of the scale thickness `t`, forces in units of `E_m t²` and moments in
+//! units of `E_m t³`; angles are counter-clockwise. The state of an element is the [`NodePose`]
+//! `(x, y, φ)` of each end. The state of a gap consists of displacements `(uₓ, u_y, φ)` from rest.
+//! Rotations `φ` are unbounded real numbers, so several full turns are possible.
 //!
 //! | Type | Role |
 //! |---|---|
 //! | [`Section`] | depth and thickness of the membrane: `EA`, `EI` |
 //! | [`CorotationalBeam`] | one element: energies, force, consistent tangent, end moments |
 //! | [`RigidArm`] | kinematics of a point that is rigidly attached to a pose |
-//! | [`OffsetBeam`] | an element between two rigid arms, in terms of the poses that hold them |
-//! | [`Span`], [`GapMembrane`] | geometry of one gap; its elements, assembled between two scales |
-//! | [`Elastica`] | limit of infinitely many elements: one spectral element per gap |
-//! | [`Membrane`] | either of the two, behind one interface |
+//! | [`OffsetBeam`] | an element between two rigid arms, as a function of the poses of two bodies |
+//! | [`Span`] | dimensions of one gap |
+//! | [`GapMembrane`] | the co-rotational elements of one gap, assembled between two scales |
+//! | [`Elastica`] | the spectral element of one gap: the limit of infinitely many elements |
+//! | [`Membrane`] | common interface of [`GapMembrane`] and [`Elastica`] |
 //!
 //! ```
 //! use membrane::{GapMembrane, Section, Span};
 //!
-//! // 8 mm cubes glued 0.8 mm apart on a 1 mm strip; the right one is turned by 10° about its node.
+//! // Two cubes of 8 mm are glued 0.8 mm apart on a strip of 1 mm thickness. The right cube is
+//! // rotated by 10° about its node.
 //! let section = Section::new(1.0, 0.125)?;
 //! let gap = GapMembrane::new(section, Span { half_base: 0.5, gap: 0.1, axis_offset: 0.0 }, 1)?;
 //! let turned = nalgebra::DVector::from_vec(vec![0.0, 0.0, 0.0, 0.0, 0.0, 10_f64.to_radians()]);

@@ -1,19 +1,20 @@
-//! Polynomials through the Gauss–Lobatto–Legendre points.
+//! Quadrature, differentiation and interpolation of polynomials at Gauss–Lobatto–Legendre points.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{DMatrix, DVector};
 
-/// Gauss–Lobatto–Legendre rule of order `n` on `[0, 1]`.
+/// Gauss–Lobatto–Legendre rule of order `n` on the interval from 0 to 1.
 ///
-/// It has `n + 1` points including the ends. With the Legendre polynomial `Pₙ`, the points are
-/// `ξᵢ = (1 + xᵢ)/2` with `x₀ = −1`, `xₙ = 1` and the roots of `Pₙ'` between them, and
+/// The rule has `n + 1` points `ξᵢ = (1 + xᵢ)/2`, including both ends. `x₀ = −1`, `xₙ = 1`, and the
+/// other `xᵢ` are the roots of the derivative `Pₙ'` of the Legendre polynomial `Pₙ`. `ℓᵢ` is the
+/// polynomial of degree `n` that is 1 at `ξᵢ` and 0 at the other points.
 ///
 /// ```text
 /// wᵢ = 1/(n (n+1) Pₙ(xᵢ)²)                              weights, exact to degree 2n − 1   (M15)
-/// Dᵢⱼ = 2 Pₙ(xᵢ)/[Pₙ(xⱼ) (xᵢ − xⱼ)],   Dᵢᵢ = −Σⱼ Dᵢⱼ     derivative at the points          (M16)
-/// Kᵢⱼ = Σₖ wₖ Dₖᵢ Dₖⱼ = ∫ ℓᵢ' ℓⱼ' dξ                      stiffness of the polynomials ℓᵢ   (M17)
+/// Dᵢⱼ = 2 Pₙ(xᵢ)/[Pₙ(xⱼ) (xᵢ − xⱼ)],   Dᵢᵢ = −Σⱼ Dᵢⱼ     derivative ℓⱼ' at ξᵢ              (M16)
+/// Kᵢⱼ = Σₖ wₖ Dₖᵢ Dₖⱼ = ∫ ℓᵢ' ℓⱼ' dξ                      stiffness matrix                 (M17)
 /// ```
 ///
 /// Source: C. Canuto, M. Y. Hussaini, A. Quarteroni, T. A. Zang, *Spectral Methods: Fundamentals in
@@ -22,25 +23,26 @@ use nalgebra::{DMatrix, DVector};
 pub(crate) struct Lobatto {
     /// Points `ξᵢ`, ascending from 0 to 1.
     pub(crate) points: DVector<f64>,
-    /// Weights `wᵢ`, of sum 1.
+    /// Weights `wᵢ`, with the sum 1.
     pub(crate) weights: DVector<f64>,
-    /// `D`, the matrix from values to derivatives at the points.
+    /// Matrix `D` (M16), which maps values at the points to derivatives at the points.
     pub(crate) derivative: DMatrix<f64>,
-    /// `K`.
+    /// Stiffness matrix `K` (M17).
     pub(crate) stiffness: DMatrix<f64>,
-    /// `Pₙ(xᵢ)`; the inverses are the barycentric weights of the points.
+    /// `Pₙ(xᵢ)` at each point; its inverse is proportional to the barycentric weight of the point.
     legendre: DVector<f64>,
 }
 
-/// Rules computed so far, by order.
+/// Rules computed so far, with the order as key.
 static SHARED: Mutex<BTreeMap<usize, Arc<Lobatto>>> = Mutex::new(BTreeMap::new());
 
 impl Lobatto {
     /// Returns the shared rule of order `n ≥ 1`.
     pub(crate) fn shared(n: usize) -> Arc<Self> {
-        // A panic elsewhere leaves the map intact, so a poisoned lock is usable.
+        // A panic of another thread leaves the map intact, so a poisoned lock is usable.
         let mut rules = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
-        // Compute under the lock, so that other threads wait instead of repeating the computation.
+        // The rule is computed under the lock, so that other threads wait instead of repeating the
+        // computation.
         Arc::clone(rules.entry(n).or_insert_with(|| Arc::new(Self::new(n))))
     }
 
@@ -53,7 +55,7 @@ impl Lobatto {
             if i == j { 0.0 } else { 2.0 * legendre[i] / (legendre[j] * (x[i] - x[j])) }
         });
         for i in 0..=n {
-            // The negative row sum, so that a constant has an exactly zero slope.
+            // The negative sum of the row makes the derivative of a constant exactly zero.
             derivative[(i, i)] = -derivative.row(i).sum();
         }
         let mut stiffness = derivative.transpose() * DMatrix::from_diagonal(&weights) * &derivative;
@@ -67,12 +69,14 @@ impl Lobatto {
         self.points.len() - 1
     }
 
-    /// Interpolates `values` at the points to `ξ` by the barycentric formula.
+    /// Returns the value at `ξ` of the polynomial with `values` at the points.
+    ///
+    /// Uses the barycentric formula.
     pub(crate) fn interpolate(&self, values: &DVector<f64>, xi: f64) -> f64 {
         let (mut above, mut below) = (0.0, 0.0);
         for i in 0..values.len() {
             let distance = xi - self.points[i];
-            // At a point the formula is infinite over infinite.
+            // At one of the points the formula would divide infinity by infinity.
             if distance == 0.0 {
                 return values[i];
             }
@@ -84,20 +88,20 @@ impl Lobatto {
     }
 }
 
-/// Returns `Pₙ₋₁(x)` and `Pₙ(x)`, `n ≥ 1`, by the three-term recurrence.
+/// Returns `Pₙ₋₁(x)` and `Pₙ(x)` for `n ≥ 1`, computed by the three-term recurrence.
 fn legendre(n: usize, x: f64) -> [f64; 2] {
     (2..=n).map(|k| k as f64).fold([1.0, x], |[before, last], k| {
         [last, ((2.0 * k - 1.0) * x * last - (k - 1.0) * before) / k]
     })
 }
 
-/// Computes the point `xᵢ` by Newton's method from the Chebyshev point.
+/// Computes the point `xᵢ` by Newton's method, starting from the Chebyshev point.
 ///
-/// The function `(1 − x²) Pₙ' = n (Pₙ₋₁ − x Pₙ)` has the derivative `−n (n+1) Pₙ`. The points of
-/// the right half mirror the left ones.
+/// The points are the zeros of `(1 − x²) Pₙ' = n (Pₙ₋₁ − x Pₙ)`, with the derivative
+/// `−n (n+1) Pₙ`. Points in the right half are mirror images of points in the left half.
 fn point(n: usize, i: usize) -> f64 {
     match (2 * i).cmp(&n) {
-        // The middle is exactly zero; Newton's method would leave about 1e-17.
+        // The middle point is exactly zero, but Newton's method would return about 1e-17.
         std::cmp::Ordering::Equal => return 0.0,
         std::cmp::Ordering::Greater => return -point(n, n - i),
         std::cmp::Ordering::Less => {}
@@ -110,9 +114,9 @@ fn point(n: usize, i: usize) -> f64 {
     x
 }
 
-/// Iterations that reach round-off at every point.
+/// Number of Newton iterations after which the error of every point is below round-off.
 ///
-/// They start from two correct digits, and each doubles them.
+/// The starting values have two correct digits, and each iteration doubles the number of digits.
 const NEWTON: usize = 6;
 
 #[cfg(test)]

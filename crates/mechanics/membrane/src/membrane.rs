@@ -1,4 +1,4 @@
-//! Common interface of the two models of the membrane in a gap.
+//! Common interface of both models of the membrane in a gap: elements and elastica.
 
 use geometry::Vec2;
 use nalgebra::DVector;
@@ -7,15 +7,15 @@ use crate::{Derivatives, Elastica, GapEnergies, GapMembrane, GapResponse};
 
 /// Membrane in one gap: co-rotational elements or their limit, the elastica.
 ///
-/// Both models use the pose of the left scale as their frame. The state of a gap consists of its
-/// own unknowns and of the displacement and rotation of the right scale,
+/// Both models use the pose of the left scale as reference frame. The state of a gap consists of
+/// interior unknowns and the displacement and rotation `(uₓ, u_y, φ)` of the right scale:
 ///
 /// ```text
 /// z = (interior, uₓ, u_y, φ)                                                    (M23)
 /// ```
 ///
-/// with the interior of (M13) for elements, the poses of the nodes between the scales, and of (M22)
-/// for the elastica.
+/// The interior unknowns are the displacements and rotations of the nodes between the scales (M13)
+/// for elements, and `ψ` and `f` (M22) for the elastica.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Membrane {
     /// Co-rotational elements.
@@ -25,7 +25,7 @@ pub enum Membrane {
 }
 
 impl Membrane {
-    /// Returns the number of the gap's own unknowns, the first of its state.
+    /// Returns the number of interior unknowns, the first entries of the state.
     pub fn interior(&self) -> usize {
         match self {
             Self::Elements(gap) => 3 * (gap.elements() - 1),
@@ -33,20 +33,18 @@ impl Membrane {
         }
     }
 
-    /// Returns the number of leading unknowns that vanish without a force in the gap.
+    /// Returns the number of leading unknowns that are zero if no force acts in the gap.
     ///
-    /// The functions of a state accept one without them.
+    /// All functions with an argument `z` also accept a state without these unknowns.
     pub fn vanishing(&self) -> usize {
         match self {
-            // Nodes between elements rotate with the membrane, with or without force.
+            // Nodes between elements rotate also in pure bending, without a force.
             Self::Elements(_) => 0,
             Self::Elastica(gap) => gap.order() - 1,
         }
     }
 
-    /// Returns the reference sizes of the entries of the gradient.
-    ///
-    /// They are in the order of the state.
+    /// Returns a reference size for each entry of the gradient, for tolerances on residuals.
     pub fn units(&self) -> DVector<f64> {
         match self {
             Self::Elements(gap) => gap.units(),
@@ -58,7 +56,8 @@ impl Membrane {
     pub fn derivatives(&self, z: &[f64]) -> Derivatives {
         match self {
             Self::Elements(gap) => {
-                // The left scale is the frame: its three coordinates are not part of the state.
+                // The left scale is the reference frame, so its three coordinates are not part of
+                // the state.
                 let GapResponse { force, tangent, .. } = gap.response(&from_left(z));
                 Derivatives {
                     gradient: force.rows(3, z.len()).into_owned(),
@@ -69,7 +68,7 @@ impl Membrane {
         }
     }
 
-    /// Computes the energies at a state `z` that satisfies the gap's own equations.
+    /// Computes the energies at a state `z` in which the interior unknowns are in equilibrium.
     pub fn energies(&self, z: &[f64]) -> GapEnergies {
         match self {
             Self::Elements(gap) => gap.energies(&from_left(z)),
@@ -77,7 +76,7 @@ impl Membrane {
         }
     }
 
-    /// Computes the largest strain `|ε| + ½ h |κ|` at the surface of the membrane.
+    /// Returns the largest strain `|ε| + ½ h |κ|` at the surface of the membrane.
     pub fn largest_strain(&self, z: &[f64]) -> f64 {
         match self {
             Self::Elements(gap) => gap.largest_strain(&from_left(z)),
@@ -85,10 +84,10 @@ impl Membrane {
         }
     }
 
-    /// Computes the deformed axis from base to base.
+    /// Returns points of the deformed axis from the left to the right base.
     ///
-    /// It is relative to the node of the left scale. It has `intervals` intervals per element, or
-    /// in the whole gap for an elastica.
+    /// The points divide each element, or the whole gap of an elastica, into `intervals` intervals.
+    /// Positions are relative to the node of the left scale.
     pub fn axis(&self, z: &[f64], intervals: usize) -> Vec<Vec2> {
         match self {
             Self::Elements(gap) => gap.axis(&from_left(z), intervals),
@@ -96,9 +95,9 @@ impl Membrane {
         }
     }
 
-    /// Transfers the state `z` to a membrane of another resolution.
+    /// Converts the state `z` to the membrane `to` of another order.
     ///
-    /// `None` unless both are elasticas, which can be interpolated.
+    /// `None` if one of the membranes consists of elements, for which no interpolation exists.
     pub fn transferred(&self, z: &[f64], to: &Self) -> Option<Vec<f64>> {
         match (self, to) {
             (Self::Elastica(ours), Self::Elastica(theirs)) => Some(ours.transferred(z, theirs)),
@@ -107,7 +106,7 @@ impl Membrane {
     }
 }
 
-/// Extends a state by the left scale at rest, as elements need it.
+/// Prepends the zero displacement of the left scale to a state, as elements require.
 fn from_left(z: &[f64]) -> DVector<f64> {
     let mut state = DVector::zeros(z.len() + 3);
     state.rows_mut(3, z.len()).copy_from_slice(z);

@@ -1,4 +1,4 @@
-//! Points rigidly attached to a pose, and elements between such points.
+//! Points that are rigidly attached to a body, and beam elements between two such points.
 
 use geometry::Vec2;
 use nalgebra::Matrix3;
@@ -16,7 +16,7 @@ use crate::{Local, NodePose};
 ///             ● x_P         the attached point; its direction rotates with the body
 /// ```
 ///
-/// With the arm `p` in the frame of the body and `R(φ)` the rotation,
+/// With the arm `p` in the frame of the body and the rotation matrix `R` for the angle `φ`,
 ///
 /// ```text
 /// x_P = x + R p,   φ_P = φ                                                      (M10)
@@ -26,15 +26,15 @@ use crate::{Local, NodePose};
 pub struct RigidArm(Vec2);
 
 impl RigidArm {
-    /// No arm: the point is the node itself.
+    /// Arm of length zero: the attached point is the node of the body.
     pub const NONE: Self = Self(Vec2::new(0.0, 0.0));
 
-    /// Creates an arm `p`, given in the frame of the body.
+    /// Creates an arm from the vector `p` in the frame of the body.
     pub const fn new(arm: Vec2) -> Self {
         Self(arm)
     }
 
-    /// Returns the arm `R p` in the frame of the plane, for a body rotated by `phi`.
+    /// Returns the arm `R p` in fixed axes, for a body rotated by `phi`.
     pub fn lever(&self, phi: f64) -> Vec2 {
         let (sin, cos) = phi.sin_cos();
         Vec2::new(cos * self.0.x - sin * self.0.y, sin * self.0.x + cos * self.0.y)
@@ -46,41 +46,42 @@ impl RigidArm {
         NodePose::new(body[0] + lever.x, body[1] + lever.y, body[2])
     }
 
-    /// Returns the gradient of the attached pose with respect to the pose of the body (M11).
+    /// Returns the derivatives of the attached pose with respect to the pose of the body (M11).
     ///
-    /// Rows are components of the attached pose.
+    /// Rows are components of the attached pose, columns are components of the pose of the body.
     pub fn gradient(&self, phi: f64) -> Matrix3<f64> {
         let lever = self.lever(phi);
         Matrix3::new(1.0, 0.0, -lever.y, 0.0, 1.0, lever.x, 0.0, 0.0, 1.0)
     }
 
-    /// Returns the second derivative `−R p` of the attached position by `φ` (M11).
+    /// Returns `−R p`, the second derivative of the attached position with respect to `φ` (M11).
     pub fn second_derivative(&self, phi: f64) -> Vec2 {
         -self.lever(phi)
     }
 }
 
-/// Element with ends that are rigidly attached to two bodies.
+/// Beam element between two points, each rigidly attached to a body.
 ///
-/// Let `F` and `K` be the force and the tangent of the element at the attached poses `Q(q)`, and
-/// `T = ∂Q/∂q`. In terms of the poses `q` of the bodies,
+/// The ends of the element have the attached poses `Q(q)`, where `q` are the poses of the bodies.
+/// With the force `F` and the tangent `K` of the element at `Q`, and with `T = ∂Q/∂q`, force and
+/// tangent as functions of `q` are
 ///
 /// ```text
 /// f = Tᵀ F,   k = Tᵀ K T + Σᵢ Fᵢ·(−R pᵢ) iᵩᵢ iᵩᵢᵀ                               (M12)
 /// ```
 ///
-/// with the force `Fᵢ` (without moment) on end `i` and the unit vector `iᵩᵢ` of the rotation of
-/// body `i`. The sum is the work of the end forces on the curved paths of the ends.
+/// `Fᵢ` is the force on end `i` without the moment, and `iᵩᵢ` the unit vector of the rotation of
+/// body `i`. The sum is a geometric stiffness: the ends move on circles when the bodies rotate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OffsetBeam {
-    /// Element.
+    /// Beam element between the attached points.
     pub beam: CorotationalBeam,
-    /// Arms from the bodies to ends 1 and 2.
+    /// Arms from the nodes of the two bodies to ends 1 and 2 of the element.
     pub arms: [RigidArm; 2],
 }
 
 impl OffsetBeam {
-    /// Returns the poses of the ends of the element, from the poses of the bodies.
+    /// Returns the poses of the ends of the element for given poses of the bodies.
     pub fn ends(&self, bodies: &Ends) -> Ends {
         let first = self.arms[0].attached(&bodies.fixed_rows::<3>(0).into());
         let second = self.arms[1].attached(&bodies.fixed_rows::<3>(3).into());
@@ -92,12 +93,12 @@ impl OffsetBeam {
         self.beam.local(&self.ends(bodies))
     }
 
-    /// Returns the point of the deformed axis at `ξ ∈ [0, 1]`.
+    /// Returns the point of the deformed axis at `ξ`, from 0 at end 1 to 1 at end 2.
     pub fn axis_point(&self, bodies: &Ends, xi: f64) -> Vec2 {
         self.beam.axis_point(&self.ends(bodies), xi)
     }
 
-    /// Returns energies and their derivatives with respect to the poses of the bodies (M12).
+    /// Returns the energies, and force and tangent with respect to the poses of the bodies (M12).
     pub fn response(&self, bodies: &Ends) -> Response {
         let at_ends = self.beam.response(&self.ends(bodies));
         let transform = self.transform(bodies);
@@ -109,7 +110,7 @@ impl OffsetBeam {
         Response { force: transform.transpose() * at_ends.force, tangent, ..at_ends }
     }
 
-    /// Returns `T = ∂Q/∂q`.
+    /// Returns `T = ∂Q/∂q`, the derivatives of the poses of the ends by the poses of the bodies.
     fn transform(&self, bodies: &Ends) -> Stiffness {
         let mut transform = Stiffness::zeros();
         for (arm, start) in self.arms.iter().zip([0, 3]) {

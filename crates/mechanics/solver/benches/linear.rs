@@ -1,6 +1,6 @@
-//! Benchmark of one factorisation and solve of the tangent of a row of scales.
+//! Benchmark of one factorisation and solution with the tangent of a row of scales.
 //!
-//! Compares block elimination and band LU.
+//! Compares block elimination with band LU factorisation.
 
 use std::hint::black_box;
 
@@ -12,13 +12,14 @@ type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
 /// Number of unknowns of a scale.
 ///
-/// Three displacements and, at each of two levels, the forces of two corners in contact.
+/// These are two displacements, a rotation and, at each of two levels, two contact forces.
 const BLOCK: usize = 7;
-/// Half-bandwidth: from the first unknown of a scale to the last displacement of the next.
+/// Half-bandwidth of the tangent.
+///
+/// The unknowns of a scale are coupled up to the last displacement of the next scale.
 const HALF: usize = BLOCK + 3;
 
-/// Returns tangent entries of a row of `scales` scales with all corners closed.
-/// The row has `scales` scales.
+/// Returns tangent entries `(row, column, value)` of a row of scales with all contacts closed.
 fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
     let size = BLOCK * scales;
     let mut entries = Vec::new();
@@ -27,7 +28,7 @@ fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
         let coupled: Vec<_> = (first..(first + HALF).min(size)).collect();
         for &i in &coupled {
             for &j in &coupled {
-                // Values without a pattern, with a dominant diagonal.
+                // Irregular values with a dominant diagonal.
                 let value = ((31 * i + 17 * j) as f64).sin();
                 entries.push((i, j, if i == j { 8.0 + value } else { value }));
             }
@@ -36,7 +37,7 @@ fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
     entries
 }
 
-/// Tangent of a row of `scales`, and a right-hand side.
+/// Linear system: tangent of a row of `scales` scales, and a right-hand side.
 struct RowTangent {
     scales: usize,
     entries: Vec<(usize, usize, f64)>,
@@ -49,12 +50,14 @@ impl RowTangent {
         Self { scales, entries: entries(scales), rhs }
     }
 
+    /// Adds all entries to `matrix`.
     fn fill(&self, matrix: &mut impl Tangent) {
         for &(i, j, value) in &self.entries {
             matrix.add(i, j, value);
         }
     }
 
+    /// Measures block elimination.
     fn in_blocks(&self, group: &mut Group) {
         let starts: Vec<_> = (0..self.scales).map(|scale| BLOCK * scale).collect();
         let blocks = Blocks { links: starts.clone(), starts, root: self.scales - 1, reach: 1 };
@@ -65,7 +68,7 @@ impl RowTangent {
         group.bench_function(BenchmarkId::new("block elimination", self.scales), |bencher| {
             bencher.iter(|| {
                 elimination.matrix.clone_from(black_box(&matrix));
-                elimination.factorise().expect("safe blocks");
+                elimination.factorise().expect("block elimination succeeds");
                 let mut x = self.rhs.clone();
                 elimination.solve(&mut x);
                 x
@@ -73,6 +76,7 @@ impl RowTangent {
         });
     }
 
+    /// Measures the band LU factorisation.
     fn in_band(&self, group: &mut Group) {
         let mut matrix = BandMatrix::new(self.rhs.len(), HALF);
         self.fill(&mut matrix);

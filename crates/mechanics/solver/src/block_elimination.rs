@@ -1,4 +1,4 @@
-//! Block elimination, with pivots within the blocks.
+//! Block elimination of a [`BlockMatrix`], with row exchanges only within blocks.
 #![expect(
     clippy::inline_always,
     reason = "only code that is inlined into its caller can use wide registers"
@@ -8,27 +8,27 @@ use pulp::{Arch, NullaryFnOnce};
 
 use crate::block_matrix::{BlockMatrix, FARTHEST_LINK, LINK};
 
-/// Number of columns that link a block to its inner neighbours.
-///
-/// `NARROW` applies to reach 1, `WIDE` to the largest reach.
+/// Number of columns that link a block to its only inner neighbour (reach 1).
 const NARROW: usize = LINK;
+/// Number of columns that link a block to its inner neighbours at the largest reach.
 const WIDE: usize = LINK * FARTHEST_LINK;
 
-/// True if matrices of larger reach are left to the band LU of the caller.
+/// True if only matrices of reach 1 are eliminated block by block.
 ///
-/// Their elimination would take up a twelfth of the WebAssembly module, and a page solves one
-/// design at a time.
+/// For a larger reach [`BlockElimination::factorise`] then returns an error, and the caller uses a
+/// band LU factorisation. In a WebAssembly module the code for a larger reach would take up a
+/// twelfth of the size, and speed matters less, because a page solves one design at a time.
 const IS_SMALL: bool = cfg!(target_arch = "wasm32");
 
 /// Smallest pivot relative to the largest entry of its column.
 ///
-/// A smaller pivot loses digits that row exchanges with other blocks might keep.
+/// With a smaller pivot, elimination would lose digits that row exchanges between blocks can keep.
 const SMALL: f64 = 1e-9;
 
 /// Largest number of unknowns of a block.
 pub const LARGEST_BLOCK: usize = 10;
 
-/// Matrix that cannot be eliminated block by block.
+/// Error for a matrix that cannot be eliminated block by block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "block {block} of {size} unknowns has no pivot that is large enough, or more than {LARGEST_BLOCK} unknowns"
@@ -40,34 +40,36 @@ pub struct UnsafeBlock {
     pub size: usize,
 }
 
-/// Factors of a [`BlockMatrix`], eliminated from both ends to the root.
+/// Factorisation of a [`BlockMatrix`] by elimination from both ends towards the root.
 ///
-/// Let `D` be the matrix of a block after elimination of its outer neighbours, `C` its columns of
-/// the inner links, and `B` the rows of those links. Elimination subtracts `B D⁻¹ C` from the inner
-/// blocks, 3 by 3 for each link (Golub & Van Loan, *Matrix Computations*, 4th ed. 2013, §4.5.1,
-/// isbn 978-1-4214-0794-4). Rows are exchanged within a block only. This is as stable as partial
-/// pivoting as long as each block is regular with its inner neighbours fixed; otherwise a small
-/// pivot reveals the singular block.
+/// For a block, `D` is its diagonal matrix after elimination of the outer neighbours, `C` contains
+/// its entries in the columns of the inner links, and `B` the entries of its columns in the rows of
+/// the inner links. Elimination of the block subtracts `B D⁻¹ C` from the inner blocks (Golub & Van
+/// Loan, *Matrix Computations*, 4th ed. 2013, §4.5.1, isbn 978-1-4214-0794-4).
+///
+/// Rows are exchanged only within a block. This is as stable as partial pivoting as long as each
+/// block is regular if its inner neighbours are fixed; otherwise a small pivot reveals the singular
+/// block.
 #[derive(Clone, Debug, Default)]
 pub struct BlockElimination {
-    /// Matrix to be filled.
+    /// Matrix, to be filled by the caller.
     ///
-    /// After factorisation, `D` holds its factors and `C` the rows of `D⁻¹ C`.
+    /// Factorisation replaces each `D` by its LU factors and each `C` by `D⁻¹ C`.
     pub matrix: BlockMatrix,
-    /// Row exchanged for each row, within its block; by position.
+    /// For each position, the row within its block with which its row was exchanged.
     exchanges: Vec<usize>,
-    /// True for each `D` with a negative determinant.
+    /// For each block, true if the determinant of `D` is negative.
     negative: Vec<bool>,
-    /// Right-hand side, by position.
+    /// Right-hand side or solution at each position.
     work: Vec<f64>,
 }
 
-/// Update that elimination subtracts from the links of the inner neighbours.
+/// Matrix that elimination subtracts from the links of the inner neighbours.
 type Update<const W: usize> = [[f64; W]; W];
 
-/// Calls a method with block size and column count `W` as constants.
+/// Calls a generic method with the block size and the number `W` of columns `C` as constants.
 ///
-/// `W` is the number of inner-link columns.
+/// Evaluates `$refused` if the block size is zero or above [`LARGEST_BLOCK`].
 macro_rules! with_size {
     ($size:expr, $self:ident . $method:ident ( $($argument:expr),* ) , $refused:expr) => {
         match $size {
@@ -86,8 +88,9 @@ macro_rules! with_size {
     };
 }
 
-/// Kernels for blocks of large reach, compiled for the widest registers.
+/// Factorisation at the largest reach, compiled for the widest registers of the processor.
 struct WideFactorisation<'a>(&'a mut BlockElimination);
+/// Substitution at the largest reach, compiled for the widest registers of the processor.
 struct WideSubstitution<'a>(&'a mut BlockElimination, [usize; 2]);
 
 impl NullaryFnOnce for WideFactorisation<'_> {
@@ -112,7 +115,7 @@ impl BlockElimination {
     /// Replaces the matrix by its factors.
     ///
     /// # Errors
-    /// If a block has no sufficiently large pivot, or is too large.
+    /// If a block has no sufficiently large pivot or more than [`LARGEST_BLOCK`] unknowns.
     pub fn factorise(&mut self) -> Result<(), UnsafeBlock> {
         let (blocks, positions) = (self.matrix.blocks(), self.matrix.kept.len());
         self.exchanges.resize(positions, 0);
@@ -131,8 +134,8 @@ impl BlockElimination {
     #[inline(always)]
     fn factorise_all<const W: usize>(&mut self) -> Result<(), UnsafeBlock> {
         let (root, blocks) = (self.matrix.root, self.matrix.blocks());
-        // Eliminate from both ends inwards: the load acts in the root, so a right-hand side that is
-        // zero elsewhere need not be propagated there.
+        // Eliminate from both ends inwards. A right-hand side that is zero except in the root, the
+        // block of the load, then needs no forward substitution in the other blocks.
         let mut update = [[0.0; W]; W];
         for block in 0..root {
             self.eliminate(block, &mut update)?;
@@ -160,9 +163,9 @@ impl BlockElimination {
         with_size!(size, self.eliminate_block(block, update), None).ok_or(refused)
     }
 
-    /// Factorises a block after subtracting the `update` from the outer blocks.
+    /// Subtracts `update`, the contribution of the outer blocks, from a block and factorises it.
     ///
-    /// Replaces `update` by the update for the inner neighbours.
+    /// Replaces `update` by the contribution to the inner neighbours.
     #[inline(always)]
     fn eliminate_block<const N: usize, const W: usize>(
         &mut self,
@@ -172,7 +175,8 @@ impl BlockElimination {
         let (start, is_root) = (self.matrix.starts[block], block == self.matrix.root);
         let link = self.matrix.links[block] - start;
         let (d, c, b) = self.matrix.parts_mut::<N, W>(block)?;
-        // Measure before subtracting the neighbour's update, so that cancellation is detected.
+        // The reference is the size of the entries before the update is subtracted, so that a pivot
+        // that is small by cancellation is detected.
         let least = least_pivots(d);
         for i in 0..LINK {
             for j in 0..LINK {
@@ -192,7 +196,7 @@ impl BlockElimination {
         Some(())
     }
 
-    /// Solves in place: `x` holds the right-hand side, then the solution.
+    /// Replaces the right-hand side `x` by the solution.
     ///
     /// At unknowns that are left out, the right-hand side is ignored and the solution is zero.
     pub fn solve(&mut self, x: &mut [f64]) {
@@ -205,9 +209,9 @@ impl BlockElimination {
         }
     }
 
-    /// Solves for a right-hand side that is 1 at `unknown` and zero elsewhere.
+    /// Returns the solution for a right-hand side that is 1 at `unknown` and zero elsewhere.
     ///
-    /// The unknown must be kept and lie in the root block or before it.
+    /// The unknown must not be left out, and must lie in the root block or in a block before it.
     pub fn solve_unit(&mut self, unknown: usize) -> Vec<f64> {
         self.work.fill(0.0);
         let position = self.matrix.positions[unknown];
@@ -217,9 +221,9 @@ impl BlockElimination {
         self.solution().collect()
     }
 
-    /// Substitutes inwards to the root and outwards to the solution.
+    /// Replaces the right-hand side in `work` by the solution, at the reach of the matrix.
     ///
-    /// Outside the two given blocks and those between, the right-hand side must be zero.
+    /// The right-hand side must be zero before the first and after the second block of `between`.
     fn inwards(&mut self, between: [usize; 2]) {
         if self.matrix.reach == 1 || IS_SMALL {
             self.substitute::<NARROW>(between);
@@ -228,6 +232,7 @@ impl BlockElimination {
         }
     }
 
+    /// Substitutes inwards from the blocks `first` and `last` to the root, then outwards to all.
     #[inline(always)]
     fn substitute<const W: usize>(&mut self, [first, last]: [usize; 2]) {
         let (root, blocks) = (self.matrix.root, self.matrix.blocks());
@@ -240,18 +245,18 @@ impl BlockElimination {
         }
     }
 
-    /// Returns the number of inner neighbours with which a block is coupled.
+    /// Returns the number of inner neighbours to which a block is linked.
     fn inner_blocks(&self, block: usize) -> usize {
         self.matrix.reach.min(block.abs_diff(self.matrix.root))
     }
 
-    /// Returns the first position of the link of the block `away` blocks further in.
+    /// Returns the first position in the link of the block `away` blocks nearer to the root.
     fn inner_link(&self, block: usize, away: usize) -> usize {
         let inner = if block < self.matrix.root { block + away } else { block - away };
         self.matrix.links[inner]
     }
 
-    /// Computes `y ← D⁻¹ y` in a block and updates right-hand sides of inner blocks.
+    /// Replaces the right-hand side `y` of a block by `D⁻¹ y` and updates the inner blocks.
     #[inline(always)]
     fn forward<const N: usize, const W: usize>(&mut self, block: usize) {
         let start = self.matrix.starts[block];
@@ -288,7 +293,7 @@ impl BlockElimination {
         }
     }
 
-    /// Returns the solution at each unknown: zero if it is left out.
+    /// Returns the solution at each unknown, zero for unknowns that are left out.
     fn solution(&self) -> impl Iterator<Item = f64> {
         self.matrix
             .positions
@@ -296,7 +301,7 @@ impl BlockElimination {
             .map(|&position| self.work.get(position).copied().unwrap_or(0.0))
     }
 
-    /// Computes `x = y − (D⁻¹ C) x_inner`.
+    /// Computes the solution `x = y − (D⁻¹ C) x_inner` of a block from the inner blocks.
     #[inline(always)]
     fn backward<const W: usize>(&mut self, block: usize) {
         let mut links = [0.0; W];
@@ -307,8 +312,8 @@ impl BlockElimination {
         let (_, [c, _]) = self.matrix.parts::<W>(block);
         for (work, c) in self.work[self.matrix.starts[block]..].iter_mut().zip(c) {
             let mut terms: [f64; W] = std::array::from_fn(|k| c[k] * links[k]);
-            // Sum pairwise as wide registers do, adding the farther half of the links to the nearer
-            // half until one link is left.
+            // Sum pairwise, as wide registers do: add the farther half of the links to the nearer
+            // half until the terms of one link are left.
             let mut half = W;
             while half > LINK {
                 half /= 2;
@@ -320,23 +325,23 @@ impl BlockElimination {
         }
     }
 
-    /// Returns the number of blocks with a negative determinant after elimination.
+    /// Returns the number of blocks in which the determinant of `D` is negative.
     ///
-    /// The determinant of the matrix is negative if the number is odd.
+    /// The determinant of the matrix is negative if this number is odd.
     ///
-    /// If the rows of forces contain the conditions of their constraints, `[[K, −Gᵀ], [G, C]]` with
-    /// positive compliances `C`, a block has a negative determinant if, with the inner blocks
-    /// fixed, an odd number of eigenvalues of `K + Gᵀ C⁻¹ G` is negative (Haynsworth 1968, doi
-    /// 10.1016/0024-3795(68)90050-5).
+    /// Let the matrix have the form `[[K, −Gᵀ], [G, C]]`, in which the rows of contact forces
+    /// contain their conditions with positive compliances `C`. The determinant of a block is then
+    /// negative if, with the inner blocks fixed, the number of negative eigenvalues of
+    /// `K + Gᵀ C⁻¹ G` is odd (Haynsworth 1968, doi 10.1016/0024-3795(68)90050-5).
     pub fn negative_blocks(&self) -> usize {
         self.negative.iter().filter(|negative| **negative).count()
     }
 }
 
-/// Replaces the update of a block by the update of its inner neighbours.
+/// Replaces the contribution to a block by the contribution to its inner neighbours.
 ///
-/// Adds `B c`, where `c` holds the columns `D⁻¹ C`. Entries for links beyond the block are carried
-/// over.
+/// The new contribution is `B c` with `c = D⁻¹ C`, plus the entries of the old one that belong to
+/// links beyond the block.
 #[inline(always)]
 fn propagate<const N: usize, const W: usize>(
     update: &mut Update<W>,
@@ -369,11 +374,11 @@ fn least_pivots<const N: usize>(d: &[[f64; N]; N]) -> [f64; N] {
     least.map(|largest| SMALL * largest)
 }
 
-/// LU-factorises in place with partial pivoting.
+/// Replaces `d` by its LU factors, with partial pivoting.
 ///
-/// The diagonal of the upper factor is stored inverted. The right-hand sides `c` are exchanged and
-/// eliminated in the same way. Returns true if the determinant is negative, and `None` if a pivot
-/// does not exceed its `least` value.
+/// The diagonal of the upper factor is stored as inverses. The same row operations are applied to
+/// the right-hand sides `c`. Returns true if the determinant is negative, and `None` if a pivot
+/// does not exceed its entry of `least`.
 #[inline(always)]
 fn factorise<const N: usize, const M: usize>(
     d: &mut [[f64; N]; N],
@@ -389,7 +394,7 @@ fn factorise<const N: usize, const M: usize>(
                 (largest, pivot) = (row[k].abs(), i);
             }
         }
-        // Written as a negation to reject NaN too.
+        // The negated comparison also rejects NaN.
         if !(largest > least[k] && largest.is_finite()) {
             return None;
         }
@@ -402,7 +407,8 @@ fn factorise<const N: usize, const M: usize>(
         let (head, tail) = d.split_at_mut(k + 1);
         let pivot = &mut head[k];
         negative ^= pivot[k] < 0.0;
-        // Store the inverse: every substitution needs it, and a product is faster than a quotient.
+        // Store the inverse, because every substitution divides by the pivot, and a product is
+        // faster than a quotient.
         pivot[k] = pivot[k].recip();
         let (c_head, c_tail) = c.split_at_mut(k + 1);
         for (row, c) in tail.iter_mut().zip(c_tail) {
@@ -417,7 +423,7 @@ fn factorise<const N: usize, const M: usize>(
     Some(negative)
 }
 
-/// Substitutes back several right-hand sides in place.
+/// Replaces the right-hand sides `x` by the solutions with the upper factor of `factors`.
 #[inline(always)]
 fn substitute_back<const N: usize, const M: usize>(factors: &[[f64; N]], x: &mut [[f64; M]; N]) {
     for k in (0..N).rev() {

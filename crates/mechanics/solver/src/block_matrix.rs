@@ -1,4 +1,4 @@
-//! Block-tridiagonal matrices with small blocks, optionally of larger reach.
+//! Matrices of small blocks, each coupled with the next block or with several next blocks.
 #![expect(
     clippy::inline_always,
     reason = "callers know the indices within a block, and adding takes a twentieth of a sweep"
@@ -6,13 +6,13 @@
 
 use crate::tangent::Tangent;
 
-/// Number of unknowns of a block with which its outer neighbours are coupled.
+/// Number of unknowns in a link, the part of a block to which outer blocks are coupled.
 pub const LINK: usize = 3;
 
-/// Largest number of inner neighbours with which a block may be coupled.
+/// Largest number of inner neighbours to which a block may be coupled.
 pub const FARTHEST_LINK: usize = 8;
 
-/// Marks the position of an unknown that is left out.
+/// Position of an unknown that is left out of the matrix.
 const LEFT_OUT: usize = usize::MAX;
 
 /// Partition of the unknowns of a system into a chain of blocks.
@@ -21,60 +21,67 @@ const LEFT_OUT: usize = usize::MAX;
 /// block 0 ── block 1 ── … ── root ── … ── last block
 /// ```
 ///
-/// Unknowns are coupled within their block and with neighbouring blocks. Of two neighbours, the one
-/// nearer to the root is the *inner* one, the other the *outer* one. All unknowns of the outer
-/// block may be coupled with the *link* of the inner one, which is [`LINK`] successive unknowns,
-/// and with no other unknown of it. If blocks are coupled beyond their next neighbour, the coupling
-/// also crosses the root, so the root must then be the last block.
+/// Unknowns are coupled within their block and with neighbouring blocks. Of two neighbours, the
+/// *inner* block is nearer to the root, the *outer* block farther from it. The *link* of a block
+/// consists of [`LINK`] successive unknowns. Unknowns of an outer block may be coupled only with
+/// the link of an inner block, not with the other unknowns of the inner block.
+///
+/// If a block is coupled with more than its next inner neighbour (`reach` above 1), the root must
+/// be the last block. Otherwise blocks on both sides of the root would be coupled.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Blocks {
     /// First unknown of each block, in ascending order, from 0.
     pub starts: Vec<usize>,
     /// First unknown of the link of each block.
     pub links: Vec<usize>,
-    /// Number of the block at which elimination from both ends meets.
+    /// Number of the root block, which is eliminated last.
     pub root: usize,
-    /// Number of inner neighbours coupled with a block: 1 to [`FARTHEST_LINK`].
+    /// Number of inner neighbours to which a block is coupled, 1 to [`FARTHEST_LINK`].
     pub reach: usize,
 }
 
-/// Block matrix without the rows and columns of some unknowns.
+/// Block matrix that omits the rows and columns of some unknowns.
 ///
-/// Methods take unknowns as indices of rows and columns. The *position* of an unknown is its index
-/// among the kept ones. A block of `n` kept unknowns stores its `n × n` entries `D`, then the
-/// entries `C` of its rows in the columns of the inner links (three for each link), then the
-/// entries `Bᵀ` of its columns in the rows of these links. They are contiguous and in the order of
-/// elimination.
+/// The rows and columns in arguments of methods are numbers of unknowns. The *position* of an
+/// unknown is its index among the unknowns that are not left out. The values of a block of `n` such
+/// unknowns are contiguous: first its `n × n` entries `D`, then the entries `C` of its rows in the
+/// columns of the inner links (three for each link), then the entries `Bᵀ` of its columns in the
+/// rows of the inner links.
 #[derive(Clone, Debug, Default)]
 pub struct BlockMatrix {
     /// Number of the root block.
     pub(crate) root: usize,
     /// Number of inner neighbours for which storage exists.
     pub(crate) reach: usize,
-    /// Position of the first kept unknown of each block, then the number of positions.
+    /// First position of each block, followed by the number of positions.
     pub(crate) starts: Vec<usize>,
-    /// Position of the first unknown of each link.
+    /// First position of each link.
     pub(crate) links: Vec<usize>,
-    /// Unknown at each position; `blocks` holds the block of each unknown.
+    /// Unknown at each position.
     pub(crate) kept: Vec<usize>,
+    /// Block of the unknown at each position.
     blocks: Vec<usize>,
-    /// Position of each unknown.
+    /// Position of each unknown, or [`LEFT_OUT`].
     pub(crate) positions: Vec<usize>,
     /// Index of the first value of each block.
     pub(crate) at: Vec<usize>,
-    /// Offset of each row within its block, by position of the row.
+    /// Offset of the row at each position for entries within its block.
     ///
-    /// Offset plus position of the column is the index of a value. `coupling` is the same for the
-    /// inner links, with the number of the column among all link unknowns instead of its position.
+    /// The index of a value is this offset plus the position of the column.
     within: Vec<usize>,
+    /// Offset of the row at each position for entries in the columns of inner links.
+    ///
+    /// The index of a value is this offset plus the entry of `in_links` for the column.
     coupling: Vec<usize>,
-    /// Number of each unknown among all link unknowns, or [`LEFT_OUT`]; by position.
+    /// Number of the unknown at each position among the unknowns of all links, or [`LEFT_OUT`].
     in_links: Vec<usize>,
+    /// Values of all blocks.
     pub(crate) values: Vec<f64>,
 }
 
-/// Part of the matrix that holds an entry.
+/// Part of the matrix to which an entry belongs.
 enum Part {
+    /// Row and column belong to the same block.
     Within,
     /// The row belongs to the outer block, the column to the link of the inner block.
     Columns,
@@ -82,15 +89,17 @@ enum Part {
     Rows,
 }
 
-/// `D`, `C` and `Bᵀ` of a block of `N` unknowns with `W` inner-link unknowns.
+/// Parts `D`, `C` and `Bᵀ` of a block of `N` unknowns with `W` unknowns in its inner links.
 pub(crate) type PartsMut<'a, const N: usize, const W: usize> =
     (&'a mut [[f64; N]; N], &'a mut [[f64; W]; N], &'a mut [[f64; W]; N]);
 
 impl BlockMatrix {
-    /// Sets the shape to `blocks` without `left_out` unknowns, and all entries to 0.
+    /// Sets the shape to `blocks` and all entries to 0.
+    ///
+    /// `left_out` is true for each unknown that is left out.
     pub fn reshape(&mut self, blocks: &Blocks, left_out: &[bool]) {
         self.root = blocks.root;
-        // Use one of two widths, so that elimination knows it as a constant.
+        // Only two values are used, for both of which the elimination is compiled.
         self.reach = if blocks.reach > 1 { FARTHEST_LINK } else { 1 };
         debug_assert!(blocks.reach <= FARTHEST_LINK);
         debug_assert!(blocks.reach <= 1 || blocks.root + 1 == blocks.starts.len());
@@ -113,6 +122,7 @@ impl BlockMatrix {
         self.lay_out();
     }
 
+    /// Assigns storage to all blocks and sets all values to 0.
     fn lay_out(&mut self) {
         let lists = [&mut self.at, &mut self.within, &mut self.coupling, &mut self.in_links];
         lists.into_iter().for_each(Vec::clear);
@@ -124,7 +134,7 @@ impl BlockMatrix {
             let link = LINK * inner;
             self.at.push(stored);
             for row in 0..size {
-                // The offset may wrap below zero; adding the column compensates.
+                // The offset may wrap below zero; adding the position of the column wraps back.
                 self.within.push((stored + size * row).wrapping_sub(start));
                 let coupled = stored + size * size + width * row;
                 self.coupling.push(coupled.wrapping_sub(link));
@@ -137,22 +147,22 @@ impl BlockMatrix {
         self.values.resize(stored, 0.0);
     }
 
-    /// Returns the number of columns of the inner links.
+    /// Returns the number of columns of `C`.
     fn width(&self) -> usize {
         LINK * self.reach
     }
 
-    /// Returns the number of kept unknowns of a block.
+    /// Returns the number of unknowns of a block that are not left out.
     pub(crate) fn size_of(&self, block: usize) -> usize {
         self.starts[block + 1] - self.starts[block]
     }
 
-    /// Returns the distance of `Bᵀ` from `C` in the storage of the block at a position.
+    /// Returns the distance from `C` to `Bᵀ` in the storage of the block of a position.
     fn behind(&self, position: usize) -> usize {
         self.width() * self.size_of(self.blocks[position])
     }
 
-    /// Returns `D`, row by row, and the rows of `C` and `Bᵀ` of a block.
+    /// Returns the values of `D`, row by row, and the rows of `C` and `Bᵀ` of a block.
     #[inline(always)]
     pub(crate) fn parts<const W: usize>(&self, block: usize) -> (&[f64], [&[[f64; W]]; 2]) {
         let size = self.size_of(block);
@@ -161,7 +171,7 @@ impl BlockMatrix {
         (d, coupling.as_chunks().0.split_at(size).into())
     }
 
-    /// Returns the mutable parts of a block of `N` unknowns.
+    /// Returns the mutable parts of a block; `N` must be its number of unknowns.
     #[inline(always)]
     pub(crate) fn parts_mut<const N: usize, const W: usize>(
         &mut self,
@@ -178,7 +188,7 @@ impl BlockMatrix {
         self.at.len()
     }
 
-    /// Returns an entry, or zero if it lies outside the blocks or is left out.
+    /// Returns an entry, or zero if the entry lies outside the blocks or is left out.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let (row, column) = (self.positions[row], self.positions[column]);
         if row == LEFT_OUT || column == LEFT_OUT || !self.is_coupled(row, column) {
@@ -187,21 +197,23 @@ impl BlockMatrix {
         self.values[self.index(row, column)]
     }
 
-    /// Returns true if the unknowns at two positions may be coupled.
+    /// Returns true if the matrix stores the entry at two positions.
     fn is_coupled(&self, row: usize, column: usize) -> bool {
         self.blocks[row] == self.blocks[column]
             || self.is_linked(row, column)
             || self.is_linked(column, row)
     }
 
-    /// Returns true if `inner` is in the link of an inner neighbour of `outer`'s block.
+    /// Returns true if position `inner` is in the link of an inner neighbour of the other block.
+    ///
+    /// The other block contains position `outer`.
     fn is_linked(&self, outer: usize, inner: usize) -> bool {
         let (from, to) = (self.blocks[outer], self.blocks[inner]);
         let is_inward = if from < to { to <= self.root } else { to >= self.root };
         is_inward && from.abs_diff(to) <= self.reach && self.in_links[inner] != LEFT_OUT
     }
 
-    /// Returns the part that holds an entry, given by positions.
+    /// Returns the part to which the entry at two positions belongs.
     #[inline(always)]
     fn part(&self, row: usize, column: usize) -> Part {
         debug_assert!(
@@ -218,7 +230,7 @@ impl BlockMatrix {
         }
     }
 
-    /// Returns the index of an entry among the values, given by positions.
+    /// Returns the index in `values` of the entry at two positions.
     #[inline(always)]
     fn index(&self, row: usize, column: usize) -> usize {
         match self.part(row, column) {
@@ -241,9 +253,10 @@ impl Tangent for BlockMatrix {
         }
     }
 
-    /// Adds `values` down the diagonal that starts at (`row`, `column`).
+    /// Adds `values` along the diagonal that starts at (`row`, `column`).
     ///
-    /// The unknowns must be kept and follow each other within their blocks.
+    /// The rows must be successive unknowns of one block of which none is left out, and so must the
+    /// columns.
     #[inline(always)]
     fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
         let (row, column) = (self.positions[row], self.positions[column]);
@@ -259,8 +272,8 @@ impl Tangent for BlockMatrix {
 
     /// Adds a block of `values` with its first entry at (`row`, `column`).
     ///
-    /// The unknowns of these rows, and of these columns, must be kept and follow each other within
-    /// a block.
+    /// The rows must be successive unknowns of one block of which none is left out, and so must the
+    /// columns.
     #[inline(always)]
     fn add_block<const R: usize, const C: usize>(
         &mut self,

@@ -1,33 +1,34 @@
-//! Bracketing root search by false position.
+//! Root search in a bracket by the method of false position.
 
-/// Two arguments at which a function has opposite signs, with its values.
+/// Interval at the ends of which a function has values of opposite sign.
 ///
-/// The next estimate is the zero of the secant. It replaces one end. The value at the other end is
-/// halved, so that the next estimate moves towards that end: the Illinois rule (Dowell & Jarratt
-/// 1971, doi 10.1007/BF01934364).
+/// The next estimate of the root is the zero of the secant. The estimate replaces one end, and the
+/// value at the other end is halved, so that the next estimate moves towards the other end
+/// (Illinois rule: Dowell & Jarratt 1971, doi 10.1007/BF01934364).
 #[derive(Clone, Copy, Debug)]
 pub struct Bracket {
+    /// Argument and value at the two ends.
     ends: [(f64, f64); 2],
-    /// End replaced last; `None` if the value at the other end is halved every time.
+    /// Index of the end replaced last, or `None` to halve after every replacement.
     last: Option<usize>,
 }
 
 impl Bracket {
-    /// Creates a bracket from two points with values of opposite signs.
+    /// Creates a bracket from two pairs `(argument, value)` with values of opposite sign.
     ///
     /// Each replacement of one end halves the value at the other end.
     pub fn new(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { ends: [low, high], last: None }
     }
 
-    /// Creates a bracket that halves values less often (Dowell and Jarratt).
+    /// Creates a bracket with the original Illinois rule, which halves values less often.
     ///
-    /// The value at one end is halved after two successive replacements of the other end.
+    /// The value at one end is halved only if the other end is replaced twice in succession.
     pub fn patient(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { last: Some(1), ..Self::new(low, high) }
     }
 
-    /// Returns the zero of the secant.
+    /// Returns the zero of the secant, the next estimate of the root.
     pub fn secant(&self) -> f64 {
         let [(low, at_low), (high, at_high)] = self.ends;
         (low * at_high - high * at_low) / (at_high - at_low)
@@ -38,11 +39,11 @@ impl Bracket {
         (self.ends[1].0 - self.ends[0].0).abs()
     }
 
-    /// Replaces the end with the same sign as `value`.
+    /// Replaces the end that has a value of the same sign as `value`.
     pub fn narrow(&mut self, argument: f64, value: f64) {
         let end = usize::from(value * self.ends[1].1 >= 0.0);
         self.ends[end] = (argument, value);
-        // Without halving, the secant would approach the root from one side only.
+        // Without halving, only one end would converge to the root.
         if self.last.is_none_or(|last| last == end) {
             self.ends[1 - end].1 *= 0.5;
         }
@@ -55,7 +56,7 @@ mod tests {
     use super::Bracket;
 
     #[test]
-    fn both_rules_find_the_root_of_a_cubic() {
+    fn both_halving_rules_converge_to_the_root_of_a_cubic() {
         for bracket in [Bracket::new, Bracket::patient] {
             let mut bracket = bracket((0.0, -2.0), (2.0, 6.0));
             let values = (0..60).map(|_| {

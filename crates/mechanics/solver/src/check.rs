@@ -6,13 +6,13 @@ use crate::system::{Residual, State, System};
 /// Relative step of an unknown in a difference quotient.
 const STEP: f64 = 1e-5;
 
-/// Smallest magnitude from which the step of an unknown is computed.
+/// Smallest magnitude of an unknown for the computation of its step.
 ///
-/// Does not apply to the unknowns of constraints: the effect of a force may vary over any small
-/// part of it, as in a power law.
+/// The unknowns of constraints have no such limit, because a function of a force may vary over
+/// arbitrarily small forces, as in a power law.
 const SMALL: f64 = 0.01;
 
-/// Derivative that differs from the differences of the residual.
+/// Error for a derivative that differs from the difference quotient of the residual.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "the derivative of equation {row} with respect to unknown {column} is {derivative}, \
@@ -25,15 +25,15 @@ pub struct WrongDerivative {
     pub column: usize,
     /// Derivative according to [`System::tangent`] or [`System::slope`].
     pub derivative: f64,
-    /// Derivative according to central differences.
+    /// Central difference quotient of the residual.
     pub difference: f64,
 }
 
-/// Compares tangent and slopes of a system at a state with central differences.
+/// Compares the tangent and the slopes of a system at a state with central differences.
 ///
-/// Checks the parts that the solver uses: the tangent in rows and columns of unknowns that do not
-/// vanish, and the slopes of all constraints. `tolerance` is relative to the largest derivative of
-/// an equation. The unknowns of active constraints must not be zero.
+/// Checks the entries that the solver uses: the tangent without rows and columns of inactive
+/// constraints, and [`System::slope`] of all constraints. `tolerance` is relative to the largest
+/// derivative of an equation. The unknowns of active constraints must not be zero.
 ///
 /// # Errors
 /// Returns the first derivative that differs by more than the tolerance.
@@ -51,7 +51,7 @@ pub fn check_tangent<S: System>(
         |row: usize| differences.iter().fold(0.0_f64, |max, column| max.max(column[row].abs()));
     let sizes: Vec<f64> = (0..system.size()).map(largest).collect();
     for (&column, differences) in columns.iter().zip(&differences) {
-        // Derivatives that the solver uses, with their rows.
+        // Row and derivative of each entry that the solver uses.
         let mut derivatives = Vec::new();
         for &row in columns.iter().filter(|&&row| row != system.load()) {
             let inside = tangent.columns(row).contains(&column);
@@ -74,14 +74,14 @@ pub fn check_tangent<S: System>(
     Ok(())
 }
 
-/// Returns the unknowns that are not known to vanish.
+/// Returns the unknowns that do not belong to inactive constraints.
 fn used<S: System>(system: &S, state: &State<S::Mode>) -> Vec<usize> {
     let constraints = system.constraints().iter().zip(&state.active);
     let vanish: Vec<usize> = constraints.filter(|(_, active)| !**active).map(|(&c, _)| c).collect();
     (0..system.size()).filter(|index| !vanish.contains(index)).collect()
 }
 
-/// Differentiates all equations with respect to an unknown, by central differences.
+/// Returns the central difference quotients of all equations with respect to unknown `column`.
 fn difference<S: System>(system: &S, state: &State<S::Mode>, column: usize) -> Vec<f64> {
     let is_constraint = system.constraints().contains(&column);
     let size = state.z[column].abs();

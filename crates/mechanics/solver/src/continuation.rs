@@ -1,4 +1,4 @@
-//! Path continuation: an iterator over the equilibria of a path.
+//! Path following: [`Continuation`], an iterator over the equilibria of a path.
 
 mod budget;
 mod direction;
@@ -16,23 +16,23 @@ use crate::settings::Settings;
 use crate::system::{Control, State, System};
 use crate::termination::Termination;
 
-/// Rate of the control parameter above which the step prescribes its increment.
+/// Smallest rate of the control parameter for steps that prescribe its increment.
 ///
-/// The rate is per unit of arc length. Below this rate the control parameter is about to turn and
-/// the arc length prescribes the step: a step of the control parameter would be more than twenty
-/// times as long along the path.
+/// The rate is per unit of arc length. At a lower rate the control parameter is about to reverse: a
+/// step would be more than twenty times as long along the path as in the control parameter. Such
+/// steps prescribe the arc length instead.
 const DRIVES: f64 = 0.05;
 
-/// Equilibrium of a path, with its directions.
+/// Equilibrium of a path, with the incoming and outgoing direction of the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium<M = ()> {
     /// State at the equilibrium. At an event it has the outgoing active set and mode.
     pub state: State<M>,
-    /// Incoming direction of the path, of unit length in the controls.
+    /// Incoming direction `ż` of the path, with unit length in the controls.
     pub arriving: Vec<f64>,
-    /// Outgoing direction of the path.
+    /// Outgoing direction `ż` of the path, with unit length in the controls.
     ///
-    /// Differs from `arriving` where a constraint changes sides.
+    /// Differs from `arriving` if a constraint becomes active or inactive at this point.
     pub leaving: Vec<f64>,
     /// Event at this point, if any.
     pub event: Option<Event>,
@@ -40,90 +40,98 @@ pub struct Equilibrium<M = ()> {
 
 /// Path of equilibria of a system.
 ///
-/// The path starts at a given equilibrium. It ends where the control parameter over its scale
-/// reaches the target in either direction, where a constraint ends it, or where the load of a
-/// system that only pushes returns to zero.
+/// The path starts at a given equilibrium. It ends where the magnitude of the control parameter
+/// reaches its target, where a constraint ends the path, or where a load that can only push returns
+/// to zero.
 ///
 /// Between events the active set is fixed and the equations are smooth. A predictor along the
-/// tangent is followed by Newton's method for the point at a given distance,
+/// direction `ż₀` of the path is followed by Newton's method for the point at the distance `s`,
 ///
 /// ```text
 /// r(z) = 0,    c·(z − z₀) = s,    z ≈ z₀ + s ż₀/(c·ż₀)                                (N4)
 /// ```
 ///
-/// where `c` measures the control parameter alone, or the arc length in the controls where the
-/// control parameter is about to turn (Keller 1977; Rheinboldt 1986, isbn 978-0-471-86282-6;
-/// Allgower & Georg 2003, doi 10.1137/1.9780898719154). If a constraint would change sides within
-/// the step, the solver locates the event, changes the constraint there, and continues in the
-/// direction that satisfies the changed constraint. Hence no step crosses a kink, and the path is
-/// followed around turning points of the control parameter, of the load and at events.
+/// The vector `c` measures the control parameter, or the arc length in the controls if the control
+/// parameter is about to reverse (Keller 1977; Rheinboldt 1986, isbn 978-0-471-86282-6; Allgower &
+/// Georg 2003, doi 10.1137/1.9780898719154). If a constraint becomes active or inactive within the
+/// step, the solver locates this event, changes the constraint there, and continues in the
+/// direction that satisfies the changed constraint. No step crosses a kink, and the path is
+/// followed through reversals of the control parameter and of the load.
 ///
 /// A step must not lead to another branch of equilibria. Along a path, and across events, the
 /// determinant
 ///
 /// ```text
-/// det [∂r/∂z; c]    over equations and unknowns that are active,    c·ż > 0                     (N7)
+/// det [∂r/∂z; c],    equations and unknowns of active constraints,    c·ż > 0         (N7)
 /// ```
 ///
-/// keeps its sign (Allgower & Georg 2003, section 2.1). A step that ends with the other sign has
-/// reached another branch, or returns along the incoming path, and is rejected.
+/// keeps its sign, the *orientation* of the path (Allgower & Georg 2003, section 2.1). A step that
+/// ends with the other sign has reached another branch, or returns along the incoming path, and is
+/// rejected.
 ///
-/// The iterator ends with the path; [`Continuation::termination`] gives the reason.
+/// The iterator ends with the path; [`Continuation::termination`] returns the reason.
 #[derive(Clone, Debug)]
 pub struct Continuation<S: System> {
     pub(crate) system: S,
     pub(crate) settings: Settings,
     pub(crate) newton: Newton,
+    /// Current point of the path.
     pub(crate) point: Arc<Equilibrium<S::Mode>>,
-    /// Guards (N5) at `point` with its active set, and their slopes.
-    ///
-    /// The slopes are along the outgoing direction.
+    /// Guard (N5) of each constraint at `point`.
     pub(crate) guards: Vec<f64>,
+    /// Derivative of each guard along the outgoing direction at `point`.
     pub(crate) slopes: Vec<f64>,
     /// Cached [`System::coordinates`].
     coordinates: Vec<usize>,
     /// Orientation ([`Newton::is_positive`]) of the outgoing path at `point`.
     pub(crate) is_positive: bool,
-    /// False if some event had a second outgoing branch among those evaluated.
+    /// False if a second outgoing branch was found at any event.
     pub(crate) is_unique: bool,
-    /// Reversals at friction events since the control parameter peaked.
+    /// Number of reversals at friction events since the last maximum of the control parameter.
     pub(crate) reversals: usize,
-    /// Number of steps from `point` that undid a change at zero rate.
+    /// Number of failed steps from `point` that would undo a change made at zero rate.
     ///
-    /// An example is slip that ended as its rate vanished.
+    /// An example is slip that ended when its rate reached zero.
     pub(crate) undone: usize,
     /// Largest magnitude of the control parameter so far.
     ///
-    /// For a path that is turned back, the smallest one with the opposite sign.
+    /// After [`Continuation::turn_back`], the smallest magnitude so far with a negative sign.
     farthest: f64,
     /// Events since the control parameter was at `farthest`.
     returns: Returns,
     /// Limit on the work of the path.
     budget: Budget,
-    /// Sign of a load that only pushes.
+    /// Sign of a load that must not reverse, or `None` if the load may have any sign.
     ///
     /// The path ends where such a load returns to zero.
     pub(crate) pushes: Option<f64>,
     /// True after [`Continuation::turn_back`]: the path leads away from its target.
     pub(crate) is_back: bool,
+    /// Length of the next step, as a fraction of the path.
     step: f64,
+    /// Number of points so far.
     points: usize,
+    /// Reason for the end of the path, `None` while it continues.
     pub(crate) termination: Option<Termination>,
 }
 
-/// Candidate for the next point.
+/// Candidate for the next point of the path.
 pub(crate) struct Candidate<M> {
+    /// State, with the active set and mode before any event at this point.
     pub(crate) state: State<M>,
+    /// Incoming direction of the path.
     pub(crate) direction: Vec<f64>,
+    /// Event at this point, if any.
     pub(crate) event: Option<Event>,
-    /// Orientation of the incoming path.
+    /// Orientation (N7) of the incoming path.
     pub(crate) is_positive: bool,
 }
 
 impl<S: System> Continuation<S> {
     /// Creates a path from the equilibrium `start`.
     ///
-    /// The control parameter increases at first, unless the load would then have to pull.
+    /// The path starts in the direction in which the control parameter increases, or in the
+    /// opposite direction if a load that can only push would have to pull.
     pub fn new(system: S, start: State<S::Mode>, settings: Settings) -> Self {
         let nowhere = vec![0.0; system.size()];
         let point =
@@ -167,12 +175,12 @@ impl<S: System> Continuation<S> {
         Arc::clone(&self.point)
     }
 
-    /// Continues from `point` with another `system`, such as one with more unknowns.
+    /// Continues the path from `point` with another system, for example with more unknowns.
     ///
-    /// The path keeps the outgoing direction of `point`. The state of `point` need only be an
-    /// equilibrium of the new system to first order. Returns the previous system.
+    /// The path keeps the outgoing direction of `point`. It is sufficient if `point` is an
+    /// approximate equilibrium of the new system. Returns the previous system.
     pub fn continue_with(&mut self, system: S, mut point: Equilibrium<S::Mode>) -> S {
-        // The record of iterations covers steps only, so leave out the iterations of the transfer.
+        // The history covers only the iterations of steps, not the iterations of this transfer.
         let history = std::mem::take(&mut self.newton.history);
         let work = self.newton.work;
         self.newton = Newton::new(&system);
@@ -193,7 +201,7 @@ impl<S: System> Continuation<S> {
         left
     }
 
-    /// Returns the work so far, in the unit of [`Settings::max_work`].
+    /// Returns the work so far, in units of [`Settings::max_work`].
     pub fn work(&self) -> u64 {
         self.newton.work.unknowns / self.settings.refinement()
     }
@@ -203,25 +211,24 @@ impl<S: System> Continuation<S> {
         self.termination
     }
 
-    /// Returns false if some event had a second outgoing branch among those evaluated.
+    /// Returns false if a second outgoing branch was found at any event.
     pub fn is_unique(&self) -> bool {
         self.is_unique
     }
 
-    /// Returns the system.
+    /// Returns the system of equations of the path.
     pub fn system(&self) -> &S {
         &self.system
     }
 
-    /// Takes the residual norms of the Newton iterations since the last call.
+    /// Returns the residual norms of all Newton iterations since the last call, and clears them.
     pub fn take_history(&mut self) -> Vec<f64> {
         std::mem::take(&mut self.newton.history)
     }
 
-    /// Solves for the equilibrium at a fraction of the segment between two points.
+    /// Solves for the equilibrium at a fraction of the segment between two successive points.
     ///
-    /// The points are neighbours. Uses the active set and mode of the segment. `None` if Newton's
-    /// method fails.
+    /// The active set and mode are the outgoing ones of `from`. `None` if Newton's method fails.
     pub fn between(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -231,16 +238,17 @@ impl<S: System> Continuation<S> {
         self.between_from(from, to, fraction, from)
     }
 
-    /// Computes the length of a segment in units of the directions at its two ends.
+    /// Returns the length of a segment in units of the path directions at its two ends.
     ///
-    /// The ends are two neighbouring points; their directions are the outgoing one of `from` and
-    /// the incoming one of `to`. A direction times its length is the derivative with respect to the
-    /// fraction of [`Continuation::between`].
+    /// The segment lies between two successive points. The first length is in units of the outgoing
+    /// direction of `from`, the second in units of the incoming direction of `to`. A direction
+    /// times its length is the derivative with respect to the fraction of
+    /// [`Continuation::between`].
     pub fn spans(&self, from: &Equilibrium<S::Mode>, to: &Equilibrium<S::Mode>) -> [f64; 2] {
         [&from.leaving, &to.arriving].map(|direction| self.rate_in(from, to, direction))
     }
 
-    /// Computes the length of a segment in units of `direction`.
+    /// Returns the length of a segment in units of `direction`.
     ///
     /// The direction times this length is the derivative with respect to the fraction of
     /// [`Continuation::between`].
@@ -254,9 +262,9 @@ impl<S: System> Continuation<S> {
         (condition.measure(&to.state.z) - condition.value) / condition.measure(direction)
     }
 
-    /// Solves as [`Continuation::between`], starting from `near`.
+    /// Solves for the same equilibrium as [`Continuation::between`], starting from `near`.
     ///
-    /// `near` is a point of the segment.
+    /// `near` is a point of the segment close to the solution.
     pub fn between_from(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -270,9 +278,9 @@ impl<S: System> Continuation<S> {
         self.solved(Self::extrapolate(near, &condition), &condition)
     }
 
-    /// Solves for the equilibrium near `state` that satisfies a condition.
+    /// Solves for the equilibrium near `state` that satisfies `condition`.
     ///
-    /// Keeps the active set and mode of `state`. `None` if Newton's method fails.
+    /// The active set and mode of `state` are kept. `None` if Newton's method fails.
     pub fn solved(
         &mut self,
         state: State<S::Mode>,
@@ -280,13 +288,14 @@ impl<S: System> Continuation<S> {
     ) -> Option<Equilibrium<S::Mode>> {
         let iterations = self.newton.history.len();
         let corrected = self.correct(state, condition);
-        // The record of iterations covers steps only, so leave out evaluations between points.
+        // The history covers only the iterations of steps, not evaluations between points.
         self.newton.history.truncate(iterations);
         let Candidate { state, direction, .. } = corrected.ok()?;
         let (arriving, leaving) = (direction.clone(), direction);
         Some(Equilibrium { state, arriving, leaving, event: None })
     }
 
+    /// Makes `point` the first point and computes the direction of the path there.
     fn set_start(&mut self, mut point: Equilibrium<S::Mode>) {
         let control = self.control_parameter();
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
@@ -306,16 +315,14 @@ impl<S: System> Continuation<S> {
         self.set_point(point);
     }
 
-    /// Returns true if a constraint that ends the path vanishes at the start already.
+    /// Returns true if the guard of a constraint that ends the path is zero at the start.
     fn ends_at_start(&self) -> bool {
         let guards = self.guards.iter().enumerate();
         let mut vanishing = guards.filter(|(_, guard)| **guard <= FLOOR);
         vanishing.any(|(constraint, _)| self.system.ends(&self.point.state, constraint))
     }
 
-    /// Restarts the path at a point.
-    ///
-    /// The step size is the first one and the point count zero.
+    /// Continues the path at `point` with the initial step size and with all counts at zero.
     pub(crate) fn restart_at(&mut self, point: Equilibrium<S::Mode>) {
         self.step = self.settings.first_step.min(self.settings.max_step);
         self.points = 0;
@@ -325,7 +332,7 @@ impl<S: System> Continuation<S> {
         self.set_point(point);
     }
 
-    /// Makes `point` the current point and evaluates its guards.
+    /// Makes `point` the current point, and evaluates the guards and their slopes there.
     fn set_point(&mut self, point: Equilibrium<S::Mode>) {
         let (Self { system, guards, slopes, .. }, Equilibrium { state, leaving, .. }) =
             (&mut *self, &point);
@@ -334,24 +341,27 @@ impl<S: System> Continuation<S> {
         self.point = Arc::new(point);
     }
 
+    /// Returns the first control.
     fn control_parameter(&self) -> Control {
         self.system.controls()[0]
     }
 
-    /// Computes the control parameter over its scale.
+    /// Returns the control parameter divided by its scale.
     ///
-    /// It is 1 at the target by default.
+    /// With the default [`System::target`] this is 1 at the target.
     pub(crate) fn progress(&self, z: &[f64]) -> f64 {
         z[self.control_parameter().index] / self.control_parameter().scale
     }
 
-    /// Returns the measure of distance from `point`, which increases along the path.
+    /// Returns the condition that measures the distance from `point` along the path.
+    ///
+    /// Its left-hand side increases along the path.
     pub(crate) fn condition(&self, point: &Equilibrium<S::Mode>) -> Condition {
         let control = self.control_parameter();
         let drive = self.progress(&point.leaving);
         let is_hidden = self.is_hidden(&point.leaving);
-        // Close to a contact that opens, all controls may reverse together within the shortest
-        // steps, whereas the path of all coordinates stays straight.
+        // Close to the opening of a contact, all controls may reverse at once within the shortest
+        // steps, while the path remains straight in all coordinates.
         let is_arc = is_hidden || self.step < SHORT;
         let row = if drive.abs() >= DRIVES && !is_hidden {
             vec![(control.index, drive.signum() / control.scale)]
@@ -364,15 +374,15 @@ impl<S: System> Continuation<S> {
         }
         let all = self.coordinates.iter();
         let length = all.clone().map(|&index| point.leaving[index].powi(2)).sum::<f64>();
-        // Hidden directions are normalised to this length in all coordinates.
+        // Hidden directions are normalised to the length `HIDDEN` in all coordinates.
         let unit = if is_hidden { HIDDEN.powi(2) } else { length };
         let arc = all.map(|&index| (index, point.leaving[index] / unit)).collect();
         Condition { stand_in: Some(row), ..Condition::through(arc, &point.state.z) }
     }
 
-    /// Solves for the equilibrium at a distance from a point.
+    /// Solves for the equilibrium at a distance along the path from the point `from`.
     ///
-    /// It has the outgoing active set of the point.
+    /// The active set and mode are the outgoing ones of `from`.
     pub(crate) fn step_to(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -387,7 +397,7 @@ impl<S: System> Continuation<S> {
         Ok(candidate)
     }
 
-    /// Extrapolates along the outgoing direction of `near` to meet `condition`.
+    /// Extrapolates from `near` along its outgoing direction to a state that satisfies `condition`.
     fn extrapolate(near: &Equilibrium<S::Mode>, condition: &Condition) -> State<S::Mode> {
         let distance = condition.value - condition.measure(&near.state.z);
         let factor = distance / condition.measure(&near.leaving);
@@ -417,7 +427,7 @@ impl<S: System> Iterator for Continuation<S> {
             self.termination = Some(Termination::TooManyPoints);
             return None;
         }
-        // Count before the step, so that a path with endless events at one point terminates too.
+        // Count before the step, so that `max_points` also limits events without progress.
         self.points += 1;
         match self.advance() {
             Ok(point) => {
@@ -429,13 +439,13 @@ impl<S: System> Iterator for Continuation<S> {
                 }
                 self.budget.advance(far, self.newton.work);
                 if point.event == Some(Event::Target) || self.reaches_target(&point) {
-                    // An unloading path that returns to the loading target has reversed at an event
-                    // instead of unloading.
+                    // A path that is turned back and reaches its target again has reversed at an
+                    // event instead of unloading.
                     self.termination =
                         Some(if self.is_back { Termination::Jumps } else { Termination::Reached });
                 } else if point.event == Some(Event::Unloaded) {
-                    // The load vanished at or next to rest after a reversal. It was not removed:
-                    // the path could not continue past the reversal.
+                    // The load is zero near the state of rest after a reversal, so the path has
+                    // returned to rest instead of continuing beyond the event.
                     let is_at_rest = progress < 0.01 * self.system.target();
                     let has_turned = self.reversals > 0 && is_at_rest && !self.is_back;
                     self.termination =

@@ -1,19 +1,19 @@
-//! Events of a path, and the constraints that change sides at them.
+//! Events of a path, and the constraints that become active or inactive at an event.
 
 /// Event at a point of the path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// Constraints change sides; several if symmetry makes the events coincide.
+    /// Constraints become active or inactive, several of them if their events coincide.
     Changed(Vec<Change>),
     /// The load has a maximum or a minimum.
     LoadExtremum,
-    /// The load of a system that only pushes has returned to zero.
+    /// A load that can only push has returned to zero.
     Unloaded,
-    /// The control parameter has reached its target.
+    /// The control parameter has reached its target, or a constraint ends the path.
     Target,
 }
 
-/// Constraint that changes sides.
+/// Change of a constraint between active and inactive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Change {
     /// Number of the constraint.

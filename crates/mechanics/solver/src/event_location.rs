@@ -1,4 +1,4 @@
-//! Location of events on the path.
+//! Location of events on the path: zeros of guards, extrema, and the end of unloading.
 
 use crate::bracket::Bracket;
 use crate::continuation::{Candidate, Continuation, Equilibrium};
@@ -8,44 +8,49 @@ use crate::system::{State, System};
 
 /// Largest distance by which an event may lie before the current point.
 ///
-/// Constraints that change sides together are located one after the other, each up to round-off.
+/// Coinciding events are located one after the other with round-off errors, so the second event may
+/// lie slightly before the first.
 const BACKWARD: f64 = 1e-9;
 
-/// Largest distance of a predicted event from the current point, in steps.
+/// Largest distance of a predicted event from the current point, in units of the step length.
 const FARTHER: f64 = 1.5;
 
-/// Guards within this distance of zero change sides with the located event.
+/// Largest magnitude of the guard of a constraint that changes together with a located event.
 const TOGETHER: f64 = 1e-10;
 
-/// Slopes below this are zero to first order.
+/// Largest magnitude of a slope that counts as zero.
 ///
-/// Rates are near 1 and their round-off near 1e-11.
+/// Typical slopes are of order 1 and their round-off of order 1e-11.
 pub(crate) const NO_RATE: f64 = 1e-6;
 
-/// Largest relative guard of a changed constraint at the restored equilibrium.
+/// Largest guard of a changed constraint after equilibrium has been restored at an event.
 ///
-/// It is relative to 1 plus its slope. If the guard exceeds this, Newton's method converged to a
-/// different equilibrium; likewise if any active guard is below zero by more.
+/// The limit is multiplied by 1 plus the slope of the guard. If the guard is larger, or the guard
+/// of any active constraint is negative by more, Newton's method has converged to a different
+/// equilibrium.
 pub(crate) const ELSEWHERE: f64 = 1e-4;
 
-/// Relative accuracy of the location of an extremum in its bracket.
+/// Tolerance for the location of an extremum.
+///
+/// It is relative to the initial bracket for the width of the bracket, and relative to the rate at
+/// the start of the step for the remaining rate.
 const CLOSE: f64 = 1e-9;
 /// Maximum number of iterations in the search for an extremum.
 const MAX_ROUNDS: usize = 100;
 
 impl<S: System> Continuation<S> {
-    /// Locates the event predicted by guards and slopes within a distance.
+    /// Locates the event that guards and slopes predict within `distance`.
     ///
-    /// `None` if the prediction does not lead to the first event.
+    /// `None` if no event is predicted, or if the prediction does not lead to the first event.
     pub(crate) fn predicted_event(
         &mut self,
         from: &Equilibrium<S::Mode>,
         distance: f64,
     ) -> Option<Candidate<S::Mode>> {
         let rate = self.condition(from).measure(&from.leaving);
-        // Aim at the first event only: later ones occur with a different active set.
+        // Predict only the first event, because later events occur with a different active set.
         let (constraint, along) = self.first_predicted()?;
-        // Leave events beyond the step to a later step, with a better prediction.
+        // Later steps predict events beyond this step more accurately.
         if along * rate > distance {
             return None;
         }
@@ -55,14 +60,15 @@ impl<S: System> Continuation<S> {
         let reached = condition.measure(&located.state.z) - condition.value;
         let within = (0.0..=FARTHER * distance).contains(&reached)
             && self.progress(&located.state.z).abs() <= self.system.target();
-        // The prediction is of first order. With a curved guard the zero may lie far beyond, or
-        // Newton's method may have converged to another zero.
+        // The prediction is linear. If the guard is curved, its zero may lie far beyond the step,
+        // or Newton's method may have converged to another zero.
         if !within || self.turns_sharply(from, &located) {
             return None;
         }
         let guards = Newton::guards(&self.system, &located.state);
         match self.first_violated(&guards) {
-            // A guard with increasingly negative slope may vanish before the predicted one.
+            // The guard of another constraint may decrease faster than predicted and reach zero
+            // earlier.
             Some(earlier) if earlier != constraint => {
                 self.locate_first_event(from, located, earlier).ok()
             }
@@ -70,9 +76,9 @@ impl<S: System> Continuation<S> {
         }
     }
 
-    /// Returns the constraint with the first guard zero, by linear extrapolation.
+    /// Returns the constraint with the guard that reaches zero first by linear extrapolation.
     ///
-    /// The second number is its distance in units of the outgoing direction.
+    /// The second value is the distance of this zero in units of the outgoing direction.
     fn first_predicted(&self) -> Option<(usize, f64)> {
         let guards = self.guards.iter().zip(&self.slopes).enumerate();
         let falling = guards.filter(|(_, (guard, slope))| **guard > FLOOR && **slope < 0.0);
@@ -80,7 +86,7 @@ impl<S: System> Continuation<S> {
         zeros.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Returns the first event up to `candidate`, or `candidate` itself.
+    /// Returns the first event between `from` and `candidate`, or `candidate` if there is none.
     pub(crate) fn first_event(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -90,8 +96,8 @@ impl<S: System> Continuation<S> {
         if let Some(constraint) = self.first_violated(&guards) {
             return self.locate_first_event(from, candidate, constraint);
         }
-        // A contact may close and open again within a step, or a force vanish and grow again. All
-        // guards at the end of the step are then positive.
+        // A contact may close and open again within a step, or a force may vanish and grow again.
+        // All guards are then positive at the end of the step.
         for fraction in self.dips(from, &candidate, &guards) {
             let condition = self.condition(from);
             let distance = condition.measure(&candidate.state.z) - condition.value;
@@ -104,16 +110,19 @@ impl<S: System> Continuation<S> {
         Ok(candidate)
     }
 
-    /// Returns the constraint violated first between current guards and `after`.
+    /// Returns the constraint that is violated first within a step.
+    ///
+    /// `after` contains the guards at the end of the step. `None` if no constraint is violated.
     pub(crate) fn first_violated(&self, after: &[f64]) -> Option<usize> {
         let mut first = (f64::INFINITY, None);
         for (c, (&before, &after)) in self.guards.iter().zip(after).enumerate() {
-            // A constraint may start below zero by the error of the event, such as a slip distance
-            // that grows at a small rate. It is violated where it falls further.
+            // By the error of the last event a rising guard, such as a slip distance that grows
+            // slowly, may be slightly negative at the start of the step. It is violated only if it
+            // decreases further.
             let rises = before > -ELSEWHERE && self.slopes[c] > NO_RATE;
             let floor = if rises { FLOOR.max(-before) } else { FLOOR };
             if after < -floor {
-                // The secant estimates the order only; the order is checked again at the event.
+                // The secant only estimates which zero is first. Callers check this at the event.
                 let fraction = before.max(0.0) / (before.max(0.0) - after);
                 if fraction < first.0 {
                     first = (fraction, Some(c));
@@ -123,10 +132,10 @@ impl<S: System> Continuation<S> {
         first.1
     }
 
-    /// Estimates where a guard falls below zero and rises again before `candidate`.
+    /// Estimates where a guard falls below zero and rises above zero again before `candidate`.
     ///
-    /// The two events leave no trace in the guards at the ends of the step. Returns fractions of
-    /// the step.
+    /// Such a guard is positive at both ends of the step. `after` contains the guards at the end of
+    /// the step. Returns the fraction of the step for each such guard.
     fn dips(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -136,7 +145,8 @@ impl<S: System> Continuation<S> {
         let condition = self.condition(from);
         let distance = condition.measure(&candidate.state.z) - condition.value;
         let span = distance / condition.measure(&from.leaving);
-        // Evaluate the slope at the end only for guards that are predicted to be negative there.
+        // The slope at the end of the step is needed only for guards that are predicted to be
+        // negative there.
         let arriving = distance / condition.measure(&candidate.direction);
         let mut dips = Vec::new();
         for (c, &after) in after.iter().enumerate() {
@@ -149,7 +159,7 @@ impl<S: System> Continuation<S> {
         dips
     }
 
-    /// Locates the first event before `beyond`, where `constraint` is violated.
+    /// Locates the first event before `beyond`, a point at which `constraint` is violated.
     fn locate_first_event(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -162,16 +172,17 @@ impl<S: System> Continuation<S> {
         };
         let rises = self.guards[constraint] <= TOGETHER && self.slopes[constraint] > 0.0;
         if changed || rises {
-            // The constraint has just changed sides, or a transition passed the condition to it,
-            // and the outgoing direction satisfies it. A step that violates it was too long.
-            // Locating its zero would return to the current point and then back along the incoming
-            // path.
+            // The constraint has changed at the current point, or a transition has passed its
+            // condition on to this constraint, and the outgoing direction satisfies it. The step
+            // was too long if it violates the constraint. A search for the zero of the guard would
+            // return to the current point, and the path would then reverse.
             let is_sliding = self.system.coupled(constraint).len() > 1;
             let is_at_no_rate = self.slopes[constraint].abs() < NO_RATE;
             self.undone += usize::from(changed && is_sliding && is_at_no_rate);
             return Err(NewtonFailure::TooManyIterations);
         }
-        // Each iteration finds an earlier event, so there are at most as many as constraints.
+        // Each iteration finds an earlier event of another constraint, so the number of iterations
+        // is limited by the number of constraints.
         for _ in 0..=self.guards.len() {
             let located = self.locate(from, &beyond, constraint)?;
             let guards = Newton::guards(&self.system, &located.state);
@@ -184,7 +195,7 @@ impl<S: System> Continuation<S> {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// Locates the zero of a guard between the current point and `beyond`.
+    /// Locates the zero of the guard of `constraint` between the current point and `beyond`.
     fn locate(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -198,21 +209,20 @@ impl<S: System> Continuation<S> {
         let located = self.locate_from(from, state, constraint)?;
         let span = condition.measure(&beyond.state.z) - condition.value;
         let reached = condition.measure(&located.state.z) - condition.value;
-        // The guard is already negative by round-off and falls, so its zero is here, however small
-        // its slope.
+        // The guard is zero or negative by round-off at the current point and decreases, so the
+        // event is at the current point, even if a small slope places the zero farther back.
         if reached < -BACKWARD && self.guards[constraint] <= 0.0 && self.slopes[constraint] < 0.0 {
             let (state, direction) = (from.state.clone(), from.leaving.clone());
             return Ok(Candidate { state, direction, event: None, is_positive: self.is_positive });
         }
-        // A zero outside the step belongs to another part of the path: the step was too long for
-        // this guard.
+        // A zero outside the step belongs to another part of the path, so the step was too long.
         if !(-BACKWARD..=span + BACKWARD).contains(&reached) {
             return Err(NewtonFailure::TooManyIterations);
         }
         Ok(located)
     }
 
-    /// Locates the zero of a guard near `state`.
+    /// Locates the zero of the guard of `constraint` near `state`.
     fn locate_from(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -226,9 +236,10 @@ impl<S: System> Continuation<S> {
         Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
-    /// Marks the candidate as the event at which `constraint` changes sides.
+    /// Marks the candidate as the event of `constraint`.
     ///
-    /// Includes other constraints that change sides at the same point.
+    /// The event includes all other constraints that change at the same point. `guards` are the
+    /// guards at this point.
     fn mark_event(
         &self,
         located: Candidate<S::Mode>,
@@ -237,12 +248,14 @@ impl<S: System> Continuation<S> {
     ) -> Candidate<S::Mode> {
         let Candidate { state, direction, is_positive, .. } = located;
         let mut changes = vec![Change { constraint, activated: !state.active[constraint] }];
-        // Guards at zero that rise have just changed sides. Change the falling ones together;
-        // otherwise a long chain takes a step of zero length for each of its gaps.
+        // Rising guards at zero belong to constraints that have just changed. The constraints of
+        // falling guards change together; otherwise a long chain would need a step of zero length
+        // for each of its gaps.
         for (other, guard) in guards.iter().enumerate() {
             if other != constraint && guard.abs() <= TOGETHER {
                 let rate = guard_slope(&self.system, &state, other, &direction);
-                // A small value is not enough: a guard with a small slope may vanish far ahead.
+                // A small value is not sufficient, because a guard with a small slope may reach
+                // zero far ahead.
                 if rate < 0.0 && *guard <= -rate * BACKWARD {
                     changes.push(Change { constraint: other, activated: !state.active[other] });
                 }
@@ -251,14 +264,15 @@ impl<S: System> Continuation<S> {
         Candidate { state, direction, event: Some(Event::Changed(changes)), is_positive }
     }
 
-    /// Cuts a step short where the rate of the load or of a monotone unknown vanishes.
+    /// Shortens a step to the point at which the rate of the load or a monotone unknown is zero.
     pub(crate) fn up_to_turn(
         &mut self,
         from: &Equilibrium<S::Mode>,
         mut candidate: Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();
-        // A load extremum is a point of the path. Behind it the load must turn, so skip the search.
+        // A load extremum is a point of the path. If the step starts at a load extremum, the rate
+        // of the load changes sign there, so no search is needed.
         let turns = from.leaving[load] * candidate.direction[load] < 0.0;
         if turns && from.event != Some(Event::LoadExtremum) {
             candidate = self.locate_extremum(from, &candidate, load)?;
@@ -277,7 +291,7 @@ impl<S: System> Continuation<S> {
         Ok(candidate)
     }
 
-    /// Locates the point where an unknown turns.
+    /// Locates the point before `beyond` at which the rate of an unknown is zero.
     fn locate_extremum(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -287,14 +301,14 @@ impl<S: System> Continuation<S> {
         let condition = self.condition(from);
         let span = condition.measure(&beyond.state.z) - condition.value;
         let start = from.leaving[unknown];
-        // Another bracketing rule would change the last digits of load extrema in stored tables.
+        // Another halving rule would change the last digits of load extrema in stored tables.
         let mut bracket = Bracket::patient((0.0, start), (span, beyond.direction[unknown]));
         for _ in 0..MAX_ROUNDS {
             let distance = bracket.secant();
             let candidate = self.step_to(from, distance)?;
             let rate = candidate.direction[unknown];
-            // One criterion suffices: round-off limits the position of a flat extremum, and the
-            // rate at a sharp one.
+            // One of the two criteria suffices: round-off limits the accuracy of the position at a
+            // flat extremum, and the accuracy of the rate at a sharp extremum.
             if bracket.width() <= CLOSE * span || rate.abs() <= CLOSE * start.abs() {
                 return Ok(candidate);
             }
@@ -303,14 +317,14 @@ impl<S: System> Continuation<S> {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// Returns true if a load that only pushes would have to pull at the candidate.
+    /// Returns true if a load that can only push would have to pull at the candidate.
     pub(crate) fn load_reverses(&self, candidate: &Candidate<S::Mode>) -> bool {
         self.pushes.is_some_and(|sign| sign * candidate.state.z[self.system.load()] < 0.0)
     }
 
-    /// Returns true if the load vanishes at an event and would reverse.
+    /// Returns true if the load is zero up to round-off at an event and would reverse beyond it.
     ///
-    /// It vanishes up to round-off. The contact that carries the load opens, so the path ends.
+    /// At such an event the contact that carries the load opens, so the path ends.
     pub(crate) fn load_vanishes(&self, candidate: &Candidate<S::Mode>) -> bool {
         let load = self.system.load();
         matches!(candidate.event, Some(Event::Changed(_)))
@@ -318,7 +332,7 @@ impl<S: System> Continuation<S> {
             && self.pushes.is_some_and(|sign| sign * candidate.direction[load] < 0.0)
     }
 
-    /// Locates the point before `beyond` where the load returns to zero.
+    /// Locates the point before `beyond` at which the load returns to zero.
     pub(crate) fn locate_unloading(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -328,7 +342,7 @@ impl<S: System> Continuation<S> {
         let sign = self.pushes.unwrap_or(1.0);
         let (start, end) = ((sign * from.state.z[load]).max(0.0), sign * beyond.state.z[load]);
         let state = from.state.interpolated(&beyond.state, start / (start - end));
-        // The load decreases along the path.
+        // The condition measures the path by the negative load, because the load decreases.
         let mut candidate = self.correct(state, &Condition::new(vec![(load, -sign)], 0.0))?;
         if self.turns_sharply(from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
@@ -338,14 +352,15 @@ impl<S: System> Continuation<S> {
     }
 }
 
-/// Returns the fraction at which a cubic dips below zero.
+/// Returns the position of the minimum of a cubic on `0..1` if the minimum is negative.
 ///
-/// The cubic passes through two values with their slopes.
+/// `start` and `end` are the values of the cubic at 0 and 1, `falling` and `rising` its slopes
+/// there. `None` if the minimum is not negative, or if there is no minimum inside.
 pub fn dip([start, end]: [f64; 2], [falling, rising]: [f64; 2]) -> Option<f64> {
     if !(falling < 0.0 && rising > 0.0) {
         return None;
     }
-    // start + falling x + square x² + cube x³
+    // Coefficients of the cubic start + falling x + square x² + cube x³.
     let square = 3.0 * (end - start) - 2.0 * falling - rising;
     let cube = 2.0 * (start - end) + falling + rising;
     let x = -falling / (square + (square * square - 3.0 * cube * falling).sqrt());
@@ -358,10 +373,10 @@ mod tests {
     use super::dip;
     use proptest::prelude::*;
 
-    /// Finds the minimum of the Hermite cubic by sampling: fraction and value.
+    /// Returns position and value of the minimum of the cubic, found by sampling.
     fn lowest(ends: [f64; 2], slopes: [f64; 2]) -> (f64, f64) {
         let values = (0..=1000).map(|i| f64::from(i) / 1000.0).map(|x| {
-            // Hermite basis.
+            // Hermite basis: functions for the two values, then for the two slopes.
             let [a, b] = [(1.0 + 2.0 * x) * (1.0 - x).powi(2), x * x * (3.0 - 2.0 * x)];
             let [c, d] = [x * (1.0 - x).powi(2), x * x * (x - 1.0)];
             (x, ends[0] * a + ends[1] * b + slopes[0] * c + slopes[1] * d)
@@ -392,7 +407,7 @@ mod tests {
 
     #[test]
     fn a_guard_that_only_touches_zero_has_no_dip() {
-        // (2x − 1)²
+        // The guard (2x − 1)² is zero at x = 1/2, but never negative.
         assert_eq!(dip([1.0, 1.0], [-4.0, 4.0]), None);
         assert_eq!(dip([0.99, 0.99], [-4.0, 4.0]), Some(0.5));
     }

@@ -1,34 +1,38 @@
 //! Equilibrium paths of mixed complementarity systems.
 //!
-//! `n − 1` equations in `n` unknowns, one of them the load, define a curve of equilibria.
-//! Conditions `0 ≤ z_c ⟂ r_c(z) ≥ 0` switch some of the equations on and off, so the curve has
-//! kinks. This crate follows the curve from a first equilibrium to the point where the control
-//! parameter, a chosen coordinate, reaches its target. It passes load maxima, turning points of the
-//! control parameter, and kinks. It contains no mechanics.
+//! `n − 1` equations in `n` unknowns, one of them the load, define a curve of equilibria, the path.
+//! Constraints `0 ≤ z_c ⟂ r_c(z) ≥ 0` switch some of the equations on and off, so the path has
+//! kinks. This crate follows the path from a first equilibrium to the point at which the control
+//! parameter, a chosen unknown, reaches its target, also beyond load maxima, turning points of the
+//! control parameter, and kinks. The crate is independent of mechanics.
 //!
-//! Each step aims at the first constraint predicted to change sides from the values and slopes of
-//! the guards (N5). Newton's method evaluates equations and tangent in one pass and uses the same
-//! factors for the point and for the direction of the path. At an event, the outgoing direction
-//! solves a complementarity problem of rates (N6).
+//! Each step aims at the next event, at which a constraint becomes active or inactive. The event is
+//! predicted from the values and slopes of the guards (N5). Newton's method evaluates equations and
+//! tangent in one pass and uses one factorisation for the point and for the direction of the path.
+//! At an event, a complementarity problem of rates (N6) determines the outgoing direction.
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`System`] | the problem: equations, tangent, constraints, control parameter |
+//! | [`System`] | interface of a problem: equations, tangent, constraints, control parameter |
 //! | [`State`] | unknowns, active set, and the mode, which selects the form of the equations |
-//! | [`Residual`], [`Control`] | values and sizes of the equations; a coordinate that measures the path |
-//! | [`Continuation`], [`Equilibrium`] | iterator over the equilibria; one of them, with its directions |
-//! | [`Event`], [`Change`] | changed constraints, extrema of the load, the target |
-//! | [`Settings`], [`Termination`] | steps and tolerances; the reason for the end of a path |
-//! | [`Peak`], [`Summit`] | the largest value of a quantity along the path, between points, too |
-//! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
-//! | [`Tangent`], [`Blocks`], [`BlockMatrix`] | derivatives of a row, in blocks |
+//! | [`Residual`] | values of the equations, with the sizes of their terms |
+//! | [`Control`] | unknown that measures progress along the path |
+//! | [`Continuation`] | iterator over the equilibria of a path |
+//! | [`Equilibrium`] | equilibrium of a path, with incoming and outgoing direction |
+//! | [`Event`], [`Change`] | change of constraints, extremum of the load, or end of the path |
+//! | [`Settings`], [`Termination`] | step sizes and tolerances; reason for the end of a path |
+//! | [`Peak`], [`Summit`] | largest value of a quantity on the path, also between its points |
+//! | [`Newton`], [`Condition`], [`NewtonFailure`] | Newton's method for a single equilibrium |
+//! | [`Tangent`] | interface for assembling derivatives in a matrix |
+//! | [`Blocks`], [`BlockMatrix`] | block-tridiagonal matrices |
 //! | [`BlockElimination`] | elimination block by block towards the block of the load |
-//! | [`BandMatrix`], [`BandLu`] | linear solves if blocks are not available or not safe |
-//! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`] | derivatives of a measured point |
+//! | [`BandMatrix`], [`BandLu`] | band matrices, used where block elimination is not safe |
+//! | [`AnchoredPoint`], [`PathAnchor`] | point of the path, with the condition that fixes it |
+//! | [`Linearisation`] | derivatives of such a point with respect to parameters |
 //! | [`Neighbours`], [`MovedPoint`] | systems with a perturbed parameter, and their equilibria |
-//! | [`TargetPoint`] | end of a path, from which ends of neighbouring paths are found |
+//! | [`TargetPoint`] | end of a path, as a start for the ends of neighbouring paths |
 //! | [`SkylineMatrix`] | symmetric matrices, and their number of negative eigenvalues |
-//! | [`Bracket`] | root finding by false position |
+//! | [`Bracket`] | root search by false position |
 //!
 //! ```
 //! use solver::{Control, Continuation, Residual, Settings, State, Termination, System, Tangent};
@@ -57,7 +61,8 @@
 //!     }
 //! }
 //!
-//! // The control parameter u goes from 0 to 1: the load rises to 2/√27 at u = 1/√3, then falls to 0.
+//! // The control parameter u grows from 0 to 1; the load rises to 2/√27 at u = 1/√3 and then falls
+//! // to 0.
 //! let system = SnapThrough([Control { index: 0, scale: 1.0 }]);
 //! let rest = State::at_rest(&system);
 //! let mut path = Continuation::new(system, rest, Settings::default());

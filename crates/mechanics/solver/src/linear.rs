@@ -1,8 +1,8 @@
 //! Band matrices and their LU factorisation.
 //!
-//! Unknowns are numbered so that every equation couples only unknowns close to each other. The cost
-//! of a factorisation is then proportional to their number. A general sparse LU needs more than
-//! twice the time on such matrices (`benches/linear.rs` compares them).
+//! Unknowns are numbered so that every equation couples only unknowns with close numbers. The cost
+//! of a factorisation is then proportional to the number of unknowns. A general sparse LU
+//! factorisation needs more than twice the time on such matrices.
 #![expect(
     clippy::inline_always,
     reason = "only code that is inlined into its caller can use wide registers"
@@ -14,28 +14,28 @@ use pulp::{Simd, WithSimd};
 
 use crate::tangent::Tangent;
 
-/// Matrix without an LU factorisation in floating point.
-///
-/// A column has no usable pivot.
+/// Error for a matrix that cannot be factorised, because a column has no usable pivot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is singular: no pivot in column {column} of {size}")]
 pub struct SingularMatrix {
-    /// Column, from 0.
+    /// Index of the column without a pivot, from 0.
     pub column: usize,
-    /// Number of columns.
+    /// Number of columns of the matrix.
     pub size: usize,
 }
 
-/// Square matrix with non-zeros only within `half` columns of the diagonal.
+/// Square band matrix: entries more than `half` columns from the diagonal are zero.
 #[derive(Clone, Debug)]
 pub struct BandMatrix {
+    /// Number of rows.
     size: usize,
+    /// Half-bandwidth.
     half: usize,
-    /// Row `i` holds the columns `i − half ..= i + half`.
+    /// Entries row by row; row `i` contains the columns `i − half ..= i + half`.
     rows: Vec<f64>,
-    /// First written column of each row and one past the last.
+    /// For each row, the first written entry and one past the last written entry.
     ///
-    /// Entries outside are zero.
+    /// Both are counted from column `i − half`. Entries outside this range are zero.
     used: Vec<[usize; 2]>,
 }
 
@@ -67,17 +67,17 @@ impl BandMatrix {
         }
     }
 
-    /// Replaces a row by zeros.
+    /// Sets every entry of a row to zero.
     pub fn clear_row(&mut self, row: usize) {
         let start = row * self.width();
-        // Clear only written entries: rows of open contacts are nearly empty.
+        // Clear only written entries, because rows of open contacts are nearly empty.
         let [first, end] = std::mem::replace(&mut self.used[row], [2 * self.half + 1, 0]);
         if first < end {
             self.rows[start + first..start + end].fill(0.0);
         }
     }
 
-    /// Replaces all entries by the entries of a matrix of the same shape.
+    /// Copies all entries from `other`, a matrix of the same shape.
     pub(crate) fn set(&mut self, other: &Self) {
         let width = self.width();
         let rows = self.rows.chunks_exact_mut(width).zip(other.rows.chunks_exact(width));
@@ -90,7 +90,7 @@ impl BandMatrix {
         }
     }
 
-    /// Returns the entry at (`row`, `column`), which must lie within the band.
+    /// Returns the entry at (`row`, `column`).
     ///
     /// # Panics
     /// If the entry lies outside the band.
@@ -98,7 +98,7 @@ impl BandMatrix {
         self.rows[row * self.width() + self.offset(row, column)]
     }
 
-    /// Returns the columns of a row within the band.
+    /// Returns the range of columns of a row that lie within the band.
     pub fn columns(&self, row: usize) -> Range<usize> {
         row.saturating_sub(self.half)..(row + self.half + 1).min(self.size)
     }
@@ -108,11 +108,12 @@ impl BandMatrix {
         &self.rows[row * self.width()..][..self.width()]
     }
 
+    /// Returns the number of stored entries of each row.
     fn width(&self) -> usize {
         2 * self.half + 1
     }
 
-    /// Returns the offset of a column in the stored part of a row.
+    /// Returns the index of a column among the stored entries of a row.
     fn offset(&self, row: usize, column: usize) -> usize {
         assert!(
             row.abs_diff(column) <= self.half && column < self.size,
@@ -150,46 +151,49 @@ impl Tangent for BandMatrix {
 
 /// LU factors of a [`BandMatrix`], with row scaling and partial pivoting.
 ///
-/// The storage is reused between factorisations.
-///
-/// Unknowns that are known to vanish, such as the forces of open contacts, are left out. The
-/// remaining matrix is again a band matrix, smaller and narrower.
+/// Unknowns that are known to be zero, such as the forces of open contacts, are left out with their
+/// equations. The remaining matrix is a smaller and narrower band matrix. Storage is reused for
+/// further factorisations.
 ///
 /// Row exchanges widen the upper factor to twice the half-bandwidth (Golub & Van Loan, *Matrix
-/// Computations*, 4th ed. 2013, §4.3.5, isbn 978-1-4214-0794-4). Most rows need less, so each is
-/// processed only up to its last non-zero.
+/// Computations*, 4th ed. 2013, §4.3.5, isbn 978-1-4214-0794-4). Most rows stay narrower, so each
+/// row is processed only up to its last non-zero entry.
 #[derive(Clone, Debug)]
 pub struct BandLu {
+    /// Number of unknowns, including those left out.
     size: usize,
+    /// Half-bandwidth.
     half: usize,
-    /// Numbers of the unknowns that are not left out, in order. Rows and columns of the factors
-    /// refer to positions in this list.
+    /// Unknowns that are not left out, in ascending order.
+    ///
+    /// Rows and columns of the factors are positions in this list.
     kept: Vec<usize>,
-    /// Row `i` of the upper factor: columns `i − half ..= i + 2 half`.
+    /// Upper factor row by row; row `i` contains the columns `i − half ..= i + 2 half`.
     ///
-    /// The columns from the diagonal to `ends[i]` are in use.
+    /// The columns from the diagonal up to, but not including, `ends[i]` are in use.
     upper: Vec<f64>,
-    /// One past the last column of each row that may be non-zero.
+    /// For each row, one past its last column that may be non-zero.
     ends: Vec<usize>,
-    /// Last row that reaches each column.
+    /// For each column, the last row that may be non-zero in this column.
     reach: Vec<usize>,
-    /// Row `k`: multipliers for eliminating column `k`.
+    /// Lower factor; row `k` contains the multipliers that eliminate column `k`.
     ///
-    /// They are for rows `k + 1 ..= reach[k]`.
+    /// The multipliers belong to the rows `k + 1 ..= reach[k]`.
     lower: Vec<f64>,
+    /// For each row, the row with which it was exchanged.
     pivots: Vec<usize>,
-    /// Inverse of the diagonal of the upper factor.
+    /// Inverses of the diagonal entries of the upper factor.
     inverses: Vec<f64>,
     /// Scale factor of each row.
     scales: Vec<f64>,
-    /// Storage for right-hand side and solution at the kept unknowns.
+    /// Storage for right-hand side and solution at the unknowns in `kept`.
     packed: Vec<f64>,
 }
 
 /// Factorisation with the widest registers of the processor.
 ///
-/// Entries are multiplied and subtracted separately, never fused, so that the factors have the same
-/// bits on every machine.
+/// Products are rounded before they are subtracted (no fused operations), so that the factors have
+/// the same bits on every machine.
 struct Factorisation<'a> {
     lu: &'a mut BandLu,
     matrix: &'a BandMatrix,
@@ -211,7 +215,7 @@ impl WithSimd for Factorisation<'_> {
 }
 
 impl BandLu {
-    /// Creates storage for matrices of `size` rows and half-bandwidth `half`.
+    /// Creates storage for the factors of matrices with `size` rows and half-bandwidth `half`.
     pub fn new(size: usize, half: usize) -> Self {
         Self {
             size,
@@ -228,9 +232,9 @@ impl BandLu {
         }
     }
 
-    /// Factorises `matrix` without the `left_out` rows and columns.
+    /// Factorises `matrix` without some rows and columns, and replaces earlier factors.
     ///
-    /// Replaces earlier factors.
+    /// `left_out` is true for each row and column that is left out.
     ///
     /// # Errors
     /// If a column has no finite, non-zero pivot.
@@ -240,8 +244,8 @@ impl BandLu {
         left_out: &[bool],
     ) -> Result<(), SingularMatrix> {
         debug_assert!(matrix.size == self.size && matrix.half == self.half);
-        // Most unknowns of a row are forces of open contacts; without them the band is narrower
-        // too.
+        // Most unknowns of a row of scales are forces of open contacts. Without these unknowns the
+        // matrix is smaller and its band narrower.
         self.kept.clear();
         self.kept.extend((0..self.size).filter(|&i| !left_out[i]));
         pulp::Arch::new().dispatch(Factorisation { lu: self, matrix })
@@ -253,7 +257,7 @@ impl BandLu {
         rows.fold(false, |negative, (k, (&row, inverse))| negative ^ (row != k) ^ (*inverse < 0.0))
     }
 
-    /// Solves in place: `x` holds the right-hand side, then the solution.
+    /// Replaces the right-hand side `x` by the solution.
     ///
     /// At unknowns that are left out, the right-hand side is ignored and the solution is zero.
     pub fn solve(&mut self, x: &mut [f64]) {
@@ -268,12 +272,12 @@ impl BandLu {
         self.packed = packed;
     }
 
-    /// Substitutes forward and back among the kept unknowns.
+    /// Substitutes forward and back; `x` contains only the unknowns in `kept`.
     fn substitute(&self, x: &mut [f64]) {
         for k in 0..x.len() {
             x.swap(k, self.pivots[k]);
             let factor = x[k];
-            // Mostly only the entry of the load is non-zero, so skip the zeros before it.
+            // In most right-hand sides only the entry of the load is non-zero, so skip zeros.
             if factor != 0.0 {
                 let multipliers = &self.lower[k * self.half..][..self.reach[k] - k];
                 for (x, multiplier) in x[k + 1..].iter_mut().zip(multipliers) {
@@ -288,7 +292,7 @@ impl BandLu {
         }
     }
 
-    /// Copies the kept rows of `matrix`, each divided by its largest entry.
+    /// Copies all rows of `matrix` that are not left out, each divided by its largest entry.
     fn load(&mut self, matrix: &BandMatrix) -> Result<(), SingularMatrix> {
         let count = self.kept.len();
         self.reach.clear();
@@ -303,9 +307,9 @@ impl BandLu {
         Ok(())
     }
 
-    /// Copies row `i`, divided by its largest entry.
+    /// Copies row `i`, divided by its largest entry, and returns the first column in use.
     ///
-    /// Returns its first column, at most the diagonal.
+    /// This column is not beyond the diagonal.
     fn load_row(&mut self, i: usize, matrix: &BandMatrix) -> Result<usize, SingularMatrix> {
         let Range { start: first, end } = self.columns(i, matrix);
         let row = self.kept[i];
@@ -325,8 +329,8 @@ impl BandLu {
         let larger =
             |largest: f64, entry: &f64| if entry.abs() > largest { entry.abs() } else { largest };
         let largest = entries.iter().fold(0.0, larger);
-        // Equations of forces and of gaps differ by the ratio of the moduli. Without scaling, the
-        // units would determine the pivots.
+        // Force balances and gap conditions differ in size by the ratio of the moduli. Without
+        // scaling, the choice of units would determine the pivots.
         let scale = 1.0 / largest;
         if !(scale.is_finite() && scale > 0.0) {
             return Err(self.singular(i));
@@ -339,7 +343,7 @@ impl BandLu {
         Ok(first)
     }
 
-    /// Returns the used columns of row `i` among the kept ones, including the diagonal.
+    /// Returns the range of positions of columns that row `i` uses, including the diagonal.
     fn columns(&self, i: usize, matrix: &BandMatrix) -> Range<usize> {
         let row = self.kept[i];
         let [leftmost, rightmost] = matrix.used[row].map(|offset| row + offset);
@@ -348,11 +352,14 @@ impl BandLu {
         first..i + 1 + after
     }
 
+    /// Creates the error for a column, given by its position.
     fn singular(&self, column: usize) -> SingularMatrix {
         SingularMatrix { column: self.kept[column], size: self.size }
     }
 
-    /// Exchanges row `k` for the row below with the largest entry in column `k`.
+    /// Exchanges row `k` with the row, among `k` and the rows below, of the largest pivot.
+    ///
+    /// The pivot is the entry in column `k`.
     fn pivot(&mut self, k: usize) -> Result<(), SingularMatrix> {
         let column = self.upper[self.diagonal(k)..].iter().step_by((3 * self.half).max(1));
         let (mut row, mut value, mut largest) = (k, 0.0, 0.0);
@@ -361,8 +368,8 @@ impl BandLu {
                 (row, value, largest) = (k + d, x, x.abs());
             }
         }
-        // Reject only an exact zero: the effect of the step shows how nearly singular the tangent
-        // is.
+        // Reject only a pivot of exactly zero. If the matrix is nearly singular, Newton's method
+        // detects this by its steps.
         if value == 0.0 || !value.is_finite() {
             return Err(self.singular(k));
         }
@@ -374,7 +381,7 @@ impl BandLu {
         Ok(())
     }
 
-    /// Exchanges the rows `k` and `row` from column `k` on; `row` is the lower one.
+    /// Exchanges row `k` with `row`, a row below it, from column `k` on.
     fn exchange(&mut self, k: usize, row: usize) {
         let ends = [self.ends[k], self.ends[row]];
         let end = ends[0].max(ends[1]);
@@ -387,7 +394,7 @@ impl BandLu {
         self.ends[row] = ends[0].max(row + 1);
     }
 
-    /// Subtracts multiples of row `k` from the rows below that reach its column.
+    /// Subtracts multiples of row `k` from the rows below to eliminate their entries in column `k`.
     #[inline(always)]
     fn eliminate<S: Simd>(&mut self, simd: S, k: usize) {
         let (below, count) = (self.reach[k] - k, self.ends[k] - k);
@@ -398,7 +405,8 @@ impl BandLu {
         let (head, tail) = self.upper.split_at_mut((k + 1) * (3 * self.half + 1));
         let pivot = &head[diagonal + 1..][..count - 1];
         let inverse = self.inverses[k];
-        // Columns from `k` on of the rows below: each row starts one position before the row above.
+        // The rows below from column `k` on. In each row, column `k` is stored one place earlier
+        // than in the row above.
         let rows = tail[self.half - 1..].chunks_mut(3 * self.half);
         let multipliers = &mut self.lower[k * self.half..][..below];
         let ends = &mut self.ends[k + 1..][..below];
@@ -415,7 +423,7 @@ impl BandLu {
         }
     }
 
-    /// Extends the used columns of a row to `end`.
+    /// Extends the columns in use of a row up to, but not including, `end`, with zeros.
     fn extend(&mut self, row: usize, end: usize) {
         let used = self.ends[row];
         if used < end {
@@ -450,13 +458,13 @@ mod tests {
     use super::{BandLu, BandMatrix, Tangent};
 
     #[test]
-    fn the_sign_of_a_determinant_counts_exchanges_and_pivots() {
+    fn the_sign_of_the_determinant_follows_from_exchanges_and_pivots() {
         for ([a, b, c, d], left_out, is_negative) in [
             ([2.0, 1.0, 1.0, 2.0], [false; 2], false),
             ([1.0, 2.0, 2.0, 1.0], [false; 2], true),
             ([0.0, 1.0, -1.0, 0.0], [false; 2], false),
             ([-1.0, 0.0, 0.0, 1.0], [false; 2], true),
-            // Left-out rows do not affect the sign.
+            // Rows that are left out do not affect the sign.
             ([-1.0, 0.0, 0.0, 1.0], [true, false], false),
         ] {
             let mut matrix = BandMatrix::new(2, 1);

@@ -5,47 +5,48 @@ use crate::settings::Settings;
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent_solver::TangentSolver;
 
-/// A guard (N5) below minus this is violated; smaller violations are round-off.
+/// Round-off of a guard (N5): a constraint is violated if its guard is below `-FLOOR`.
 pub(crate) const FLOOR: f64 = 1e-12;
 
-/// Half-bandwidth with which an unknown counts twice.
+/// Half-bandwidth at which the work per unknown counts double.
 const FULL_BANDWIDTH: usize = 128;
 
-/// Work of Newton's method, independent of the machine.
+/// Work of Newton's method as counts, which do not depend on the machine.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Work {
     /// Number of factorised tangents.
     pub(crate) tangents: u64,
-    /// Unknowns of these tangents, weighted by the bandwidth.
+    /// Sum of the numbers of unknowns of these tangents, weighted by the bandwidth.
     pub(crate) unknowns: u64,
 }
 
 /// Condition `Σ c_k z_k = value` that selects a point of the path.
 ///
-/// The condition takes the row of the load in the tangent. Its unknowns must lie within a
-/// half-bandwidth of the load, unless a stand-in row is given.
+/// In the tangent, the condition is the row of the load. The indices of its unknowns must differ
+/// from the index of the load by at most the half-bandwidth, unless there is a stand-in row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Condition {
-    /// Indices and coefficients of the left-hand side.
+    /// Index and coefficient of each unknown in the left-hand side.
     pub row: Vec<(usize, f64)>,
     /// Right-hand side.
     pub value: f64,
-    /// Row for the tangent if the condition involves unknowns far from the load.
+    /// Stand-in row for the tangent if `row` contains unknowns far from the load.
     pub stand_in: Option<Vec<(usize, f64)>>,
 }
 
 impl Condition {
-    /// Creates the condition with this left-hand side that `z` satisfies.
+    /// Creates a condition with the left-hand side `row` and the value that it has at `z`.
     pub fn through(row: Vec<(usize, f64)>, z: &[f64]) -> Self {
         let condition = Self::new(row, 0.0);
         Self { value: condition.measure(z), ..condition }
     }
 
-    /// Creates the condition with this left-hand side and right-hand side.
+    /// Creates a condition with the left-hand side `row` and the right-hand side `value`.
     pub fn new(row: Vec<(usize, f64)>, value: f64) -> Self {
         Self { row, value, stand_in: None }
     }
 
+    /// Returns the row of the condition in the tangent.
     fn row_in_tangent(&self) -> &[(usize, f64)] {
         self.stand_in.as_ref().unwrap_or(&self.row)
     }
@@ -70,23 +71,25 @@ pub enum NewtonFailure {
     TooManyIterations,
 }
 
-/// Newton solver for one system, with storage that is reused between solves.
+/// Newton's method for the equilibria of one system, with reusable storage.
 #[derive(Clone, Debug)]
 pub struct Newton {
-    /// Holds the factors of the last tangent.
+    /// Factors of the last tangent.
     pub(crate) solver: TangentSolver,
+    /// Values and sizes of the equations in the current iteration.
     residual: Residual,
+    /// Negative residual, then the Newton step.
     step: Vec<f64>,
-    /// Residual norm of every iteration since the history was last taken.
+    /// Residual norm of every iteration since the history was last cleared.
     pub(crate) history: Vec<f64>,
     /// Work so far.
     pub(crate) work: Work,
-    /// Work of one tangent.
+    /// Number of unknowns of one tangent, weighted by the bandwidth.
     of_tangent: u64,
 }
 
 impl Newton {
-    /// Creates storage for systems of this shape.
+    /// Creates storage for a system with the size and bandwidth of `system`.
     pub fn new(system: &impl System) -> Self {
         let size = system.size();
         Self {
@@ -99,13 +102,13 @@ impl Newton {
         }
     }
 
-    /// Moves `state` to the equilibrium that satisfies `condition`.
+    /// Changes `state` to the equilibrium that satisfies `condition`.
     ///
-    /// Returns the direction of the path there, `∂z/∂value`. Active set and mode are fixed, so that
-    /// the equations are smooth; the caller checks the signs of (N1).
+    /// Returns the direction `∂z/∂value` of the path at this equilibrium. Active set and mode are
+    /// fixed, so the equations are smooth; the caller checks the inequalities of (N1).
     ///
     /// # Errors
-    /// If the iteration does not converge; `state` then holds some iterate.
+    /// If the iteration does not converge; `state` is then the last iterate.
     pub fn solve<S: System>(
         &mut self,
         system: &S,
@@ -116,13 +119,13 @@ impl Newton {
         rest(system, state);
         for _ in 0..=settings.max_iterations {
             let norm = self.evaluate(system, state, condition)?;
-            // `norm` is the norm before this step. A state within tolerance is still improved by
-            // the step.
+            // `norm` is the norm before this step. Even if it is within tolerance, the step is
+            // added to improve the state.
             self.solver.solve(&mut self.step);
             add(&mut state.z, 1.0, &self.step);
             if condition.stand_in.is_some() {
-                // The step preserved the left-hand side of the stand-in. Meet the condition itself
-                // by moving along the path.
+                // The step does not change the left-hand side of the stand-in row. A motion along
+                // the path then satisfies the condition itself.
                 let direction = self.direction(system, condition);
                 let left = condition.value - condition.measure(&state.z);
                 add(&mut state.z, left, &direction);
@@ -134,14 +137,14 @@ impl Newton {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// Moves `state` along the path to where a constraint is about to change sides.
+    /// Changes `state` to the point of the path at which the guard of a constraint is zero.
     ///
-    /// There the unknown of an active constraint, or the equation of an inactive one, vanishes.
-    /// `condition` only defines how the path is measured. Returns the direction of the path as
-    /// [`Newton::solve`].
+    /// The guard (N5) is the unknown of an active constraint or the equation of an inactive one.
+    /// `condition` only defines the measure of distance along the path. Returns the direction of
+    /// the path as [`Newton::solve`] does.
     ///
     /// # Errors
-    /// If the iteration does not converge; `state` then holds some iterate.
+    /// If the iteration does not converge; `state` is then the last iterate.
     pub fn locate<S: System>(
         &mut self,
         system: &S,
@@ -153,8 +156,8 @@ impl Newton {
         let mut condition = condition.clone();
         rest(system, state);
         for _ in 0..=settings.max_iterations {
-            // Satisfy the condition at the current state, so that only the guard determines the
-            // distance.
+            // The condition is satisfied at the current state, so that only the guard determines
+            // the motion along the path.
             condition.value = condition.measure(&state.z);
             let norm = self.evaluate(system, state, &condition)?;
             let guard = guard(system, state, constraint);
@@ -162,8 +165,8 @@ impl Newton {
             let direction = self.direction(system, &condition);
             let change = guard_slope(system, state, constraint, &self.step);
             let slope = guard_slope(system, state, constraint, &direction);
-            // First-order zero of the guard along the path, corrected for the residual of this
-            // iterate.
+            // Distance to the zero of the guard, to first order, after the Newton step for the
+            // residual of this iterate.
             let distance = -(guard + change) / slope;
             if !distance.is_finite() {
                 return Err(NewtonFailure::NotFinite);
@@ -177,7 +180,9 @@ impl Newton {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// Computes the direction of the path at an equilibrium, measured by `condition`.
+    /// Computes the direction of the path at an equilibrium.
+    ///
+    /// The left-hand side of `condition` grows by 1 along this direction.
     ///
     /// # Errors
     /// If the tangent is singular or the residual is not finite.
@@ -191,7 +196,8 @@ impl Newton {
         let residual = &mut self.residual;
         self.solver.factorise(system, state, condition.row_in_tangent(), residual)?;
         let direction = self.direction(system, condition);
-        // A nearly singular tangent may have factors, but its solution is then not finite.
+        // The factorisation of a nearly singular tangent may succeed, but the solution may then not
+        // be finite.
         if direction.iter().all(|x| x.is_finite()) {
             Ok(direction)
         } else {
@@ -199,20 +205,20 @@ impl Newton {
         }
     }
 
-    /// Returns the orientation of the path, which is constant between events.
+    /// Returns true if the orientation (N7) of the path, constant between events, is positive.
     ///
-    /// This is the sign of the determinant of the last tangent if its condition increases along
-    /// `direction`. True if positive.
+    /// The orientation is the sign of the determinant of the last factorised tangent, with the sign
+    /// of the row of `condition` chosen so that its left-hand side grows along `direction`.
     pub(crate) fn is_positive(&self, condition: &Condition, direction: &[f64]) -> bool {
-        // Negating the row leaves the condition unchanged but flips the determinant.
+        // A negative row defines the same condition but changes the sign of the determinant.
         let row = condition.row_in_tangent().iter();
         let growth: f64 = row.map(|&(index, coefficient)| coefficient * direction[index]).sum();
         (growth > 0.0) != self.solver.is_negative()
     }
 
-    /// Evaluates the guards (N5) of all constraints: `z_c` if active, `r_c` if not.
+    /// Returns the guard (N5) of each constraint: `z_c` if it is active, `r_c` if not.
     ///
-    /// A guard vanishes where its constraint changes sides.
+    /// A constraint becomes active or inactive where its guard is zero.
     pub fn guards<S: System>(system: &S, state: &State<S::Mode>) -> Vec<f64> {
         let mut guards = Vec::with_capacity(state.active.len());
         system.conditions(state, &mut guards);
@@ -220,9 +226,9 @@ impl Newton {
         guards
     }
 
-    /// Replaces `guards` by the guards of a state, and `slopes` by their rates.
+    /// Replaces `guards` by the guards of a state, and `slopes` by their derivatives.
     ///
-    /// The rates are along a direction.
+    /// The derivatives are taken along `direction`.
     pub(crate) fn guard_slopes<S: System>(
         system: &S,
         state: &State<S::Mode>,
@@ -235,14 +241,16 @@ impl Newton {
         replace_active(system, state, direction, slopes);
     }
 
+    /// Adds one tangent to the work.
     fn count_tangent(&mut self) {
         self.work.tangents += 1;
         self.work.unknowns += self.of_tangent;
     }
 
-    /// Evaluates the equations and factorises their tangent.
+    /// Evaluates the equations, factorises their tangent and returns the norm of the residual.
     ///
-    /// Leaves the negative values in `step` and returns their norm.
+    /// Sets `step` to the negative residual. The norm is the largest ratio of value to size of an
+    /// equation.
     fn evaluate<S: System>(
         &mut self,
         system: &S,
@@ -252,7 +260,8 @@ impl Newton {
         self.count_tangent();
         let residual = &mut self.residual;
         let row = condition.row_in_tangent();
-        // Report a singular tangent last: a non-finite equation is the cause if both occur.
+        // Return the error of a singular tangent last, because an equation that is not finite would
+        // be its cause.
         let factorised = self.solver.factorise(system, state, row, residual);
         let load = system.load();
         residual.value[load] = condition.measure(&state.z) - condition.value;
@@ -270,7 +279,8 @@ impl Newton {
             norm = norm.max(ratio);
         }
         if condition.stand_in.is_some() {
-            // The tangent contains the stand-in row, and the step must preserve its left-hand side.
+            // The tangent contains the stand-in row, and the step must not change its left-hand
+            // side.
             self.step[load] = 0.0;
         }
         self.history.push(norm);
@@ -278,14 +288,14 @@ impl Newton {
         Ok(norm)
     }
 
-    /// Computes the direction along which the condition's left-hand side grows by 1.
+    /// Computes the direction along which the left-hand side of `condition` grows by 1.
     fn direction<S: System>(&mut self, system: &S, condition: &Condition) -> Vec<f64> {
         let mut direction = self.solver.solve_unit(system.load(), system.size());
         if condition.stand_in.is_some() {
             let growth = condition.measure(&direction);
             for x in &mut direction {
-                // `solve_unit` has applied the unit right-hand side to the stand-in row, so
-                // normalise by the actual condition.
+                // Along the result of `solve_unit` the left-hand side of the stand-in row grows by
+                // 1, so scale it for the actual condition.
                 *x /= growth;
             }
         }
@@ -308,7 +318,7 @@ fn replace_active<S: System>(
     }
 }
 
-/// Evaluates a guard (N5), which vanishes where the constraint changes sides.
+/// Returns the guard (N5) of one constraint: `z_c` if it is active, `r_c` if not.
 pub(crate) fn guard<S: System>(system: &S, state: &State<S::Mode>, constraint: usize) -> f64 {
     if state.active[constraint] {
         state.z[system.constraints()[constraint]]
@@ -317,7 +327,7 @@ pub(crate) fn guard<S: System>(system: &S, state: &State<S::Mode>, constraint: u
     }
 }
 
-/// Evaluates the derivative of a guard along a direction.
+/// Returns the derivative of the guard (N5) of one constraint along a direction.
 pub(crate) fn guard_slope<S: System>(
     system: &S,
     state: &State<S::Mode>,
@@ -331,9 +341,9 @@ pub(crate) fn guard_slope<S: System>(
     }
 }
 
-/// Sets the unknowns of inactive constraints, and others that vanish, to zero.
+/// Sets the unknowns of inactive constraints, and [`System::vanishing`], to zero.
 ///
-/// The iteration does not change them.
+/// Newton's method does not change these unknowns.
 fn rest<S: System>(system: &S, state: &mut State<S::Mode>) {
     for (&index, active) in system.constraints().iter().zip(&state.active) {
         if !active {
@@ -346,6 +356,7 @@ fn rest<S: System>(system: &S, state: &mut State<S::Mode>) {
     }
 }
 
+/// Adds `factor` times `step` to `z`.
 fn add(z: &mut [f64], factor: f64, step: &[f64]) {
     for (z, step) in z.iter_mut().zip(step) {
         *z += factor * step;

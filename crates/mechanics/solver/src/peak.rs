@@ -1,4 +1,4 @@
-//! Maximum of a quantity along the path, including between its points.
+//! Search for the maximum of a quantity along the path, also between its points.
 
 use std::sync::Arc;
 
@@ -6,32 +6,35 @@ use crate::continuation::{Continuation, Equilibrium};
 use crate::sensitivity::slope_along;
 use crate::system::{State, System};
 
-/// Relative gain below which a search ends.
+/// Relative increase of the maximum below which a search ends.
 const FLAT: f64 = 1e-11;
 
-/// Distance from a kink at which to evaluate a slope, over the segment length.
+/// Distance from a kink at which a slope is evaluated, as a fraction of the segment.
 ///
-/// At the kink itself, a force that begins or ceases to act may have an infinite rate.
+/// At the kink itself the rate of a force that begins or ceases to act may be infinite.
 const NEAR: f64 = 1e-4;
 
-/// Number of approaches to a kink, each to a tenth of the last distance.
+/// Maximum number of samples closer to a kink, each at a tenth of the last distance.
 const CLOSER: usize = 4;
 
-/// Maximum number of iterations of a search. Most searches need a quarter or less.
+/// Maximum number of iterations of a search. Most searches need at most a quarter of it.
 const ROUNDS: usize = 40;
 
-/// Fraction of the largest value at which a segment next to a kink is searched.
+/// Smallest value, as a fraction of the largest value so far, for a search next to a kink.
 ///
-/// A force that has just begun to act may hide a maximum between two points that are both lower
-/// than the highest one. Observed hidden maxima exceed their ends by less than 1 %.
+/// If a force has just begun to act, a segment may contain the maximum although both of its ends
+/// are lower than another point. In observed cases such a maximum exceeds the ends of the segment
+/// by less than 1 %.
 const PROMISING: f64 = 0.95;
 
-/// Tracks the maximum of a function of system, equilibrium and path direction.
+/// Candidates for the maximum of a function along a path.
 ///
-/// The function must be smooth along the path between kinks and independent of the length of the
-/// direction. At a kink it is evaluated with both directions.
+/// The function depends on system, equilibrium and path direction. It must be smooth along the path
+/// between kinks, and must not depend on the length of the direction. At a kink it is evaluated
+/// with the incoming and the outgoing direction.
 #[derive(Clone, Debug)]
 pub struct Peak<M = ()> {
+    /// Point with the largest value so far.
     best: Option<Best<M>>,
     /// Segments next to kinks that may contain the maximum.
     kinks: Vec<KinkSegment<M>>,
@@ -46,7 +49,7 @@ struct KinkSegment<M> {
     value: f64,
 }
 
-/// Point with the largest value so far, and its neighbours.
+/// Point with the largest value so far, with the points before and after it.
 #[derive(Clone, Debug)]
 struct Best<M> {
     value: f64,
@@ -62,7 +65,7 @@ impl<M> Default for Peak<M> {
 }
 
 impl<M> Peak<M> {
-    /// Takes the current point of `path` into account.
+    /// Evaluates `f` at the current point of `path` and updates the maximum.
     ///
     /// `from` is the previous point, if any.
     pub fn visit<S>(
@@ -76,8 +79,8 @@ impl<M> Peak<M> {
         let here = Arc::clone(&path.point);
         let [arriving, leaving] = [&here.arriving, &here.leaving]
             .map(|direction| f(&path.system, &here.state, direction));
-        // At a kink, use the larger value: a stiffness is largest just before a contact opens or
-        // just after one closes.
+        // At a kink, use the larger value, because a stiffness is largest just before a contact
+        // opens or just after a contact closes.
         let value = arriving.max(leaving);
         let kink = from.filter(|from| from.event.is_some() || here.event.is_some());
         if let Some(from) = kink.map(Arc::clone) {
@@ -86,15 +89,15 @@ impl<M> Peak<M> {
         }
         self.compare(value, from, &here);
         let least = self.best.as_ref().map_or(0.0, |best| PROMISING * best.value);
-        // Drop segments that a larger value has ruled out, or their number would grow with the
-        // path.
+        // Remove segments that can no longer contain the maximum, so that their number does not
+        // grow with the path.
         self.kinks.retain(|segment| segment.value >= least);
     }
 
-    /// Takes the current point of `path` into account, with the `value` there.
+    /// Updates the maximum by the `value` of the function at the current point of `path`.
     ///
-    /// The function must be continuous and independent of the path direction.
-    /// Segments next to kinks are searched only next to the best point.
+    /// Use this only for continuous functions that do not depend on the path direction. Of the
+    /// segments next to kinks, only those at the best point will be searched.
     pub fn visit_value<S>(
         &mut self,
         path: &Continuation<S>,
@@ -121,21 +124,20 @@ impl<M> Peak<M> {
         }
     }
 
-    /// Returns the visited point of largest value; `None` before the first visit.
+    /// Returns the visited point with the largest value, or `None` before the first visit.
     pub fn point(&self) -> Option<&Equilibrium<M>> {
         self.best.as_ref().map(|best| &*best.point)
     }
 
-    /// Replaces the stored points by points of the system that continues the path.
+    /// Converts all stored points to another system that continues the path.
     ///
-    /// Call this before searching for maxima on that path.
+    /// `new` converts a point. Call this before searching for maxima on the continued path.
     pub fn replace_points(&mut self, new: impl Fn(&Equilibrium<M>) -> Equilibrium<M>) {
         let best = self.best.iter_mut().flat_map(|best| {
             [Some(&mut best.point), best.before.as_mut(), best.after.as_mut()].into_iter().flatten()
         });
         let kinks = self.kinks.iter_mut().flat_map(|segment| [&mut segment.from, &mut segment.to]);
-        // Keep a point shared by two segments one object: pointer equality identifies segments that
-        // need no second search.
+        // Two segments that share a point must still share it, because `summit` compares pointers.
         let mut replaced: Vec<[Arc<Equilibrium<M>>; 2]> = Vec::new();
         for point in best.chain(kinks) {
             let known = replaced.iter().find(|[old, _]| Arc::ptr_eq(old, point));
@@ -144,7 +146,7 @@ impl<M> Peak<M> {
         }
     }
 
-    /// Returns the largest visited value; `None` before the first visit.
+    /// Returns the largest value at a visited point, or `None` before the first visit.
     pub fn at_points(&self) -> Option<Summit<M>> {
         let Best { value, before, point, .. } = self.best.as_ref()?;
         let (point, before) = (Arc::clone(point), before.clone());
@@ -153,9 +155,9 @@ impl<M> Peak<M> {
 
     /// Returns the largest value on the path, or `None` before the first visit.
     ///
-    /// Searches the segments next to the best visited point, and candidate segments next to kinks.
-    /// Away from kinks, the steps must be small enough for the largest maximum to raise the value
-    /// at a neighbouring point.
+    /// Searches the segments next to the best visited point, and the stored segments next to kinks.
+    /// Away from kinks, the steps must be so small that a visited point next to the maximum has the
+    /// largest visited value.
     pub fn summit<S>(
         &self,
         path: &mut Continuation<S>,
@@ -168,7 +170,7 @@ impl<M> Peak<M> {
         let visited = self.at_points()?;
         let segments = [before.as_ref().zip(Some(point)), Some(point).zip(after.as_ref())];
         let kinks = self.kinks.iter().filter(|segment| {
-            // The segments next to the best point are searched already.
+            // The segments next to the best point are already in `segments`.
             !Arc::ptr_eq(&segment.from, point) && !Arc::ptr_eq(&segment.to, point)
         });
         let kinks = kinks.map(|segment| (&segment.from, &segment.to));
@@ -180,22 +182,20 @@ impl<M> Peak<M> {
     }
 }
 
-/// Largest value of a quantity along a path, with its point.
+/// Largest value of a quantity along a path, and the point with this value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summit<M = ()> {
     /// Largest value.
     pub value: f64,
     /// Point with this value.
     pub point: Arc<Equilibrium<M>>,
-    /// Previous point of the path if `point` is itself a point of the path.
-    ///
-    /// `None` at the start.
+    /// Previous point of the path, if `point` is a point of the path but not the first one.
     pub before: Option<Arc<Equilibrium<M>>>,
-    /// True if the point lies between points of the path.
+    /// True if `point` lies between two points of the path.
     pub is_inside: bool,
 }
 
-/// Value and slope at a fraction of a segment.
+/// Value of the function and slope by the fraction, at a fraction of a segment.
 #[derive(Clone, Copy, Debug)]
 struct SegmentSample {
     fraction: f64,
@@ -209,9 +209,9 @@ struct Segment<'a, S: System, F> {
     from: &'a Equilibrium<S::Mode>,
     to: &'a Equilibrium<S::Mode>,
     f: &'a F,
-    /// Solved points by their fraction of the segment, including both ends.
+    /// Fraction and equilibrium of each solved point, including both ends.
     known: Vec<(f64, Equilibrium<S::Mode>)>,
-    /// Largest value inside the segment, and the index of its point in `known`.
+    /// Largest value at an inner point, and the index of this point in `known`.
     highest: Option<(f64, usize)>,
 }
 
@@ -226,8 +226,8 @@ where
         to: &'a Equilibrium<S::Mode>,
         f: &'a F,
     ) -> Self {
-        // Give the end the active set and mode of the segment: at an event, the point has the
-        // outgoing ones.
+        // The end of the segment gets the active set and mode of the segment, because at an event
+        // the point `to` has the outgoing active set and mode.
         let State { active, mode, .. } = from.state.clone();
         let state = State { z: to.state.z.clone(), active, mode };
         let (arriving, leaving) = (to.arriving.clone(), to.arriving.clone());
@@ -235,11 +235,12 @@ where
         Self { path, from, to, f, known: vec![(0.0, from.clone()), (1.0, end)], highest: None }
     }
 
-    /// Searches for a maximum inside that may exceed `least`.
+    /// Returns the largest value inside the segment, if it may exceed `least`.
     ///
-    /// The cubic through values and slopes at both ends of a bracket shows whether a maximum lies
-    /// inside and gives the next sample. The slope near an end reveals a force that has just begun
-    /// to act and raises the function within a small part of a segment.
+    /// The next sample is the maximum of the cubic with the values and slopes at both ends of a
+    /// bracket. If the cubic has no maximum inside, the search ends. If a force has just begun to
+    /// act and the function rises within a small part of the segment, the slope near the end
+    /// reveals this.
     ///
     /// ```text
     ///            top of the cubic
@@ -256,14 +257,13 @@ where
         Some(Summit { value, point: Arc::new(point), before: None, is_inside: true })
     }
 
-    /// Searches a bracket for the maximum. `None` if Newton's method fails.
+    /// Searches a bracket for the maximum and updates `highest`. `None` if Newton's method fails.
     fn search(&mut self, [mut low, mut high]: [SegmentSample; 2], least: f64) -> Option<()> {
         for _ in 0..ROUNDS {
-            // Without a maximum of the cubic inside, the larger end is the maximum, and it was
-            // visited.
+            // If the cubic has no maximum inside, an end of the bracket is the maximum.
             let Some(top) = low.top(&high) else { break };
             let reached = self.highest.map_or(f64::NEG_INFINITY, |(value, _)| value);
-            // Stop if another segment is higher, or if this one is converged.
+            // Stop if another segment has a larger value, or if this search has converged.
             if top.value < PROMISING * least || top.value - reached <= FLAT * top.value.abs() {
                 break;
             }
@@ -276,7 +276,7 @@ where
         Some(())
     }
 
-    /// Evaluates the lower or upper end of the bracket.
+    /// Evaluates the sample for the lower (0) or upper (1) end of the initial bracket.
     fn end(&mut self, fraction: f64, least: f64) -> Option<SegmentSample> {
         let is_lower = fraction == 0.0;
         let Equilibrium { state, arriving, leaving, event } =
@@ -288,9 +288,9 @@ where
         }
     }
 
-    /// Evaluates a sample next to a kink.
+    /// Evaluates a sample next to a kink at the end `kink` (0 or 1) of the segment.
     ///
-    /// If a maximum may lie between kink and sample, searches closer and closer to the kink.
+    /// If a maximum may lie between kink and sample, also searches closer to the kink.
     fn beside(
         &mut self,
         kink: f64,
@@ -303,7 +303,8 @@ where
         let beside = self.inside(kink + inwards * NEAR)?;
         let (mut outer, mut distance) = (beside, NEAR);
         for _ in 0..CLOSER {
-            // True if the parabola through both decreases away from the kink.
+            // True if the parabola through kink and sample, with the slope of the sample, decreases
+            // away from the kink.
             let falls = 2.0 * (outer.value - value) <= inwards * outer.slope * distance;
             if falls || inwards * outer.slope >= 0.0 {
                 break;
@@ -318,7 +319,7 @@ where
         Some(beside)
     }
 
-    /// Evaluates the sample at an end without a kink.
+    /// Evaluates the sample at an end of the segment without a kink.
     fn at_end(
         &mut self,
         fraction: f64,
@@ -327,19 +328,21 @@ where
     ) -> Option<SegmentSample> {
         let condition = self.path.condition(self.from);
         let Continuation { newton, system, .. } = &mut *self.path;
-        // The slope needs the factors of the tangent at this very point.
+        // `sample` requires the factors of the tangent at this point.
         newton.tangent(system, state, &condition).ok()?;
         Some(self.sample(fraction, state, direction))
     }
 
-    /// Solves for the sample at an inner fraction, from the nearest solved point.
+    /// Solves for an inner point of the segment, starting from the nearest solved point.
+    ///
+    /// Returns the sample there. `None` if Newton's method fails.
     fn inside(&mut self, fraction: f64) -> Option<SegmentSample> {
         let distances = self.known.iter().map(|(other, point)| ((other - fraction).abs(), point));
         let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
         let near = nearest.map_or(self.from, |(_, point)| point);
         let point = self.path.between_from(self.from, self.to, fraction, near);
-        // A near point makes Newton's method quick, but a point next to a kink may lead it to the
-        // other side. The start of the segment does not.
+        // From a near point Newton's method needs fewer iterations. If the near point is next to a
+        // kink, the iteration may fail; it is then repeated from the start of the segment.
         let point = point.or_else(|| self.path.between(self.from, self.to, fraction))?;
         let sample = self.sample(fraction, &point.state, &point.arriving);
         if self.highest.is_none_or(|(value, _)| sample.value > value) {
@@ -349,7 +352,7 @@ where
         Some(sample)
     }
 
-    /// Evaluates the sample at the point with the last factorised tangent.
+    /// Evaluates value and slope at a point, to which the last factorised tangent must belong.
     fn sample(
         &mut self,
         fraction: f64,
@@ -364,15 +367,18 @@ where
 }
 
 impl SegmentSample {
-    /// Returns the maximum of the cubic between two samples, if any.
+    /// Returns the maximum, between `self` and `high`, of the cubic through both samples.
+    ///
+    /// The cubic has the values and slopes of the samples. `None` if there is no maximum between
+    /// them.
     fn top(&self, high: &Self) -> Option<Self> {
         let width = high.fraction - self.fraction;
         let (rise, start, end) = (high.value - self.value, width * self.slope, width * high.slope);
-        // value + start x + square x² + cube x³
+        // Coefficients of the cubic value + start x + square x² + cube x³.
         let (square, cube) = (3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise);
         let root = (square * square - 3.0 * cube * start).sqrt();
         let x =
-            // Choose the form of the root that does not subtract nearly equal numbers.
+            // Use the form of the root that does not subtract nearly equal numbers.
             if square > 0.0 { -(square + root) / (3.0 * cube) } else { start / (root - square) };
         let value = self.value + x * (start + x * (square + x * cube));
         let fraction = self.fraction + x * width;

@@ -1,34 +1,39 @@
-//! Progress reports of long paths.
+//! Progress reports while a long path is computed.
 
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
-/// Progress of a path.
+/// Content of a progress report.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathProgress {
-    /// Time since the work began.
+    /// Time since [`report_progress`] was called.
     pub elapsed: Duration,
     /// Number of points of the current path.
     pub points: usize,
-    /// Control parameter over its target.
+    /// Control parameter of the current path, divided by its scale.
     pub fraction: f64,
 }
 
+/// Schedule and receiver of the reports of a thread.
 struct Watch {
+    /// Time of the call of [`report_progress`].
     begun: Instant,
+    /// Time after `begun` at which the next report is due.
     due: Duration,
+    /// Receiver of the reports.
     report: Box<dyn Fn(PathProgress)>,
 }
 
 thread_local! {
-    // Thread-local rather than an argument of each model: a path stays on its thread, and only the
-    // outermost caller wants the reports.
+    // Thread-local, not an argument of each model, because a path stays on its thread and only the
+    // outermost caller receives the reports.
     static WATCH: RefCell<Option<Watch>> = const { RefCell::new(None) };
 }
 
-/// Runs `work`, which follows paths on this thread, and reports its progress.
+/// Runs `work`, which follows paths on this thread, and calls `report` with its progress.
 ///
-/// The first report comes after `patience`, each further one after twice the elapsed time.
+/// The first report is due after `patience`. After each report, the next one is due when the
+/// elapsed time has doubled.
 pub fn report_progress<T>(
     patience: Duration,
     report: impl Fn(PathProgress) + 'static,
@@ -41,7 +46,7 @@ pub fn report_progress<T>(
     done
 }
 
-/// Reports the progress of a path if a report is due.
+/// Reports the progress of the current path if a report is due.
 pub(crate) fn report_if_due(points: usize, fraction: f64) {
     WATCH.with_borrow_mut(|slot| {
         let Some(watch) = slot else { return };

@@ -1,4 +1,4 @@
-//! Rate complementarity problem: the outgoing branch of the path at an event.
+//! Choice of the outgoing branch at an event by solving the rate complementarity problem.
 
 use crate::continuation::{Continuation, Equilibrium};
 use crate::event::Change;
@@ -9,51 +9,52 @@ use crate::termination::Termination;
 
 /// Distance along the path below which two events coincide.
 ///
-/// Between nearly parallel edges, forces change by 10⁵ over a unit of the path, so even short
-/// segments between events must be followed.
+/// The distance is small because forces between nearly parallel edges change by 10⁵ per unit of the
+/// path, so the path must be followed also between close events.
 const APART: f64 = 1e-10;
 
-/// Two directions are the same branch if their cosine differs from 1 by less.
+/// Largest difference from 1 of the cosine between two directions of the same branch.
 const SAME_BRANCH: f64 = 1e-6;
 
-/// Largest number of active sets evaluated at an event of a coupled system.
+/// Largest number of active sets evaluated at an event if constraints are coupled by friction.
 const MOST_WITH_FRICTION: usize = 500;
 
-/// Largest number of reversals before the path is abandoned.
+/// Largest number of reversals at events before the path is abandoned.
 ///
-/// Reversals count from the last maximum of the control parameter. Known solvable paths need at
-/// most two.
+/// The count starts at the last maximum of the control parameter. Known solvable paths need at most
+/// two reversals.
 const MOST_REVERSALS: usize = 20;
 
-/// Selects the outgoing branch at an event.
+/// Choice of the outgoing branch at an event.
 ///
-/// At an event the path has a direction `ż` on each side. Some of the constraints that meet there
-/// have both `z_c = 0` and `r_c(z) = 0`. The outgoing direction solves the complementarity problem
-/// of the rates,
+/// At an event the path has an incoming and an outgoing direction `ż`. A constraint *meets* the
+/// event if both `z_c = 0` and `r_c(z) = 0` there, so that it may become active or inactive. The
+/// outgoing direction solves the complementarity problem of the rates
 ///
 /// ```text
-/// ∂r_i/∂z ż = 0     for every equation and every constraint that stays active,
-/// ż_c = 0           for every constraint that stays inactive,
-/// 0 ≤ ż_c  ⟂  ∂r_c/∂z ż ≥ 0     for those that meet,                                  (N6)
+/// ∂r_i/∂z ż = 0     for every equation and every other active constraint,
+/// ż_c = 0           for every other inactive constraint,
+/// 0 ≤ ż_c  ⟂  ∂r_c/∂z ż ≥ 0     for the constraints that meet the event              (N6)
 /// ```
 ///
 /// in the mode after the event. The solver uses principal pivoting (Cottle, Pang & Stone 2009,
 /// *The Linear Complementarity Problem*, ch. 4, isbn 978-0-89871-686-3):
 ///
-/// 1. A single monotone constraint that turns back needs no search (`end_growth`).
-/// 2. Several changes are applied together first, as symmetry requires
-///    (`pivot_together`).
-/// 3. If the direction then violates one of them, `search_active_sets` changes one
-///    constraint after the other, the most violated one first.
+/// 1. If the unknown of a single monotone constraint stops growing, no search is needed
+///    (`end_growth`).
+/// 2. Several changes are first applied together, as symmetry requires (`pivot_together`).
+/// 3. If the resulting direction violates one of them, `search_active_sets` changes one constraint
+///    after the other, the most violated constraint first.
 impl<S: System> Continuation<S> {
-    /// Changes constraints in `state`, at an event, and returns the outgoing direction.
+    /// Changes the constraints of `state` at an event and returns the outgoing direction.
     ///
-    /// `arriving` is the incoming direction. `changes` are the constraints about to change sides,
-    /// the located one first; they are replaced by the actual changes.
+    /// `arriving` is the incoming direction. `changes` are the changes expected at the event, with
+    /// the located change first; they are replaced by the actual changes.
     ///
     /// # Errors
-    /// [`Termination::Singular`] if the direction is not unique, [`Termination::Cycling`] or, with
-    /// coupled constraints, [`Termination::Jumps`] if every active set violates some constraint.
+    /// [`Termination::Singular`] if the direction is not unique. If every evaluated active set
+    /// violates some constraint, [`Termination::Jumps`] with coupled constraints, else
+    /// [`Termination::Cycling`].
     pub(crate) fn resolve_event(
         &mut self,
         state: &mut State<S::Mode>,
@@ -66,8 +67,8 @@ impl<S: System> Continuation<S> {
         {
             return self.end_growth(state, arriving, change);
         }
-        // Symmetric rows close two contacts at once. Closing one after the other would leave the
-        // symmetric path at its first event.
+        // In a symmetric row two contacts close at once. If they closed one after the other, the
+        // path would lose its symmetry.
         if changes.len() > 1
             && let Some((next, leaving)) = self.pivot_together(state, arriving, changes)
             && self.cosine(arriving, &leaving) > 0.0
@@ -76,15 +77,15 @@ impl<S: System> Continuation<S> {
             return Ok(leaving);
         }
         let together = changes.clone();
-        // Opening a contact also ends its stick-slip constraint. Both events coincide up to
-        // round-off, so sort them.
+        // The opening of a contact also ends its stick-slip constraint. Both events coincide up to
+        // round-off, so their order is set by the number of the constraint.
         let coupled = self.system.coupled(changes[0].constraint);
         let group = changes.iter().take_while(|change| coupled.contains(&change.constraint));
         let group = group.count();
         changes[..group].sort_by_key(|change| change.constraint);
         let branch = self.best_branch(state, arriving, changes);
-        // The contacts of a symmetric row may open together where their corners are at the ends of
-        // their edges. An open contact has no such end, so its other change is void.
+        // In a symmetric row several contacts may open at once while their corners are at the ends
+        // of their edges. Only the opening is then applied, because an open contact has no corner.
         if together.len() > 1
             && branch.as_ref().map_or(true, |branch| branch.along < 0.0)
             && let Some(opened) = self.open_together(state, arriving, &together)
@@ -104,11 +105,11 @@ impl<S: System> Continuation<S> {
         Ok(branch.leaving)
     }
 
-    /// Searches for an outgoing branch from each of the simultaneous changes in turn.
+    /// Returns the best outgoing branch of searches that start with one of the given changes.
     ///
-    /// Stops at the first change that yields a branch without reversal. A reversal may be an
-    /// artefact of the order, for example if one corner closes while another opens, so the other
-    /// changes are then tried as the first one too.
+    /// Stops at the first change that leads to a branch without reversal. A reversal may be an
+    /// artefact of the order of the changes, for example if one contact closes while another one
+    /// opens. In this case the search also starts with each of the other changes.
     fn best_branch(
         &mut self,
         state: &State<S::Mode>,
@@ -134,7 +135,10 @@ impl<S: System> Continuation<S> {
         best.ok_or(failure)
     }
 
-    /// Returns the branch that keeps the orientation, or else the one that turns less.
+    /// Returns the better of two branches, and records if the branches differ.
+    ///
+    /// A branch with the orientation `is_positive` is better than a branch with the other one; if
+    /// both orientations are equal, the branch that turns by the smaller angle is better.
     fn better_branch(
         &mut self,
         best: Option<OutgoingBranch<S::Mode>>,
@@ -148,17 +152,18 @@ impl<S: System> Continuation<S> {
         if rank(&best) < rank(&other) { other } else { best }
     }
 
-    /// Reverses the path at its current point, to follow unloading.
+    /// Reverses the path at its current point to follow unloading.
     ///
-    /// Slipping contacts stick, the load decreases, and the path ends where the load vanishes.
+    /// All slipping contacts stick, and the path continues in the direction of decreasing load. It
+    /// ends where the load is zero.
     pub fn turn_back(&mut self) {
         let mut state = self.point.state.clone();
         self.system.stop_sliding(&mut state);
         self.is_back = true;
         self.pushes = Some(state.z[self.system.load()].signum());
         let back: Vec<f64> = self.point.arriving.iter().map(|rate| -rate).collect();
-        // Any constraint at its limit may change, such as a friction force that falls more slowly
-        // than the normal force.
+        // Every constraint with a zero guard may change. For example, a contact continues to slip
+        // if its normal force decreases faster than its friction.
         let meeting = (0..self.guards.len()).collect();
         let changes = Vec::new();
         let start =
@@ -171,11 +176,12 @@ impl<S: System> Continuation<S> {
         }
     }
 
-    /// Returns the starts of the search for one of the simultaneous changes.
+    /// Returns the starting points of the search for one of the simultaneous changes.
     ///
-    /// The first start is the change itself. Behind it, each coupled constraint that the change
-    /// leaves undecided gives another start: a contact that closes with friction may stick or slip
-    /// either way, and the search may end at a different branch.
+    /// The first starting point is `change` itself. After `change`, other coupled constraints may
+    /// have a zero guard, so that they may be active or inactive: a contact that closes with
+    /// friction may stick or slip in either direction. Each such constraint is another starting
+    /// point, because the search may end at a different branch.
     fn starts(
         &self,
         state: &State<S::Mode>,
@@ -207,17 +213,19 @@ impl<S: System> Continuation<S> {
         starts
     }
 
-    /// Ends the growth of a monotone unknown at the point where its rate vanishes.
+    /// Deactivates a monotone constraint at the point at which the rate of its unknown is zero.
     ///
-    /// The rate vanishes on both sides, so the path continues in its incoming direction. The slope
-    /// of the changed condition is zero along that direction and does not determine its sign.
+    /// The rate is zero before and after the event, so the path continues in its incoming
+    /// direction. The slope of the changed guard is zero along this direction, so it does not
+    /// determine the sign of the direction.
     fn end_growth(
         &mut self,
         state: &mut State<S::Mode>,
         arriving: &[f64],
         change: Change,
     ) -> Result<Vec<f64>, Termination> {
-        // A zero rate satisfies both sides of the complementarity, so no search is needed.
+        // With a zero rate, the constraint may be active or inactive in (N6), so no search is
+        // needed.
         let orienting = self.pivot(state, change).ok_or(Termination::Singular)?;
         let controls = self.system.controls();
         let row = controls.iter().map(|c| (c.index, arriving[c.index] / c.scale.powi(2))).collect();
@@ -227,16 +235,16 @@ impl<S: System> Continuation<S> {
         if guard_slope(&self.system, state, orienting, &direction) >= -NO_RATE {
             return Ok(direction);
         }
-        // The controls reverse together with the unknown, as at a kink, so the direction that they
-        // orient points backwards.
+        // The controls reverse together with the unknown, as at a kink, so a direction along which
+        // the controls continue points backwards.
         let direction = opposite(direction);
         self.is_positive = self.newton.is_positive(&condition, &direction);
         Ok(direction)
     }
 
-    /// Applies deactivations, then the changes that remain possible, and keeps the direction.
+    /// Applies all deactivations, then the other changes that are still possible.
     ///
-    /// `None` if one of them is violated or the path reverses.
+    /// Returns the resulting branch, or `None` if it violates a change or reverses the path.
     fn open_together(
         &mut self,
         state: &State<S::Mode>,
@@ -260,9 +268,9 @@ impl<S: System> Continuation<S> {
         Some(branch).filter(|branch| branch.along > 0.0)
     }
 
-    /// Applies all `changes` and returns state and direction.
+    /// Applies all `changes` and returns the resulting state and outgoing direction.
     ///
-    /// `None` if a change is violated.
+    /// `None` if the direction violates a changed constraint.
     fn pivot_together(
         &mut self,
         state: &State<S::Mode>,
@@ -275,9 +283,9 @@ impl<S: System> Continuation<S> {
             valid.push(self.pivot(&mut next, change)?);
         }
         let leaving = self.direction(&mut next, arriving, valid.first().copied()).ok()?;
-        // Every change must be valid after the event, even if its guard is not zero.
-        // Counterexample: two corners reach the ends of their edges within round-off. If both
-        // change, stiff contacts turn this round-off into a decreasing force.
+        // The guard of every changed constraint must increase after the event, even if it is not
+        // zero. Counterexample: two corners reach the ends of their edges within round-off. If both
+        // change, this round-off leads to a decreasing force, because the contacts are stiff.
         for &constraint in &valid {
             if guard_slope(&self.system, &next, constraint, &leaving) < -FLOOR {
                 return None;
@@ -290,14 +298,14 @@ impl<S: System> Continuation<S> {
     /// Searches depth-first for an active set with a valid outgoing direction.
     ///
     /// ```text
-    /// start ─► take the next candidate ─► evaluate it ─► violated constraints?  none ─► branch
-    ///                    ▲                                      │ some
-    ///                    └── add one candidate for each, the most violated one next
+    /// start ─► next candidate ─► evaluate direction ─► violated constraints?  none ─► branch
+    ///                ▲                                        │ some
+    ///                └── add one candidate for each, the most violated constraint next
     /// ```
     ///
-    /// A changed constraint may change back. If that leads to an active set evaluated before, the
-    /// search continues with the next violated constraint. `is_single` marks an event with a single
-    /// change: without coupled constraints a failure then has no alternative.
+    /// A changed constraint may change back. If this leads to an active set that has already been
+    /// evaluated, the search continues with the next violated constraint. `is_single` is true at an
+    /// event with a single change; without coupled constraints the first failure is then final.
     fn search_active_sets(
         &mut self,
         start: ActiveSetCandidate<S::Mode>,
@@ -327,14 +335,14 @@ impl<S: System> Continuation<S> {
             let violated = self.violated(&candidate.state, &leaving, &candidate.meeting);
             if violated.is_empty() {
                 let (along, is_positive) = (self.cosine(arriving, &leaving), self.is_positive);
-                // With all changes undone, a reversed direction is the incoming path.
+                // If all changes have been undone, a reversed direction is the incoming path.
                 if candidate.changes.is_empty() && along < 0.0 && change.is_some() {
                     continue;
                 }
                 let ActiveSetCandidate { state, changes, .. } = candidate;
                 return Ok(OutgoingBranch { state, leaving, changes, is_positive, along });
             }
-            // In reverse, so that the most violated constraint is on top of the stack.
+            // Push in reverse order, so that the most violated constraint is on top of the stack.
             for constraint in violated.into_iter().rev() {
                 let activated = !candidate.state.active[constraint];
                 stack.push((candidate.clone(), Some(Change { constraint, activated })));
@@ -343,11 +351,11 @@ impl<S: System> Continuation<S> {
         Err(failure)
     }
 
-    /// Applies a change to a candidate and solves for its outgoing direction.
+    /// Applies a change to the candidate `from` and solves for its outgoing direction.
     ///
     /// # Errors
-    /// [`Termination::Cycling`] if this active set and mode are among those `evaluated` before, or
-    /// the failure of the change or of the solve.
+    /// [`Termination::Cycling`] if `evaluated` already contains the active set and form of the
+    /// equations. Otherwise the failure of the change or of Newton's method.
     fn evaluate(
         &mut self,
         from: ActiveSetCandidate<S::Mode>,
@@ -371,7 +379,10 @@ impl<S: System> Continuation<S> {
         Ok((candidate, leaving))
     }
 
-    /// Returns a candidate with one more change.
+    /// Returns the candidate `from` with one more change.
+    ///
+    /// # Errors
+    /// If the mode does not allow the change.
     fn with_change(
         &self,
         from: &ActiveSetCandidate<S::Mode>,
@@ -379,7 +390,8 @@ impl<S: System> Continuation<S> {
     ) -> Result<ActiveSetCandidate<S::Mode>, Termination> {
         let mut next = from.clone();
         let valid = self.pivot(&mut next.state, change).ok_or(Termination::Singular)?;
-        // A transition may pass the condition on, for example from a corner to the next edge.
+        // A transition may pass the condition on to another constraint, for example from a corner
+        // to the next edge.
         if !next.meeting.contains(&valid) {
             next.meeting.extend(self.system.coupled(valid));
         }
@@ -388,8 +400,8 @@ impl<S: System> Continuation<S> {
             next.orienting = None;
             return Ok(next);
         }
-        // A friction change at another contact is a consequence of the event and must not orient
-        // the path: keep the constraint of the event itself.
+        // A change of friction at another contact is a consequence of the event and must not orient
+        // the path. The constraint of the event itself remains the orienting one.
         let coupled = self.system.coupled(change.constraint);
         next.orienting = next
             .orienting
@@ -398,7 +410,7 @@ impl<S: System> Continuation<S> {
         Ok(next)
     }
 
-    /// Returns the constraints that may change sides together with the given ones.
+    /// Returns the given constraints and all constraints that are coupled with them.
     fn meeting(&self, constraints: impl IntoIterator<Item = usize>) -> Vec<usize> {
         let mut meeting: Vec<usize> = Vec::new();
         for constraint in constraints {
@@ -409,7 +421,7 @@ impl<S: System> Continuation<S> {
         meeting
     }
 
-    /// Changes the side of a constraint.
+    /// Applies a change to `state`.
     ///
     /// Returns the constraint with the condition that the outgoing path must satisfy, or `None` if
     /// the mode does not allow the change.
@@ -421,8 +433,8 @@ impl<S: System> Continuation<S> {
 
     /// Restores equilibrium after a transition and solves for the outgoing direction.
     ///
-    /// The guard of the `orienting` constraint increases along the direction. Without one, or with a
-    /// neutral one, the direction follows `arriving`.
+    /// The guard of the constraint `orienting` increases along the direction. If `orienting` is
+    /// `None` or neutral, the sign of the direction follows from `arriving`.
     fn direction(
         &mut self,
         state: &mut State<S::Mode>,
@@ -431,8 +443,8 @@ impl<S: System> Continuation<S> {
     ) -> Result<Vec<f64>, Termination> {
         let mut failure = Termination::Singular;
         let orienting = orienting.filter(|&number| !self.system.is_neutral(state, number));
-        // A corner that closes may turn the path by a right angle. Then the arc length is constant
-        // to first order, and only one of the controls still grows.
+        // At the closing of a contact the path may turn by a right angle. The arc length along
+        // `arriving` is then constant to first order, and only a single control still changes.
         for condition in self.measures(state, arriving) {
             let mut trial = state.clone();
             let solved = self.newton.solve(&self.system, &mut trial, &condition, &self.settings);
@@ -457,7 +469,8 @@ impl<S: System> Continuation<S> {
                 failure = Termination::NoConvergence;
                 continue;
             }
-            // The equations change at an event, the only point where the sign of (N7) may change.
+            // The orientation (N7) is set here, because it may change only where the equations
+            // change, at an event.
             self.is_positive = self.newton.is_positive(&condition, &direction);
             *state = trial;
             return Ok(direction);
@@ -465,15 +478,21 @@ impl<S: System> Continuation<S> {
         Err(failure)
     }
 
-    /// Returns true if an equilibrium violates an active constraint by more than round-off.
+    /// Returns true if Newton's method has converged to a different equilibrium.
+    ///
+    /// The criterion is the violation of an active constraint by more than [`ELSEWHERE`].
     fn is_elsewhere(&self, state: &State<S::Mode>, direction: &[f64]) -> bool {
-        // Inactive constraints need the geometry of all contacts, so the next step checks them.
+        // Inactive constraints are expensive, because they require the geometry of all contacts.
+        // The next step checks them.
         let constraints = self.system.constraints().iter().zip(&state.active);
         let mut active = constraints.filter(|(_, active)| **active);
         active.any(|(&index, _)| state.z[index] < -ELSEWHERE * (1.0 + direction[index].abs()))
     }
 
-    /// Returns measures of distance along the path, the most likely to increase first.
+    /// Returns conditions that may measure the distance along the path beyond an event.
+    ///
+    /// The first condition, the arc length in the controls, is the most likely to increase; the
+    /// others measure a single control.
     fn measures(&self, state: &State<S::Mode>, direction: &[f64]) -> Vec<Condition> {
         let controls = self.system.controls();
         let arc =
@@ -483,9 +502,9 @@ impl<S: System> Continuation<S> {
         rows.map(|row| Condition::through(row, &state.z)).collect()
     }
 
-    /// Returns the constraints that a direction violates at once, most violated first.
+    /// Returns the constraints that a direction violates, the most violated constraint first.
     ///
-    /// Checks the given constraints and all active monotone ones.
+    /// Checks the given constraints with a zero guard, and all active monotone constraints.
     fn violated(
         &mut self,
         state: &State<S::Mode>,
@@ -499,7 +518,7 @@ impl<S: System> Continuation<S> {
                 violated.push((constraint, slope));
             }
         }
-        // A monotone unknown must not decrease after a kink, even if it is not zero.
+        // The unknown of a monotone constraint must not decrease, even if it is not zero.
         for &constraint in self.system.monotone() {
             let rate = direction[self.system.constraints()[constraint]];
             if state.active[constraint] && rate < -FLOOR {
@@ -513,49 +532,53 @@ impl<S: System> Continuation<S> {
 
     /// Returns the largest number of active sets to evaluate at an event.
     fn most_active_sets(&self, has_coupled: bool) -> usize {
-        // Each constraint may change and change back; the constant allows for short rows. Coupled
-        // constraints make the search a tree, in which solvable events need some dozens of sets.
+        // Each constraint may change and change back; the constant is an allowance for short rows.
+        // With coupled constraints the search is a tree, and known solvable events need some dozens
+        // of active sets.
         let most = 2 * self.guards.len() + 8;
         if has_coupled { most.min(MOST_WITH_FRICTION) } else { most }
     }
 }
 
-/// State at an event after changes of some constraints.
+/// State at an event after changes of some constraints, as a candidate for the outgoing branch.
 #[derive(Clone)]
 struct ActiveSetCandidate<M> {
+    /// State with the changed constraints.
     state: State<M>,
-    /// Constraints that may be violated at the event.
+    /// Constraints that meet the event, so that the outgoing direction may violate them.
     meeting: Vec<usize>,
     /// Changes made so far.
     changes: Vec<Change>,
-    /// Constraint with a guard that must increase along the outgoing direction.
+    /// Constraint with the guard that must increase along the outgoing direction.
     orienting: Option<usize>,
-    /// True if the path is turned back.
+    /// True if the path is turned back for unloading.
     ///
-    /// Its direction is then given and no constraint orients it.
+    /// The sign of the direction is then given, and no constraint determines it.
     turns_back: bool,
 }
 
 /// Outgoing branch at an event.
 struct OutgoingBranch<M> {
+    /// State with the outgoing active set and mode.
     state: State<M>,
+    /// Outgoing direction.
     leaving: Vec<f64>,
-    /// Constraints that have changed sides.
+    /// Constraints that have become active or inactive.
     changes: Vec<Change>,
     /// Orientation (N7) after the event.
     is_positive: bool,
-    /// Cosine of the angle by which the path turns.
+    /// Cosine of the angle between incoming and outgoing direction; negative for a reversal.
     along: f64,
 }
 
-/// Returns the reversed direction.
+/// Returns the negative direction.
 fn opposite(direction: Vec<f64>) -> Vec<f64> {
     direction.into_iter().map(|x| -x).collect()
 }
 
-/// Adds a change, or removes the earlier change that it undoes.
+/// Adds a change to the list, or removes an earlier change of the same constraint.
 ///
-/// Both belong to the same constraint.
+/// A second change of a constraint undoes the first one.
 fn toggle(changes: &mut Vec<Change>, change: Change) {
     match changes.iter().position(|earlier| earlier.constraint == change.constraint) {
         Some(undone) => drop(changes.remove(undone)),

@@ -1,4 +1,4 @@
-//! Derivatives of an equilibrium with respect to a parameter of the system.
+//! Derivatives of a point of a path with respect to a parameter of the system.
 
 mod anchor;
 mod differences;
@@ -13,30 +13,32 @@ use differences::{difference, moved, rates, turning};
 pub use anchor::{AnchoredPoint, PathAnchor};
 pub(crate) use stationary::slope_along;
 
-/// System at two values of a parameter, `step` below and above its current one.
+/// Two systems for the difference quotient by a parameter, at a smaller and a larger value.
+///
+/// Both values differ by `step` from the current value of the parameter.
 #[derive(Clone, Debug)]
 pub struct Neighbours<S> {
-    /// System at the smaller value.
+    /// System at the smaller value of the parameter.
     pub below: S,
-    /// System at the larger value.
+    /// System at the larger value of the parameter.
     pub above: S,
-    /// Half the difference between the values.
+    /// Half of the difference between the two values.
     pub step: f64,
 }
 
 impl<S> Neighbours<S> {
-    /// Applies a function to the systems below and above.
+    /// Applies `f` to both systems.
     ///
     /// # Errors
-    /// Returns the error of the function.
+    /// Returns the error of `f`.
     pub fn map<T, E>(&self, f: impl Fn(&S) -> Result<T, E>) -> Result<Neighbours<T>, E> {
         Ok(Neighbours { below: f(&self.below)?, above: f(&self.above)?, step: self.step })
     }
 
-    /// Applies a function to each pair of systems.
+    /// Applies `f` to both systems of each entry of `several`.
     ///
     /// # Errors
-    /// Returns the error of the function.
+    /// Returns the error of `f`.
     pub fn map_all<T, E>(
         several: &[Self],
         f: impl Fn(&S) -> Result<T, E>,
@@ -45,46 +47,50 @@ impl<S> Neighbours<S> {
     }
 }
 
-/// First-order prediction of a point for a neighbouring value of a parameter.
+/// First-order prediction of a point of the path for a perturbed parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MovedPoint<M> {
     /// Predicted state.
     pub state: State<M>,
-    /// Direction of the path at this point.
+    /// Predicted direction of the path at this state.
     pub direction: Vec<f64>,
 }
 
-/// Point with the factors of its tangent, which serve any number of parameters.
+/// Point of a path with the factors of its tangent, for derivatives by any number of parameters.
 ///
-/// The unknowns `z` satisfy the equations `r(z, q) = 0` with the active set fixed. The tangent `J`
-/// contains the row of a fixed section of the path in place of the missing row:
+/// The unknowns `z` satisfy the equations `r(z, q) = 0` with a fixed active set; `q` is a parameter
+/// and `v` the direction of the path. In the tangent `J`, the row of a section across the path
+/// replaces the missing row, and `e` is the unit vector of this row:
 ///
 /// ```text
-/// dz/dq = −J⁻¹ ∂r/∂q + s v,     J v = e,                                                (D2)
+/// dz/dq = −J⁻¹ ∂r/∂q + s v,     J v = e                                                 (D2)
 /// dv/dq = −J⁻¹ d(J v)/dq at fixed v                                                     (D3)
 /// ```
 ///
-/// where `v` is the direction of the path and `s` is chosen so that the anchor still holds. For a
-/// point at which the rate `f(z, v)` of a quantity vanishes,
+/// The first term of (D2) keeps the point in the section. The distance `s` along the path is such
+/// that the condition of the anchor remains satisfied. If the anchor is the point at which the rate
+/// `f(z, v)` of a quantity is zero,
 ///
 /// ```text
 /// s = −(df/dq in the section)/(df/ds along the path)                                    (D5)
 /// ```
 ///
-/// with `v` turning by (D3), both along the path and in the section. `∂r/∂q` and `d(J v)/dq` are
-/// central differences of explicit functions. Solutions are never differenced.
+/// Both derivatives of `f` include the change of `v` by (D3). `∂r/∂q` and `d(J v)/dq` are central
+/// differences of explicit functions; differences of solutions are not used.
 #[derive(Clone, Debug)]
 pub struct Linearisation<M> {
+    /// Point with its anchor.
     point: AnchoredPoint<M>,
+    /// Factors of the tangent `J` at the point.
     newton: Newton,
-    /// Section of the path in which the point stays.
+    /// Index and coefficient of each unknown in the row of the section.
     section: Vec<(usize, f64)>,
-    /// Inactive constraints that a small motion may violate.
+    /// Inactive constraints that a small change of the state may violate.
     near: Vec<usize>,
 }
 
 impl<M: Clone> Linearisation<M> {
-    /// Factorises the tangent at a point.
+    /// Factorises the tangent at a point of the path.
     ///
     /// # Errors
     /// If the tangent is singular.
@@ -100,22 +106,23 @@ impl<M: Clone> Linearisation<M> {
         Ok(Self { point: AnchoredPoint { direction, ..point }, newton, section, near })
     }
 
-    /// Returns the point.
+    /// Returns the point with its anchor.
     pub fn point(&self) -> &AnchoredPoint<M> {
         &self.point
     }
 
-    /// Predicts the points for a smaller and a larger parameter, to first order.
+    /// Predicts the points for the smaller and the larger value of a parameter, to first order.
     ///
-    /// The directions of the path turn only if `turns`. Results are not finite if the path has a
-    /// fold at the anchor.
+    /// The directions of the path are predicted only if `turns` is true, otherwise they are the
+    /// current direction. Results are not finite if the slope of the anchor along the path is zero.
     pub fn moved<S: System<Mode = M>>(
         &mut self,
         system: &S,
         neighbours: &Neighbours<S>,
         turns: bool,
     ) -> [MovedPoint<M>; 2] {
-        // First move in the section, then along the path to where the anchor holds again.
+        // Rates of the unknowns: first in the section, then along the path so that the condition of
+        // the anchor remains satisfied.
         let mut unknowns = self.unknowns_in_section(system, neighbours);
         let along = self.distance(system, neighbours, &unknowns);
         for (unknown, direction) in unknowns.iter_mut().zip(&self.point.direction) {
@@ -125,7 +132,7 @@ impl<M: Clone> Linearisation<M> {
         self.turned([below, above], *step, &unknowns, turns)
     }
 
-    /// Predicts the point on both sides from the rates of its unknowns.
+    /// Predicts the points for both systems `sides` from the rates `unknowns` of the unknowns.
     fn turned<S: System<Mode = M>>(
         &mut self,
         sides: [&S; 2],
@@ -133,7 +140,7 @@ impl<M: Clone> Linearisation<M> {
         unknowns: &[f64],
         turns: bool,
     ) -> [MovedPoint<M>; 2] {
-        // Both predictions share one factorisation and need no further solve.
+        // Both predictions use the same rates and factors.
         let states = [-step, step].map(|step| self.point.state.moved(step, unknowns));
         let direction = &self.point.direction;
         let turning = turns.then(|| turning(&mut self.newton, sides, &states, direction, step));
@@ -148,7 +155,7 @@ impl<M: Clone> Linearisation<M> {
         ]
     }
 
-    /// Computes the rates of the unknowns in the section, `−J⁻¹ ∂r/∂q`.
+    /// Computes `−J⁻¹ ∂r/∂q`, the rates of the unknowns in the section.
     fn unknowns_in_section<S: System<Mode = M>>(
         &mut self,
         system: &S,
@@ -164,7 +171,7 @@ impl<M: Clone> Linearisation<M> {
         rates(&mut self.newton, system, state, change)
     }
 
-    /// Computes `s`, the motion of the point along the path.
+    /// Computes `s` of (D2), the motion of the point along the path.
     fn distance<S: System<Mode = M>>(
         &mut self,
         system: &S,
@@ -178,7 +185,7 @@ impl<M: Clone> Linearisation<M> {
         let step = neighbours.step;
         match *anchor {
             PathAnchor::Still => 0.0,
-            // The guard of an active constraint is its unknown, so no difference is needed.
+            // The guard of an active constraint is its unknown, with a known rate.
             PathAnchor::Guard(constraint) if state.active[constraint] => {
                 let index = system.constraints()[constraint];
                 -unknowns[index] / direction[index]
@@ -191,7 +198,7 @@ impl<M: Clone> Linearisation<M> {
         }
     }
 
-    /// Computes `s` for a point at which a rate vanishes (D5).
+    /// Computes `s` by (D5) for a point at which the rate `number` is zero.
     fn distance_to_extremum<S: System<Mode = M>>(
         &mut self,
         system: &S,
@@ -213,19 +220,19 @@ impl<M: Clone> Linearisation<M> {
         -change / slope
     }
 
-    /// Returns the most violated constraint in the `moved` state, with its change.
+    /// Returns the change of the constraint that the state `moved` violates most.
     ///
-    /// `None` if the active set remains valid on this side of the parameter.
+    /// `None` if the state violates no constraint, so that the active set remains valid.
     pub fn violated<S: System<Mode = M>>(
         &self,
         system: &S,
         moved: &MovedPoint<M>,
     ) -> Option<Change> {
         let active = &self.point.state.active;
-        // A slip distance is counted from a point of the path and does not respond to the
-        // parameter.
+        // The unknown of a monotone constraint, a slip distance, is measured from a point of the
+        // path, so its rate by the parameter is not meaningful.
         let loaded = (0..active.len()).filter(|c| active[*c] && !system.monotone().contains(c));
-        // The anchor's own guard is zero by definition, and round-off would violate it.
+        // The guard of the anchor is zero by definition, and must not be violated by round-off.
         let candidates = loaded
             .chain(self.near.iter().copied())
             .filter(|&c| self.point.anchor != PathAnchor::Guard(c));
@@ -235,17 +242,17 @@ impl<M: Clone> Linearisation<M> {
         Some(Change { constraint, activated: !self.point.state.active[constraint] })
     }
 
-    /// Solves again with a constraint on its other side.
+    /// Solves for the point after `change`, for the derivative on the other side of a kink.
     ///
-    /// `None` if no such equilibrium exists.
+    /// `None` if there is no such equilibrium.
     pub fn beyond<S: System<Mode = M>>(
         &self,
         system: &S,
         change: Change,
         settings: &Settings,
     ) -> Option<Self> {
-        // A contact about to open or close does so on one side of the parameter only, where the
-        // measure has another derivative.
+        // If a contact is about to open or close, it does so only for a larger or only for a
+        // smaller parameter. The derivative on this side belongs to the changed active set.
         let mut state = self.point.state.clone();
         state.active[change.constraint] = change.activated;
         state.z[system.constraints()[change.constraint]] = 0.0;
@@ -262,9 +269,9 @@ impl<M: Clone> Linearisation<M> {
             )
             .ok();
         }
-        // The path determines whether a contact that has just closed sticks or slips, and in which
-        // direction, and which other contacts stop slipping. The motion with the parameter does
-        // not: it shifts the point of closing.
+        // With friction, a contact that has just closed sticks or slips in one of two directions,
+        // and other contacts may stop slipping. The direction of the path decides this, not the
+        // parameter, which only shifts the point at which the contact closes.
         for _ in 0..MOST_CHANGES {
             let limits = coupled
                 .clone()
@@ -280,8 +287,8 @@ impl<M: Clone> Linearisation<M> {
             system.transition(&mut state, next)?;
             direction = newton.solve(system, &mut state, &condition, settings).ok()?;
         }
-        // The position at which a contact begins to stick depends on the parameter, but the mode,
-        // which stores it, is held fixed here.
+        // The position at which a contact begins to stick depends on the parameter, but it is
+        // stored in the mode, which is fixed here. The derivative would therefore be wrong.
         let sticks = (0..state.active.len()).any(|c| {
             state.active[c]
                 && !self.point.state.active[c]
@@ -295,22 +302,22 @@ impl<M: Clone> Linearisation<M> {
     }
 }
 
-/// Maximum number of changes of friction at the closing of a contact.
+/// Maximum number of changes of friction constraints after the closing of a contact.
 const MOST_CHANGES: usize = 8;
 
-/// Largest guard of an inactive constraint that a difference may violate.
+/// Largest guard of an inactive constraint that a small change of a parameter may violate.
 ///
-/// The steps of a difference are some millionths of a parameter.
+/// Parameters are changed by some millionths of their values.
 const NEAR: f64 = 1e-3;
 
-/// Returns the inactive constraints that a small motion from a point may violate.
+/// Returns the inactive constraints that a small change of the state may violate.
 fn near<S: System>(system: &S, point: &AnchoredPoint<S::Mode>) -> Vec<usize> {
     let guards = Newton::guards(system, &point.state).into_iter().enumerate();
     let inactive = guards.filter(|&(c, guard)| !point.state.active[c] && guard <= NEAR);
     inactive.map(|(constraint, _)| constraint).collect()
 }
 
-/// Returns the row of the arc-length condition in the controls.
+/// Returns the row of a section across the path: the arc length in the controls is fixed.
 fn section<S: System>(system: &S, direction: &[f64]) -> Vec<(usize, f64)> {
     let controls = system.controls().iter();
     let square: f64 = controls.clone().map(|c| (direction[c.index] / c.scale).powi(2)).sum();

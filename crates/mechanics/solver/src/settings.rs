@@ -1,34 +1,37 @@
-//! Step sizes and tolerances.
+//! Step sizes, tolerances and limits of a path.
 
-/// Step sizes of a path and tolerance of its equilibria.
+/// Step sizes of a path, tolerance of its equilibria, and limits.
+///
+/// Steps are in units of [`Control::scale`](crate::Control::scale). With the default
+/// [`System::target`](crate::System::target) of 1 they are fractions of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// First step, as a fraction of the whole path.
-    ///
-    /// The whole path ends at the target of the control parameter.
+    /// First step.
     pub first_step: f64,
-    /// Largest step, as a fraction of the whole path.
+    /// Largest step.
     pub max_step: f64,
-    /// Smallest step, as a fraction of the whole path; below it the path stops.
+    /// Smallest step; the path stops if a shorter step would be needed.
     pub min_step: f64,
-    /// Largest scaled residual at which Newton's iteration has converged.
+    /// Largest ratio of residual to size of an equation (N2) at a converged equilibrium.
     pub tolerance: f64,
-    /// Iterations after which a Newton solve fails and the step is divided by three.
-    pub max_iterations: usize,
-    /// Number of equilibria after which the path stops.
-    pub max_points: usize,
-    /// Work after which the path stops: the unknowns of all its tangents, weighted by bandwidth.
+    /// Largest number of Newton iterations per equilibrium.
     ///
-    /// Half of it without progress also stops the path. A path with few tangents may exceed it, for
-    /// a row of any length. A path with a `max_step` below the default may take more, in proportion
-    /// to the number of steps.
+    /// If the iteration has not converged, the step is divided by three.
+    pub max_iterations: usize,
+    /// Largest number of equilibria of a path.
+    pub max_points: usize,
+    /// Largest work of a path: the unknowns of all its tangents, weighted by the bandwidth.
+    ///
+    /// The path also stops after half of this work without progress. A path with few tangents may
+    /// exceed the limit, so that it does not stop paths of very large systems. If `max_step` is
+    /// below its default, the limit is larger in proportion to the number of steps.
     pub max_work: u64,
 }
 
 impl Settings {
-    /// Returns the number of steps in a step of the default length, at least 1.
+    /// Returns the ratio of the default `max_step` to `max_step`, rounded down but at least 1.
     pub(crate) fn refinement(&self) -> u64 {
-        // The conversion saturates.
+        // The conversion saturates for extremely small steps.
         (Self::default().max_step / self.max_step).max(1.0) as u64
     }
 }
@@ -42,7 +45,8 @@ impl Default for Settings {
             tolerance: 1e-10,
             max_iterations: 12,
             max_points: 100_000,
-            // Less than five seconds. Paths that reach their target need less than half of this work.
+            // This work takes less than five seconds. Paths that reach their target need less than
+            // half of it.
             max_work: 24_000_000,
         }
     }

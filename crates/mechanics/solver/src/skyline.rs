@@ -1,25 +1,27 @@
-//! Symmetric skyline matrices and their inertia.
+//! Symmetric skyline matrices and their number of negative eigenvalues.
 
 use crate::linear::SingularMatrix;
 
-/// Symmetric matrix that stores each row from its first column to the diagonal.
+/// Symmetric matrix that stores each row from its first non-zero column to the diagonal.
 ///
-/// Factorisation replaces it by `L D Lᵀ`, with `L` left of the diagonal and `D` on it. Rows are not
-/// exchanged, so the profile is preserved. By Sylvester's law, `D` has as many negative entries as
-/// the matrix has negative eigenvalues.
+/// Factorisation replaces the matrix by the factors of `L D Lᵀ`: the unit lower triangular `L` left
+/// of the diagonal, and `D` on the diagonal. Rows are not exchanged, so the first columns of the
+/// rows do not change. By Sylvester's law of inertia, the number of negative entries of `D` is the
+/// number of negative eigenvalues of the matrix.
 #[derive(Clone, Debug)]
 pub struct SkylineMatrix {
-    /// First column of each row.
+    /// First stored column of each row.
     first: Vec<usize>,
-    /// Index of the first value of each row.
+    /// Index in `values` of the first value of each row.
     starts: Vec<usize>,
+    /// Stored values, row by row.
     values: Vec<f64>,
 }
 
 impl SkylineMatrix {
-    /// Creates a zero matrix with rows that begin in the columns `first`.
+    /// Creates a zero matrix; `first` is the first stored column of each row.
     ///
-    /// No row may begin beyond its diagonal.
+    /// It must not lie beyond the diagonal of the row.
     pub fn new(first: Vec<usize>) -> Self {
         let (mut starts, mut stored) = (Vec::with_capacity(first.len()), 0);
         for (row, first) in first.iter().enumerate() {
@@ -47,21 +49,21 @@ impl SkylineMatrix {
         }
     }
 
-    /// Returns the entries of a row in the columns `from..to`.
+    /// Returns the stored entries of a row in the columns `from..to`.
     fn entries(&self, row: usize, from: usize, to: usize) -> &[f64] {
         let start = self.starts[row] - self.first[row];
         &self.values[start + from..start + to]
     }
 
-    /// Replaces the matrix by its factors.
+    /// Replaces the matrix by its factors `L` and `D`.
     ///
     /// # Errors
-    /// If a pivot vanishes or is not finite.
+    /// If a pivot is zero or not finite.
     pub fn factorise(mut self) -> Result<Self, SingularMatrix> {
         let size = self.size();
         for row in 0..size {
             let first = self.first[row];
-            // The entries of the row become the entries of L D, and then of L.
+            // The entries of the row become the entries of `L D`; `scale_row` then computes `L`.
             for column in first..row {
                 let from = first.max(self.first[column]);
                 let known = self.entries(row, from, column).iter();
@@ -70,7 +72,7 @@ impl SkylineMatrix {
                 self.add(row, column, -taken);
             }
             let pivot = self.scale_row(row);
-            // Accept a small pivot: its sign still counts negative eigenvalues.
+            // Small pivots are accepted, because only the signs of the pivots are needed.
             if pivot == 0.0 || !pivot.is_finite() {
                 return Err(SingularMatrix { column: row, size });
             }
@@ -78,7 +80,7 @@ impl SkylineMatrix {
         Ok(self)
     }
 
-    /// Divides a row of L D by D and returns the pivot of the row.
+    /// Replaces a row of `L D` by the row of `L`, and returns the entry of `D` of this row.
     fn scale_row(&mut self, row: usize) -> f64 {
         let first = self.first[row];
         let mut taken = 0.0;
@@ -93,19 +95,17 @@ impl SkylineMatrix {
         self.pivot(row)
     }
 
-    /// Returns `D` of a row after factorisation.
+    /// Returns the diagonal entry of a row, which is its entry of `D` after factorisation.
     fn pivot(&self, row: usize) -> f64 {
         self.entries(row, row, row + 1)[0]
     }
 
-    /// Returns the number of negative eigenvalues of a factorised matrix.
+    /// Returns the number of negative eigenvalues; the matrix must be factorised.
     pub fn negative_eigenvalues(&self) -> usize {
         (0..self.size()).filter(|&row| self.pivot(row) < 0.0).count()
     }
 
-    /// Solves in place with the factors: `x` becomes the solution.
-    ///
-    /// On entry `x` holds the right-hand side.
+    /// Replaces the right-hand side `x` by the solution; the matrix must be factorised.
     pub fn solve(&self, x: &mut [f64]) {
         for row in 0..self.size() {
             let first = self.first[row];

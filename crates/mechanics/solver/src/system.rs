@@ -1,4 +1,4 @@
-//! Problem interface: equations, tangent, constraints and states of a system.
+//! Interface of a problem: equations, tangent, constraints and states.
 
 use std::fmt::Debug;
 
@@ -9,30 +9,31 @@ use crate::tangent::Tangent;
 /// Largest change of an unknown in the difference quotient of a slope.
 const DIFFERENCE: f64 = 1e-6;
 
-/// Step of the difference quotients of all conditions, as a fraction of the path.
+/// Step along the direction of the path in difference quotients of all conditions.
 const ALONG: f64 = 1e-7;
 
 /// Mixed complementarity system with a load parameter.
 ///
 /// `n` unknowns `z`, one of them the load, satisfy `n − 1` equations `r(z) = 0`. The row at the
-/// index of the load has no equation; there the solver inserts the condition that selects a point
-/// of the path. A *constraint* is an unknown `z_c ≥ 0` that is complementary to its equation,
+/// index of the load has no equation; the solver inserts the condition that selects a point of the
+/// path there. A *constraint* is an unknown `z_c ≥ 0` that is complementary to its equation. It is
+/// active or inactive:
 ///
 /// ```text
-/// 0 ≤ z_c  ⟂  r_c(z) ≥ 0 :    r_c = 0 where it is active,  z_c = 0 where it is not.          (N1)
+/// 0 ≤ z_c  ⟂  r_c(z) ≥ 0 :    active: r_c = 0,    inactive: z_c = 0                          (N1)
 /// ```
 ///
 /// The unknowns are numbered so that the tangent `∂r/∂z`, including the column of the load, is a
 /// band matrix.
 ///
-/// Where a constraint changes sides, the equations may take another form, for example as a contact
-/// passes a corner. The current form is the *mode*, a part of the [`State`]; the system itself
-/// never changes. The mode also stores the history that enters the equations, such as the position
-/// at which a contact sticks. The mode changes only at events.
+/// If a constraint becomes active or inactive, the equations may take another form, for example
+/// when a contact passes a corner. The current form is the *mode*, which is a part of the
+/// [`State`], not of the system. The mode also stores the history that enters the equations, such
+/// as the position at which a contact sticks. The mode changes only at events.
 pub trait System {
-    /// Form of the equations, with their history.
+    /// Form of the equations, and the history that enters the equations.
     ///
-    /// Use `()` for a system with one form of its equations and no history.
+    /// Use `()` for a system with a single form of its equations and without history.
     type Mode: Clone + Debug + PartialEq;
 
     /// Returns the number of unknowns, including the load.
@@ -41,16 +42,16 @@ pub trait System {
     /// Returns the half-bandwidth of the tangent.
     fn half_bandwidth(&self) -> usize;
 
-    /// Returns the block structure of the tangent, if any.
+    /// Returns the block structure of the tangent, or `None` for band matrices only.
     ///
-    /// Controls and load must lie in one block, which is the root or a block before it. The solver
-    /// then eliminates the tangent block by block, and as a band matrix only where block
-    /// elimination is unsafe.
+    /// Controls and load must lie in one block: the root or a block before the root. The solver
+    /// then eliminates the tangent block by block, and uses a band matrix only if block elimination
+    /// is unsafe.
     fn blocks(&self) -> Option<&Blocks> {
         None
     }
 
-    /// Returns true if the equations couple unknowns within the block structure only.
+    /// Returns true if, in this state, the tangent has no entries outside the block structure.
     fn is_in_blocks(&self, _state: &State<Self::Mode>) -> bool {
         true
     }
@@ -58,70 +59,73 @@ pub trait System {
     /// Returns the index of the load, which is also the row without an equation.
     fn load(&self) -> usize;
 
-    /// Returns true if the load only pushes.
+    /// Returns true if the load can push but not pull.
     ///
-    /// The path then ends where the load returns to zero.
+    /// The path then ends at the point at which the load returns to zero.
     fn load_only_pushes(&self) -> bool {
         false
     }
 
-    /// Returns the magnitude of the control parameter, over its scale, at which the path ends.
+    /// Returns the target: the magnitude of the control parameter at which the path ends.
     ///
-    /// Infinite if only a constraint ends the path.
+    /// The value is in units of [`Control::scale`]. It is infinite if only a constraint ends the
+    /// path.
     fn target(&self) -> f64 {
         1.0
     }
 
-    /// Returns true if the path ends where this constraint would change sides.
+    /// Returns true if the path ends at the event at which this constraint would change.
     fn ends(&self, _state: &State<Self::Mode>, _constraint: usize) -> bool {
         false
     }
 
-    /// Returns the coordinates that measure progress along the path.
+    /// Returns the controls, the unknowns that measure progress along the path.
     ///
-    /// The first is the control parameter. All lie within a half-bandwidth of the load.
+    /// The first control is the control parameter. The index of each control differs from the index
+    /// of the load by at most the half-bandwidth.
     fn controls(&self) -> &[Control];
 
-    /// Returns unknowns of equal unit that measure the whole deformation.
+    /// Returns the unknowns, all of the same unit, that measure the whole deformation.
     ///
-    /// They measure the turning of the path, and its arc length where deformation far from the load
-    /// hardly moves the controls. Empty by default.
+    /// The angles between path directions are computed from these unknowns. They also define the
+    /// arc length where the system deforms far from the load and the controls hardly change. Empty
+    /// by default.
     fn coordinates(&self) -> Vec<usize> {
         Vec::new()
     }
 
-    /// Returns the indices of the constraints among the unknowns, in ascending order.
+    /// Returns the index of the unknown of each constraint, in ascending order.
     ///
-    /// An active set has one flag per constraint.
+    /// The number of a constraint is its position in this list, and in the flags of an active set.
     fn constraints(&self) -> &[usize] {
         &[]
     }
 
-    /// Returns unknowns that vanish in a state in addition to the inactive constraints.
+    /// Returns the unknowns that are zero in addition to the unknowns of inactive constraints.
     ///
-    /// The solver leaves them out.
+    /// The solver leaves these unknowns and their equations out of the tangent.
     fn vanishing(&self, _state: &State<Self::Mode>) -> impl Iterator<Item = usize> {
         std::iter::empty()
     }
 
-    /// Returns the numbers of constraints with an unknown that only grows.
+    /// Returns the numbers of monotone constraints.
     ///
-    /// It grows while the constraint is active. An example is the slip distance of a friction
-    /// contact. Where such an unknown would decrease, the constraint becomes inactive, and its
-    /// transition stores the accumulated value in the mode.
+    /// The unknown of a monotone constraint, such as the slip distance of a contact, can only grow
+    /// while the constraint is active. If the unknown would decrease, the constraint becomes
+    /// inactive, and [`System::transition`] stores the accumulated value in the mode.
     fn monotone(&self) -> &[usize] {
         &[]
     }
 
-    /// Makes all slipping contacts stick, where a path is turned back.
+    /// Makes all slipping contacts stick before the path is reversed.
     ///
     /// Does nothing by default.
     fn stop_sliding(&self, _state: &mut State<Self::Mode>) {}
 
-    /// Returns the constraints that may change sides as a consequence of this one.
+    /// Returns the numbers of the constraints that may change together with a constraint.
     ///
-    /// For example, a sticking contact may begin to slip. By default the range holds only the
-    /// constraint itself.
+    /// With friction these are, for example, all constraints of a pair of scales. By default the
+    /// range contains only the constraint itself.
     fn coupled(&self, constraint: usize) -> std::ops::Range<usize> {
         constraint..constraint + 1
     }
@@ -129,27 +133,25 @@ pub trait System {
     /// Returns the mode of the state of rest.
     fn mode_at_rest(&self) -> Self::Mode;
 
-    /// Returns true if the equations have the same form in two modes.
-    ///
-    /// Their history may differ.
+    /// Returns true if the equations have the same form in two modes, even with another history.
     fn is_same_form(&self, one: &Self::Mode, other: &Self::Mode) -> bool {
         one == other
     }
 
-    /// Evaluates the equations.
+    /// Evaluates the values and sizes of the equations.
     ///
-    /// A system with its own [`System::conditions`] may omit the equations of inactive constraints.
+    /// If the system implements [`System::conditions`], the equations of inactive constraints may
+    /// be omitted.
     ///
-    /// A change of mode must preserve the sign of the determinant of the equations, by which the
-    /// solver detects a step to another branch.
+    /// A change of mode must preserve the sign of the determinant of the tangent, because the
+    /// solver detects a step to another branch by this sign.
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual) {
         self.linearise(state, residual, &mut |_: usize, _: usize, _: f64| {});
     }
 
     /// Adds `∂r/∂z`, including its constant part, to a zero matrix.
     ///
-    /// Adds nothing to the row of the load. Rows and columns of inactive constraints may be
-    /// omitted.
+    /// The row of the load must stay zero. Rows and columns of inactive constraints may be omitted.
     fn tangent(&self, state: &State<Self::Mode>, matrix: &mut impl Tangent) {
         self.constant_tangent(matrix);
         self.linearise(state, &mut Residual::new(self.size()), matrix);
@@ -158,10 +160,11 @@ pub trait System {
     /// Adds the part of `∂r/∂z` that is the same in every state.
     fn constant_tangent(&self, _matrix: &mut impl Tangent) {}
 
-    /// Evaluates the equations and adds `∂r/∂z` to the matrix.
+    /// Evaluates the equations and adds the state-dependent part of `∂r/∂z` to the matrix.
     ///
-    /// The matrix already holds its constant part. A system may implement this function, which does
-    /// both in one pass, instead of [`System::residual`] and [`System::tangent`].
+    /// The matrix already contains the constant part. A system implements either this function,
+    /// which evaluates equations and derivatives in one pass, or both [`System::residual`] and
+    /// [`System::tangent`].
     fn linearise(
         &self,
         state: &State<Self::Mode>,
@@ -172,9 +175,9 @@ pub trait System {
         self.tangent(state, matrix);
     }
 
-    /// Replaces `values` by the values of the equations of all constraints.
+    /// Replaces `values` by the value `r_c` of the equation of each constraint.
     ///
-    /// Entries of active constraints are ignored.
+    /// The entries of active constraints are not used.
     fn conditions(&self, state: &State<Self::Mode>, values: &mut Vec<f64>) {
         let mut residual = Residual::new(self.size());
         self.residual(state, &mut residual);
@@ -182,9 +185,9 @@ pub trait System {
         values.extend(self.constraints().iter().map(|&index| residual.value[index]));
     }
 
-    /// Replaces `values` as [`System::conditions`], and `slopes` by derivatives.
+    /// Replaces `values` as [`System::conditions`], and `slopes` by their derivatives.
     ///
-    /// The derivatives are along `direction`.
+    /// The derivatives are taken along `direction`.
     fn condition_slopes(
         &self,
         state: &State<Self::Mode>,
@@ -199,16 +202,16 @@ pub trait System {
         }
     }
 
-    /// Evaluates the equation of a constraint, given by its number.
+    /// Returns the value `r_c` of the equation of one constraint.
     fn condition(&self, state: &State<Self::Mode>, constraint: usize) -> f64 {
         let mut values = Vec::new();
         self.conditions(state, &mut values);
         values[constraint]
     }
 
-    /// Evaluates the derivative of the equation of a constraint along `direction`.
+    /// Returns the derivative of the equation of one constraint along `direction`.
     ///
-    /// By central differences unless overridden.
+    /// The default implementation uses central differences.
     fn slope(&self, state: &State<Self::Mode>, constraint: usize, direction: &[f64]) -> f64 {
         let largest = direction.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         if largest == 0.0 {
@@ -220,14 +223,18 @@ pub trait System {
         (ahead - behind) / (2.0 * step)
     }
 
-    /// Evaluates a marker, a function that vanishes at a special point.
+    /// Evaluates the marker `number`, a function that is zero at a special point of the path.
     ///
-    /// A marker that vanishes is not an event.
+    /// A zero of a marker is not an event; it can fix a point for derivatives
+    /// ([`PathAnchor::Marker`](crate::PathAnchor::Marker)).
     fn marker(&self, _state: &State<Self::Mode>, _number: usize) -> f64 {
         f64::NAN
     }
 
-    /// Evaluates the rate of a quantity along `direction`; it vanishes at an extremum.
+    /// Evaluates the rate of the quantity `number` along `direction`.
+    ///
+    /// The rate is zero at an extremum of the quantity
+    /// ([`PathAnchor::Stationary`](crate::PathAnchor::Stationary)).
     fn rate(&self, _state: &State<Self::Mode>, _direction: &[f64], _number: usize) -> f64 {
         f64::NAN
     }
@@ -239,58 +246,59 @@ pub trait System {
         false
     }
 
-    /// Completes a change of sides in `state`, with the flag set and the unknown zero.
+    /// Completes the change of a constraint between active and inactive in `state`.
     ///
-    /// A system with modes sets the next mode and the unknowns and flags that change with it.
-    /// Returns the constraint with the condition that the outgoing path must satisfy, or `None` if
-    /// the constraint cannot change sides in this mode.
+    /// The caller has set the flag of the constraint and set its unknown to zero. A system with
+    /// modes sets the next mode, and the unknowns and flags that change with the mode. Returns the
+    /// constraint with the condition that the outgoing path must satisfy, or `None` if the
+    /// constraint cannot change in this mode.
     fn transition(&self, _state: &mut State<Self::Mode>, change: Change) -> Option<usize> {
         Some(change.constraint)
     }
 }
 
-/// Coordinate that measures progress along the path.
+/// Unknown that measures progress along the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// Index among the unknowns.
     pub index: usize,
-    /// Scale of the coordinate: the path is measured in `z / scale`.
+    /// Scale of the unknown: progress is measured by `z / scale`.
     ///
-    /// A negative scale reverses it.
+    /// With a negative scale the path starts in the direction of decreasing `z`.
     pub scale: f64,
 }
 
-/// Values of the equations at a state, with the sizes of their terms.
+/// Values of the equations at a state, with reference sizes for their errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residual {
     /// Value of each equation.
     pub value: Vec<f64>,
-    /// Size of each equation: one unit plus the magnitudes of its terms.
+    /// Size of each equation: its unit plus the magnitudes of its terms.
     ///
-    /// An equation is satisfied if its value is small compared with its size.
+    /// An equation is satisfied if its value is small compared with its size (N2).
     pub size: Vec<f64>,
 }
 
 impl Residual {
-    /// Creates a residual of `size` equations with values of zero and sizes of 1.
+    /// Creates a residual of `size` equations with values 0 and sizes 1.
     pub fn new(size: usize) -> Self {
         Self { value: vec![0.0; size], size: vec![1.0; size] }
     }
 
-    /// Sets every value to zero and the sizes to `units`.
+    /// Sets each value to 0 and each size to its entry of `units`.
     pub fn clear(&mut self, units: &[f64]) {
         self.value.fill(0.0);
         self.size.copy_from_slice(units);
     }
 
-    /// Adds a term to an equation.
+    /// Adds a term to the value and its magnitude to the size of an equation.
     #[inline]
     pub fn add(&mut self, row: usize, term: f64) {
         self.value[row] += term;
         self.size[row] += term.abs();
     }
 
-    /// Adds the term `factors[k] · others[k]` to each equation `row + k`.
+    /// Adds the term `factors[k] · others[k]` to the equation `row + k` for each `k`.
     #[inline]
     pub fn add_products(&mut self, row: usize, factors: &[f64], others: &[f64]) {
         let rows = row..row + factors.len();
@@ -303,7 +311,7 @@ impl Residual {
         }
     }
 
-    /// Adds the terms `block[i][j] · others[j]` to each equation `row + i`.
+    /// Adds the terms `block[i][j] · others[j]` for all `j` to the equation `row + i` for each `i`.
     #[inline]
     pub fn add_block_products<const R: usize, const C: usize>(
         &mut self,
@@ -325,14 +333,14 @@ impl Residual {
 pub struct State<M = ()> {
     /// Unknowns.
     pub z: Vec<f64>,
-    /// Active set: one flag per constraint.
+    /// Active set: for each constraint, true if it is active.
     pub active: Vec<bool>,
-    /// Form of the equations, with their history.
+    /// Form of the equations, and the history that enters the equations.
     pub mode: M,
 }
 
 impl<M> State<M> {
-    /// Returns the state of rest: every unknown zero, no constraint active.
+    /// Returns the state of rest, in which all unknowns are zero and no constraint is active.
     pub fn at_rest(system: &impl System<Mode = M>) -> Self {
         Self {
             z: vec![0.0; system.size()],
@@ -343,21 +351,23 @@ impl<M> State<M> {
 }
 
 impl<M: Clone> State<M> {
-    /// Returns the state shifted by `factor` times `direction`.
+    /// Returns the state with its unknowns changed by `factor` times `direction`.
     #[must_use]
     pub fn moved(&self, factor: f64, direction: &[f64]) -> Self {
         let z = self.z.iter().zip(direction).map(|(z, d)| z + factor * d).collect();
         Self { z, active: self.active.clone(), mode: self.mode.clone() }
     }
 
-    /// Returns the state with unknowns interpolated between this one and `to`.
+    /// Returns the state with unknowns interpolated between `self` (0) and `to` (`fraction` = 1).
+    ///
+    /// Active set and mode are copied from `self`.
     pub(crate) fn interpolated(&self, to: &Self, fraction: f64) -> Self {
         let z = self.z.iter().zip(&to.z).map(|(a, b)| a + fraction * (b - a)).collect();
         Self { z, active: self.active.clone(), mode: self.mode.clone() }
     }
 }
 
-/// Returns the unknowns of inactive constraints, and others that vanish.
+/// Returns the unknowns that are zero: of inactive constraints, and [`System::vanishing`].
 pub(crate) fn inactive<'a, S: System>(
     system: &'a S,
     state: &'a State<S::Mode>,
@@ -372,7 +382,7 @@ mod tests {
     use super::{Control, Residual, State, System, Tangent};
     use approx::assert_relative_eq;
 
-    /// System with one constraint, of equation `u³`.
+    /// System with one constraint, which has the equation `z₀³`.
     struct Cube;
 
     impl System for Cube {
@@ -409,7 +419,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slope_by_differences_is_as_exact_along_any_length() {
+    fn the_relative_error_of_a_slope_does_not_depend_on_the_length_of_the_direction() {
         let state = State { z: vec![2.0, 0.0, 0.0], active: vec![false], mode: () };
         for length in [1e-6, 1.0, 1e6] {
             let slope = Cube.slope(&state, 0, &[-length, 0.0, 0.5 * length]);

@@ -1,20 +1,20 @@
-//! Interface through which a system assembles its derivatives.
+//! Interface of matrices in which a system assembles its derivatives.
 
-/// Matrix to which derivatives are added.
+/// Matrix to which a system adds derivatives.
 pub trait Tangent {
     /// Adds `value` to the entry at (`row`, `column`).
     fn add(&mut self, row: usize, column: usize, value: f64);
 
-    /// Adds `values` to the entries of a row from `column` on.
+    /// Adds `values` to successive entries of a row from `column` on.
     fn add_row(&mut self, row: usize, column: usize, values: impl ExactSizeIterator<Item = f64>) {
         for (k, value) in values.enumerate() {
             self.add(row, column + k, value);
         }
     }
 
-    /// Adds `values` down the diagonal that starts at (`row`, `column`).
+    /// Adds `values` along the diagonal that starts at (`row`, `column`).
     ///
-    /// None of the unknowns belongs to an inactive constraint.
+    /// None of these rows and columns may belong to an inactive constraint.
     fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
         for (k, value) in values.iter().enumerate() {
             self.add(row + k, column + k, *value);
@@ -23,7 +23,7 @@ pub trait Tangent {
 
     /// Adds a block of `values` with its first entry at (`row`, `column`).
     ///
-    /// None of the unknowns of these rows and columns belongs to an inactive constraint.
+    /// None of these rows and columns may belong to an inactive constraint.
     fn add_block<const R: usize, const C: usize>(
         &mut self,
         row: usize,
@@ -38,7 +38,7 @@ pub trait Tangent {
     }
 }
 
-/// Function that receives every entry in the order of addition.
+/// Implementation for functions, which receive row, column and value of every addition.
 impl<F: FnMut(usize, usize, f64)> Tangent for F {
     fn add(&mut self, row: usize, column: usize, value: f64) {
         self(row, column, value);

@@ -1,4 +1,4 @@
-//! Factors of a tangent, by block elimination if possible, else as a band matrix.
+//! Linear solver for the tangent: block elimination if possible, otherwise band LU factorisation.
 
 use crate::block_elimination::BlockElimination;
 use crate::block_matrix::Blocks;
@@ -6,35 +6,43 @@ use crate::linear::{BandLu, BandMatrix, SingularMatrix};
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent::Tangent;
 
-/// Factors of the tangent, with a condition in its missing row.
+/// Factors of the tangent, with the row of a condition in place of the missing row.
 #[derive(Clone, Debug)]
 pub(crate) struct TangentSolver {
+    /// Block elimination, `None` if the system has no block structure.
     blocks: Option<InBlocks>,
+    /// Band LU factorisation, `None` before its first use.
     band: Option<InBand>,
-    /// True if the block elimination holds the current factors.
+    /// True if the current factors are in `blocks`, false if they are in `band`.
     is_in_blocks: bool,
-    /// True for each unknown of an inactive constraint.
+    /// True for each unknown that is zero and left out.
     inactive: Vec<bool>,
 }
 
+/// Tangent in blocks, with its factors.
 #[derive(Clone, Debug, Default)]
 struct InBlocks {
+    /// Matrix, and its factors after elimination.
     elimination: BlockElimination,
-    /// Flags of the unknowns that the matrix leaves out; empty before assembly.
+    /// True for each unknown that the matrix leaves out; empty before the first assembly.
     left_out: Vec<bool>,
     /// Values of the constant part of the matrix.
     constant: Vec<f64>,
 }
 
+/// Tangent as a band matrix, with its factors.
 #[derive(Clone, Debug)]
 struct InBand {
+    /// Matrix.
     matrix: BandMatrix,
     /// Constant part of the matrix.
     constant: BandMatrix,
+    /// Factors of the matrix.
     lu: BandLu,
 }
 
 impl TangentSolver {
+    /// Creates a solver without factors.
     pub(crate) fn new(system: &impl System) -> Self {
         Self {
             blocks: system.blocks().map(|_| InBlocks::default()),
@@ -44,9 +52,9 @@ impl TangentSolver {
         }
     }
 
-    /// Evaluates the equations and factorises the tangent.
+    /// Evaluates the equations into `residual` and factorises the tangent.
     ///
-    /// Leaves out the unknowns of inactive constraints and puts `condition` into the missing row.
+    /// The unknowns that are zero are left out, and `condition` is the missing row.
     ///
     /// # Errors
     /// If the matrix is singular.
@@ -65,30 +73,31 @@ impl TangentSolver {
         if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, blocks) {
             in_blocks.begin(system, blocks, &self.inactive);
             assemble(system, state, condition, residual, &mut in_blocks.elimination.matrix);
-            // A small pivot is not a failure yet: the band LU can exchange rows across blocks.
+            // If a pivot is too small, the band LU factorisation below may still succeed, because
+            // it can exchange rows between blocks.
             self.is_in_blocks = in_blocks.elimination.factorise().is_ok();
         }
         if self.is_in_blocks {
             return Ok(());
         }
-        // Allocate the band matrix on first use: most paths never need it.
+        // The band matrix is allocated at its first use, because most paths never need it.
         let InBand { matrix, constant, lu } = self.band.get_or_insert_with(|| InBand::new(system));
         matrix.set(constant);
         assemble(system, state, condition, residual, matrix);
         lu.factorise(matrix, &self.inactive)
     }
 
-    /// Solves in place: `x` holds the right-hand side, then the solution.
+    /// Replaces the right-hand side `x` by the solution.
     pub(crate) fn solve(&mut self, x: &mut [f64]) {
         match (&mut self.blocks, &mut self.band) {
             (Some(blocks), _) if self.is_in_blocks => blocks.elimination.solve(x),
             (_, Some(band)) => band.lu.solve(x),
-            // Nothing has been factorised yet.
+            // No tangent has been factorised yet.
             _ => x.fill(f64::NAN),
         }
     }
 
-    /// Returns true if the determinant of the last tangent is negative.
+    /// Returns true if the determinant of the last factorised tangent is negative.
     pub(crate) fn is_negative(&self) -> bool {
         match (&self.blocks, &self.band) {
             (Some(blocks), _) if self.is_in_blocks => blocks.elimination.negative_blocks() % 2 == 1,
@@ -97,7 +106,7 @@ impl TangentSolver {
         }
     }
 
-    /// Solves for a right-hand side of `size` entries, 1 at the load and else 0.
+    /// Returns the solution for a right-hand side of `size` entries, 1 at `load` and 0 elsewhere.
     pub(crate) fn solve_unit(&mut self, load: usize, size: usize) -> Vec<f64> {
         match &mut self.blocks {
             Some(blocks) if self.is_in_blocks => blocks.elimination.solve_unit(load),
@@ -111,10 +120,10 @@ impl TangentSolver {
     }
 }
 
-/// Evaluates the equations and adds the tangent to `matrix`.
+/// Evaluates the equations into `residual` and adds the tangent to `matrix`.
 ///
-/// `matrix` already holds its constant part. Puts `condition` into the row of the load, in which
-/// the system has no entries.
+/// `matrix` already contains its constant part. `condition` is added in the row of the load, in
+/// which the system has no entries.
 fn assemble<S: System>(
     system: &S,
     state: &State<S::Mode>,
@@ -129,10 +138,10 @@ fn assemble<S: System>(
 }
 
 impl InBlocks {
-    /// Resets the matrix to its constant part, without the `inactive` unknowns.
+    /// Sets the matrix to its constant part, without the `inactive` unknowns.
     fn begin(&mut self, system: &impl System, blocks: &Blocks, inactive: &[bool]) {
-        // Between events the shape is unchanged, so copy the constant part instead of assembling
-        // it.
+        // Between events the shape of the matrix does not change, so the constant part is copied
+        // instead of assembled again.
         let matrix = &mut self.elimination.matrix;
         if self.left_out == inactive {
             matrix.values.copy_from_slice(&self.constant);
@@ -146,6 +155,7 @@ impl InBlocks {
 }
 
 impl InBand {
+    /// Creates storage and assembles the constant part of the matrix.
     fn new(system: &impl System) -> Self {
         let (size, half) = (system.size(), system.half_bandwidth());
         let mut constant = BandMatrix::new(size, half);

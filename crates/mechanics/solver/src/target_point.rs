@@ -1,4 +1,4 @@
-//! End of a path, from which ends of neighbouring paths are found without following them.
+//! End of a path, as a start for the ends of neighbouring paths, which are then not followed.
 
 use crate::continuation::{Continuation, Equilibrium};
 use crate::event::Change;
@@ -7,30 +7,31 @@ use crate::settings::Settings;
 use crate::system::{State, System};
 use crate::termination::Termination;
 
-/// Largest number of Newton iterations from one end to a neighbouring one.
+/// Largest number of Newton iterations from the end of one path to the end of another.
 ///
-/// Neighbours need three to five. More mean that the ends are not close.
+/// Close ends need three to five iterations.
 const MOST_ITERATIONS: usize = 8;
 
-/// Largest number of constraints that may change sides between two neighbouring ends.
+/// Largest number of constraints that may differ between the ends of two paths.
 const MOST_CHANGES: usize = 6;
 
 /// Equilibrium at the target of a path.
 ///
-/// The end of one design is a good start for Newton's method at the end of a similar one. The path
-/// between rest and the end is not followed, so the caller must decide whether events along it
+/// From this point Newton's method finds the end of the path of a similar design. The path between
+/// rest and the end is then not followed, so the caller must decide whether events on the path
 /// matter.
 #[derive(Clone, Debug)]
 pub struct TargetPoint<M> {
+    /// State at the target.
     state: State<M>,
-    /// Orientation ([`Newton::is_positive`]) of the path, which neighbours share.
+    /// Orientation ([`Newton::is_positive`]) of the path, which neighbouring paths must share.
     is_positive: bool,
 }
 
 impl<M: Clone> TargetPoint<M> {
-    /// Returns the end of a path that reached its target.
+    /// Returns the end of a path that has reached its target.
     ///
-    /// `None` for other paths, and if the tangent at the end is singular.
+    /// `None` if the path has not reached its target, or if the tangent at the end is singular.
     pub fn of_path<S: System<Mode = M>>(path: &Continuation<S>) -> Option<Self> {
         if path.termination() != Some(Termination::Reached) {
             return None;
@@ -42,17 +43,18 @@ impl<M: Clone> TargetPoint<M> {
         Some(Self { state: state.clone(), is_positive })
     }
 
-    /// Returns this point with another state on the same branch.
+    /// Returns the target point with another state on the same branch.
     #[must_use]
     pub fn moved_to(&self, state: State<M>) -> Self {
         Self { state, ..self.clone() }
     }
 
-    /// Finds the target point of a neighbouring system with the same unknowns.
+    /// Finds the equilibrium of a neighbouring system at the target.
     ///
-    /// Constraints that are violated there change sides one after the other, the most violated one
-    /// first. `None` if Newton's method fails, if too many constraints change, or if the point lies
-    /// on a branch with the other orientation (N7).
+    /// The neighbouring system must have the same unknowns. Violated constraints are changed one
+    /// after the other, the most violated constraint first. `None` if Newton's method fails, if too
+    /// many constraints change, or if the equilibrium lies on a branch with the other orientation
+    /// (N7).
     pub fn of_neighbour<S: System<Mode = M>>(
         &self,
         system: &S,
@@ -61,11 +63,11 @@ impl<M: Clone> TargetPoint<M> {
         self.before_target(system, &self.state, 1.0, settings)
     }
 
-    /// Finds the point of a neighbouring system at a fraction of the target.
+    /// Finds the equilibrium of a neighbouring system at a fraction of the target.
     ///
-    /// Starts from `near`, an equilibrium of that system or of a similar one; otherwise like
-    /// [`TargetPoint::of_neighbour`]. Directions are derivatives with respect to the control
-    /// parameter over its scale.
+    /// Works as [`TargetPoint::of_neighbour`], but starts from `near`, an equilibrium of this or a
+    /// similar system. The directions of the result are derivatives with respect to the control
+    /// parameter divided by its scale.
     pub fn before_target<S: System<Mode = M>>(
         &self,
         system: &S,
@@ -97,16 +99,16 @@ impl<M: Clone> TargetPoint<M> {
     }
 }
 
-/// Returns the condition that the control parameter has a fraction of its target.
+/// Returns the condition that the control parameter is at a fraction of its target.
 ///
-/// The control parameter has the sign that it has in `state`, and its magnitude measures the path.
+/// The sign of the control parameter is the one in `state`.
 fn at_fraction<S: System>(system: &S, state: &State<S::Mode>, fraction: f64) -> Condition {
     let control = system.controls()[0];
     let side = (state.z[control.index] / control.scale).signum();
     Condition::new(vec![(control.index, side / control.scale)], fraction * system.target())
 }
 
-/// Returns the violated constraints with their guards, the most negative one first.
+/// Returns number and guard of each violated constraint, the most negative guard first.
 fn violated(guards: &[f64]) -> Vec<(usize, f64)> {
     let guards = guards.iter().copied().enumerate();
     let mut violated: Vec<_> =

@@ -1,41 +1,40 @@
-//! Reasons why a path ends.
+//! Reasons for the end of a path.
 
 use crate::newton::NewtonFailure;
 
-/// Reason why a path ended.
+/// Reason for the end of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Termination {
     /// The control parameter reached its target.
     #[error("reached")]
     Reached,
-    /// The load of a system that only pushes returned to zero.
+    /// A load that can only push returned to zero.
     #[error("unloaded")]
     Unloaded,
     /// Newton's method did not converge at the smallest step.
     #[error("no convergence")]
     NoConvergence,
-    /// The tangent is singular: the path has no single continuation.
+    /// The tangent is singular, so the direction of the path is not unique.
     #[error("singular tangent")]
     Singular,
-    /// The path reached the limit on the number of equilibria.
+    /// The path reached the limit [`Settings::max_points`](crate::Settings::max_points).
     #[error("too many points")]
     TooManyPoints,
-    /// The path reached the limit on its work.
+    /// The path reached the limit [`Settings::max_work`](crate::Settings::max_work).
     #[error("too much work")]
     TooMuchWork,
-    /// Constraints change sides repeatedly at one point without progress.
+    /// Every active set that was evaluated at an event violates some constraint.
     #[error("cycling constraints")]
     Cycling,
-    /// The event has no outgoing branch among the evaluated changes.
+    /// No outgoing branch was found at an event, or the path reversed at events too often.
     ///
-    /// They are changes of coupled constraints. There is no quasi-static continuation; the real
-    /// system jumps.
+    /// Without a quasi-static continuation, the real system jumps to another equilibrium.
     #[error("jumps")]
     Jumps,
-    /// The path returns to the same points again and again without progress.
+    /// The path returned to earlier events too often without a larger control parameter.
     #[error("no progress")]
     NoProgress,
-    /// The process was asked to end ([`interrupt_paths`](crate::interrupt_paths)).
+    /// All paths of the process were interrupted by [`interrupt_paths`](crate::interrupt_paths).
     #[error("interrupted")]
     Interrupted,
     /// A residual is not a finite number.
@@ -46,8 +45,8 @@ pub enum Termination {
 impl Termination {
     /// Returns true if Newton's method or the search for an outgoing branch failed.
     ///
-    /// The caller may know a mechanical reason for such a failure. Too many points or too much work
-    /// are limits, and the path might have gone on.
+    /// The caller may know a mechanical reason for such a failure. The limits `TooManyPoints` and
+    /// `TooMuchWork` do not count as failures, because the path could continue.
     pub fn is_numerical(self) -> bool {
         matches!(
             self,

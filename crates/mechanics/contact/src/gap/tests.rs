@@ -1,4 +1,4 @@
-//! Gaps against trigonometry and finite differences.
+//! Comparison of gaps with trigonometry, and of their derivatives with finite differences.
 
 use super::{CornerEdge, Pair, Pose, quarter};
 use approx::assert_relative_eq;
@@ -48,9 +48,9 @@ proptest! {
 }
 
 proptest! {
-    /// A corner placed on its edge, at a fraction of its length.
+    /// Places a corner at a given fraction of the edge, at a given distance from it.
     #[test]
-    fn the_foot_is_the_position_of_the_corner_on_the_edge(
+    fn gap_and_foot_are_the_coordinates_of_the_corner_at_the_edge(
         slants in prop::array::uniform2(0.0_f64..80.0), half_bases in prop::array::uniform2(0.02_f64..3.0),
         rotations in prop::array::uniform2(-0.5_f64..0.5), fraction in -0.5_f64..1.5, off in -0.2_f64..0.2,
         corner_edge in 0_usize..6,
@@ -61,7 +61,7 @@ proptest! {
         let pair = Pair::between(scales, Vec2::new(7.0, 0.0));
         prop_assert_eq!(pair.offset().x, 7.0);
         let (a, b) = if corner_edge.corner_is_left() { (0, 1) } else { (1, 0) };
-        // From the base up, or from left to right.
+        // Start and end of the edge. The foot is measured from the base up, or from left to right.
         let (start, end, outward) = match corner_edge {
             CornerEdge::TopRightOnLeftEdge | CornerEdge::BottomRightOnLeftEdge => {
                 (Corner::BottomLeft, Corner::TopLeft, 1.0)
@@ -87,7 +87,7 @@ proptest! {
 }
 
 #[test]
-fn names_state_corner_and_edge() {
+fn names_contain_the_corner_and_the_edge() {
     assert_eq!(
         CornerEdge::ALL.map(CornerEdge::name),
         [
@@ -102,7 +102,7 @@ fn names_state_corner_and_edge() {
 }
 
 #[test]
-fn at_rest_the_gap_is_the_distance_of_the_edges() {
+fn at_rest_the_gap_is_the_distance_between_the_parallel_sides() {
     let scale = Parallelogram::new(0.5, 60.0).unwrap();
     let pair = Pair::new(scale, 1.2);
     let rest = Pose::new(0.0, 0.0, 0.0);
@@ -113,8 +113,8 @@ fn at_rest_the_gap_is_the_distance_of_the_edges() {
 
 #[test]
 fn the_gap_to_a_rotated_neighbour_agrees_with_trigonometry() {
-    // Upright blocks; the left one turns clockwise by φ about its node, so its top right corner
-    // moves right by (sin φ + a (cos φ − 1)).
+    // Of two upright blocks, the left block rotates clockwise by φ about its node. Its top right
+    // corner moves to the right by sin φ + a (cos φ − 1).
     let (a, gap, phi) = (0.5, 0.3, 0.2_f64);
     let pair = Pair::new(Parallelogram::new(a, 0.0).unwrap(), 2.0 * a + gap);
     let left = Pose::new(0.0, 0.0, -phi);

@@ -1,4 +1,4 @@
-//! Tips: sharp corners that may rest on the neighbour's top or base.
+//! Tests of tips, the acute corners that may rest on the neighbour's top or base.
 
 use approx::assert_relative_eq;
 use geometry::{Parallelogram, Vec2};
@@ -10,20 +10,21 @@ use crate::gap::{CornerEdge, Pair, Pose};
 use crate::law::{ContactLaw, Law};
 use crate::response::{COORDINATES, Equation};
 
-/// Builds the lower level of two steep scales, with a tip under the left base.
+/// Creates two steep scales with the tip of the right scale under the base of the left scale.
 ///
-/// The right scale leans over by `turned` degrees. Its bottom left corner lies `inside` the right
-/// end of the left base, and `below` it.
+/// The right scale is rotated clockwise by `turned` degrees. Its bottom left corner, the tip, lies
+/// `inside` to the left of the right end of the base, and `below` the base.
 pub(super) fn under_the_base(turned: f64, inside: f64, below: f64) -> (Pair, [Pose; 2]) {
     let pair = Pair::new(Parallelogram::new(1.0, 75.0).unwrap(), 2.2);
-    // The corner is at −1 from the node of its scale, and the neighbour's base ends at +1.
+    // The tip lies 1 to the left of its node, and the base of the neighbour ends 1 to the right of
+    // the neighbour's node.
     let arm = Pose::new(0.0, 0.0, -turned.to_radians()).turn(Vec2::new(-1.0, 0.0));
     let corner = Vec2::new(1.0 - inside, -below);
     let node = corner - arm - Vec2::new(2.2, 0.0);
     (pair, [Pose::new(0.0, 0.0, 0.0), Pose::new(node.x, node.y, -turned.to_radians())])
 }
 
-/// Builds the same pair rotated by 180°, so that tops and bases exchange roles.
+/// Creates the pair of [`under_the_base`] rotated by 180°, with the tip above a top.
 fn above_the_top(turned: f64, inside: f64, above: f64) -> (Pair, [Pose; 2]) {
     let (pair, poses) = under_the_base(turned, inside, above);
     let [[a, b, c], [d, e, f]] =
@@ -32,24 +33,26 @@ fn above_the_top(turned: f64, inside: f64, above: f64) -> (Pair, [Pose; 2]) {
     (pair, [Pose::new(a, b, c), Pose::new(d, e, f)])
 }
 
+/// Creates a law with a large compliance.
 fn soft() -> ContactLaw {
     ContactLaw::new(Law::EXCHANGED, 2.0, 1.0, 3.0).unwrap()
 }
 
+/// Corner and edge at the lower level, and the corresponding ones after a rotation by 180°.
 const ACROSS: [(CornerEdge, CornerEdge); 3] = [
     (CornerEdge::BottomRightOnLeftEdge, CornerEdge::TopLeftOnRightEdge),
     (CornerEdge::BottomLeftOnRightEdge, CornerEdge::TopRightOnLeftEdge),
     (CornerEdge::BottomLeftOnBase, CornerEdge::TopRightOnTop),
 ];
 
-/// Returns the upper corner and edge for lower ones after a rotation by 180°.
+/// Returns the corner and edge at the upper level that correspond to `lower`, as in [`ACROSS`].
 fn across(lower: CornerEdge) -> CornerEdge {
     ACROSS.into_iter().find(|(edge, _)| *edge == lower).unwrap().1
 }
 
-/// Evaluates a function for lower corners and for the rotated pair.
+/// Returns the values of `f` at the lower level and at the upper level of the rotated pair.
 ///
-/// [`under_the_base`] defines the lower corners.
+/// The lower level is the one of [`under_the_base`].
 fn at_both_levels<T>(
     turned: f64,
     inside: f64,
@@ -63,13 +66,13 @@ fn at_both_levels<T>(
     [under, f(&Corners::new(Level::Upper, &pair, [&left, &right]), across(edge))]
 }
 
-/// The side of the tip leans by 75° at rest.
+/// The slant is 75°, so the side is parallel to the base after a rotation by 15°.
 #[test]
-fn the_inclination_of_a_side_selects_the_faced_edge() {
+fn the_inclination_of_the_side_selects_the_edge_that_a_corner_faces() {
     for (turned, inside, expected) in [
         (14.9, 0.3, Some(CornerEdge::BottomRightOnLeftEdge)),
         (15.1, 0.3, Some(CornerEdge::BottomLeftOnBase)),
-        // Beyond either end of the base.
+        // The tip lies beyond the right or the left end of the base.
         (16.0, -0.1, Some(CornerEdge::BottomLeftOnRightEdge)),
         (16.0, -0.01, None),
         (16.0, 2.1, None),
@@ -89,7 +92,7 @@ fn the_inclination_of_a_side_selects_the_faced_edge() {
     }
 }
 
-/// Returns the angle to level, short or beyond, of a closed contact.
+/// Returns the angle `β` between side and base of a closed contact, or `None` if it has none.
 fn to_level(edge: CornerEdge, closed: Closed, turned: f64, inside: f64) -> Option<f64> {
     let [lower, upper] = at_both_levels(turned, inside, 0.1, edge, |corners, edge| {
         let response = closed(edge).response(corners, &soft(), [0.0; FORCES]);
@@ -101,7 +104,7 @@ fn to_level(edge: CornerEdge, closed: Closed, turned: f64, inside: f64) -> Optio
 }
 
 #[test]
-fn the_flush_contact_acts_only_at_a_level_side() {
+fn the_flush_condition_is_the_angle_between_side_and_base() {
     let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
     for turned in [5.0, 14.0, 17.0] {
         let short = (15.0_f64 - turned).to_radians();
@@ -110,32 +113,33 @@ fn the_flush_contact_acts_only_at_a_level_side() {
             assert_relative_eq!(angle, expected, epsilon = 1e-12);
         }
     }
-    // Corner on corner has no such angle, nor has a tip on the neighbour's side.
+    // Corner on corner and a tip on the neighbour's side have no flush condition.
     assert_eq!(to_level(on_side, CornerContact::Corner, 14.0, 0.3), None);
     assert_eq!(to_level(on_end, CornerContact::Corner, 16.0, 0.3), None);
     assert_eq!(to_level(CornerEdge::BottomLeftOnRightEdge, CornerContact::Edge, 14.0, 0.3), None);
 }
 
-/// The base is 2 long, the side 3.86.
+/// The length of the base is 2, the length of the side 3.86.
 #[test]
 fn there_is_no_flush_contact_beyond_the_far_end_of_its_edge() {
     let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
     for (edge, within, beyond) in [(on_side, 1.99, 2.01), (on_end, 3.8, 3.9)] {
-        // The near end is where the corners meet, which is another condition.
+        // Beyond the near end, at which both corners lie, the flush condition still exists.
         let [near, within, beyond_end] =
             [-0.01, within, beyond].map(|inside| to_level(edge, CornerContact::Edge, 15.0, inside));
         assert!(near.unwrap().abs() < 1e-12 && within.unwrap().abs() < 1e-12);
         assert_eq!(beyond_end, None);
-        // While the flush contact acts, its condition exists.
+        // While the flush force acts, its condition exists everywhere.
         assert!(to_level(edge, CornerContact::Flush, 15.0, beyond).unwrap().abs() < 1e-12);
     }
 }
 
-/// At a corner the force turns at most to the normal of the neighbour's end.
+/// Checks the directions of both forces in the state corner on corner.
 ///
-/// Short of level it turns from the normal of the neighbour's side to the normal of the tip's side.
+/// One force is normal to the neighbour's side. The other force is normal to the side that ends in
+/// the tip, or normal to the base once this side has rotated beyond parallel to the base.
 #[test]
-fn at_the_corner_the_force_turns_no_further_than_to_the_end() {
+fn the_corner_force_rotates_at_most_to_the_normal_of_the_base() {
     let side = Vec2::new(75.0_f64.to_radians().cos(), -75.0_f64.to_radians().sin());
     for (turned, expected) in
         [(10.0_f64, 5.0_f64), (14.0, 1.0), (15.0, 0.0), (16.0, 0.0), (40.0, 0.0)]
@@ -159,7 +163,7 @@ fn at_the_corner_the_force_turns_no_further_than_to_the_end() {
 }
 
 #[test]
-fn the_lean_of_the_side_decides_on_which_edge_a_corner_leaves() {
+fn the_inclination_of_the_side_selects_the_edge_along_which_a_corner_leaves() {
     let (on_side, on_end, tip_on_side) = (
         CornerEdge::BottomRightOnLeftEdge,
         CornerEdge::BottomLeftOnBase,
@@ -184,7 +188,7 @@ fn the_lean_of_the_side_decides_on_which_edge_a_corner_leaves() {
 }
 
 #[test]
-fn flush_edges_touch_at_both_ends() {
+fn flush_contacts_of_two_edges_refer_to_each_other() {
     for (level, edge) in EDGES {
         let flush = edge.flush();
         assert_eq!(flush.and_then(CornerEdge::flush), flush.map(|_| edge));
@@ -196,7 +200,7 @@ fn flush_edges_touch_at_both_ends() {
     assert_eq!(CornerEdge::TopRightOnLeftEdge.flush(), None);
 }
 
-/// On flush side and base the approach is independent of the force distribution.
+/// The approach of flush edges depends on the sum of both forces, not on their distribution.
 #[test]
 fn flush_contacts_share_one_approach() {
     let law = soft();
@@ -230,15 +234,16 @@ fn forces_on_a_top_equal_rotated_forces_on_a_base() {
     let corners = Corners::new(Level::Upper, &pair, [&left, &right]);
     let above = CornerContact::Flush(CornerEdge::TopLeftOnRightEdge);
     let turned = above.forces_on_left(&corners, forces);
-    // The force on the left scale is now the negative rotated force on the former right scale.
+    // The rotation reverses the forces and exchanges the scales, so the forces on the left scale
+    // are unchanged.
     assert_relative_eq!(turned[0], corner, epsilon = 1e-12);
     assert_relative_eq!(turned[1], tip, epsilon = 1e-12);
     assert_eq!(CornerContact::Open.forces_on_left(&corners, forces), [Vec2::zeros(); 2]);
 }
 
-/// An open contact has only the gap of the corner that faces an edge.
+/// An open contact has no force, and one condition: the gap of the corner that faces an edge.
 #[test]
-fn an_open_contact_has_only_a_gap() {
+fn an_open_contact_has_only_the_condition_of_its_gap() {
     let (pair, [left, right]) = under_the_base(12.0, 0.3, 0.1);
     for level in [Level::Upper, Level::Lower] {
         let corners = Corners::new(level, &pair, [&left, &right]);

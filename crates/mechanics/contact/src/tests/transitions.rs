@@ -1,4 +1,4 @@
-//! One test per row of the table of transitions, and one for all other cases.
+//! Transitions of [`CornerContact`]: one test per row of its table, and tests of the other cases.
 
 use geometry::Parallelogram;
 
@@ -9,9 +9,10 @@ use crate::corners::{Corners, Level};
 use crate::gap::CornerEdge::{BottomLeftOnBase, BottomLeftOnRightEdge, BottomRightOnLeftEdge};
 use crate::gap::{CornerEdge, Pair, Pose};
 
-/// Applies a transition to a lower contact of [`under_the_base`].
+/// Returns the transition of a contact at the lower level of [`under_the_base`].
 ///
-/// The side is `short_of_level` by this angle in degrees.
+/// `short_of_level` is the angle in degrees by which the right scale must rotate until its left
+/// side is parallel to the base of the left scale.
 fn next(
     contact: CornerContact,
     (force, acts): (Force, bool),
@@ -23,6 +24,7 @@ fn next(
     contact.transition(force, acts, &corners, forces)
 }
 
+/// Creates the expected transition.
 fn to(contact: CornerContact, forces: [f64; 3], valid: Force) -> Transition {
     Transition { contact, forces, valid }
 }
@@ -31,7 +33,7 @@ const BEGINS: bool = true;
 const VANISHES: bool = false;
 
 #[test]
-fn an_open_contact_closes_on_the_edge_that_it_faces() {
+fn an_open_contact_closes_on_the_edge_that_a_corner_faces() {
     for (short, edge) in [(1.0, BottomRightOnLeftEdge), (-1.0, BottomLeftOnBase)] {
         let closed = next(Open, (Force::Own, BEGINS), short, [0.0; 3]);
         assert_eq!(closed, Some(to(Edge(edge), [0.0; 3], Force::Own)));
@@ -45,16 +47,16 @@ fn an_edge_contact_without_force_opens() {
 }
 
 #[test]
-fn an_edge_contact_stays_at_the_corner_that_it_reaches() {
+fn an_edge_contact_that_reaches_the_end_of_its_edge_becomes_a_corner_contact() {
     for edge in [BottomLeftOnBase, BottomRightOnLeftEdge, BottomLeftOnRightEdge] {
         let reached = next(Edge(edge), (Force::Partner, BEGINS), 1.0, [0.7, 0.0, 0.0]);
         assert_eq!(reached, Some(to(Corner(edge), [0.7, 0.0, 0.0], Force::Partner)));
     }
 }
 
-/// At rest the scales have parallel sides.
+/// At rest the facing sides of equal scales are parallel.
 #[test]
-fn an_edge_contact_passes_the_corner_between_parallel_sides() {
+fn an_edge_contact_between_parallel_sides_switches_to_the_other_edge_at_the_corner() {
     let pair = Pair::new(Parallelogram::new(0.4, 30.0).unwrap(), 1.0);
     let rest = Pose::new(0.0, 0.0, 0.0);
     let forces = [0.7, 0.0, 0.0];
@@ -77,7 +79,7 @@ fn an_edge_contact_passes_the_corner_between_parallel_sides() {
 }
 
 #[test]
-fn an_edge_contact_becomes_flush() {
+fn an_edge_contact_becomes_flush_if_the_flush_force_begins_to_act() {
     for edge in [BottomLeftOnBase, BottomRightOnLeftEdge] {
         let flush = next(Edge(edge), (Force::Flush, BEGINS), 0.0, [0.7, 0.0, 0.0]);
         assert_eq!(flush, Some(to(Flush(edge), [0.7, 0.0, 0.0], Force::Flush)));
@@ -98,7 +100,7 @@ fn a_corner_contact_without_its_own_force_becomes_the_edge_contact_of_the_partne
 }
 
 #[test]
-fn a_corner_contact_without_partner_force_moves_to_the_edge_set_by_the_lean() {
+fn a_corner_contact_without_partner_force_moves_to_the_edge_selected_by_the_inclination() {
     for (short, edge, leaves) in [
         (1.0, BottomLeftOnBase, BottomRightOnLeftEdge),
         (-1.0, BottomRightOnLeftEdge, BottomLeftOnBase),
@@ -120,7 +122,7 @@ fn a_flush_contact_without_its_own_force_continues_at_the_other_end() {
 }
 
 #[test]
-fn a_flush_contact_that_reaches_the_corner_joins_its_forces_there() {
+fn a_flush_contact_that_reaches_the_corner_adds_both_forces() {
     let reached = next(Flush(BottomLeftOnBase), (Force::Partner, BEGINS), 0.0, [0.7, 0.0, 0.2]);
     assert_eq!(reached, Some(to(Corner(BottomLeftOnBase), [0.7 + 0.2, 0.0, 0.0], Force::Partner)));
 }
@@ -132,7 +134,7 @@ fn a_flush_contact_without_the_flush_force_returns_to_its_edge() {
 }
 
 #[test]
-fn a_force_that_has_vanished_before_changes_nothing() {
+fn the_state_stays_the_same_if_a_force_vanishes_that_does_not_act() {
     let edge = Edge(BottomLeftOnBase);
     for (contact, force) in [
         (Open, Force::Own),
@@ -149,14 +151,14 @@ fn a_force_that_has_vanished_before_changes_nothing() {
 }
 
 #[test]
-fn a_contact_does_not_start_a_force_that_its_next_state_lacks() {
+fn there_is_no_transition_for_a_force_that_cannot_begin_to_act() {
     let forces = [0.3, 0.0, 0.0];
     for (contact, force) in
         [(Open, Force::Partner), (Open, Force::Flush), (Corner(BottomLeftOnBase), Force::Flush)]
     {
         assert_eq!(next(contact, (force, BEGINS), 1.0, forces), None);
     }
-    // An open contact without a corner that faces an edge does not close either.
+    // An open contact cannot close if no corner faces an edge.
     let pair = Pair::new(Parallelogram::new(0.5, 60.0).unwrap(), 3.0);
     let (far_below, rest) = (Pose::new(0.0, -0.6, 0.0), Pose::new(0.0, 0.0, 0.0));
     let corners = Corners::new(Level::Upper, &pair, [&far_below, &rest]);
@@ -164,7 +166,7 @@ fn a_contact_does_not_start_a_force_that_its_next_state_lacks() {
 }
 
 #[test]
-fn each_state_lists_its_forces_and_edge() {
+fn each_state_returns_its_acting_forces_and_its_edge() {
     let edge = BottomLeftOnBase;
     assert_eq!((Open.acting(), Open.edge()), ([false, false, false], None));
     assert_eq!((Edge(edge).acting(), Edge(edge).edge()), ([true, false, false], Some(edge)));

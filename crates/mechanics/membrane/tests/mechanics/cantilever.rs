@@ -1,4 +1,4 @@
-//! Straight strip of unit length, clamped on the left and loaded at its tip.
+//! Cantilever of unit length for the tests: clamped on the left and loaded at its tip.
 
 use geometry::OutOfRange;
 use membrane::{GapMembrane, Section, Span};
@@ -6,19 +6,17 @@ use nalgebra::{DVector, Vector3};
 
 const MAX_ITERATIONS: usize = 60;
 
-/// Creates a cantilever of length 1 and bending stiffness 1.
-///
-/// `thickness` sets `EA = 12/thickness²`.
+/// Creates a cantilever of length 1, bending stiffness 1 and axial stiffness `12/thickness²`.
 pub fn cantilever(elements: usize, thickness: f64) -> Result<GapMembrane, OutOfRange> {
     let section = Section::new(12.0 / thickness.powi(3), thickness)?;
     GapMembrane::new(section, Span { half_base: 0.0, gap: 1.0, axis_offset: 0.0 }, elements)
 }
 
-/// Solves for displacements under forces `(X, Y, M)` on the right scale.
+/// Returns the displacements of all nodes under the load `(X, Y, M)` on the right scale.
 ///
-/// The left scale is clamped. Newton's method in `steps` equal load steps, each from a linear
-/// extrapolation of the last two. A strip is so much stiffer in tension than in bending that a step
-/// has to start near the path.
+/// The left scale is clamped. The load is applied in `steps` equal steps. Newton's method starts
+/// each step from a linear extrapolation of the last two solutions, because it only converges from
+/// points near the equilibrium path: the strip is much stiffer in tension than in bending.
 pub fn equilibrium(gap: &GapMembrane, load: Vector3<f64>, steps: u32) -> DVector<f64> {
     let mut last = DVector::zeros(gap.unknowns());
     let mut u = last.clone();
@@ -29,6 +27,7 @@ pub fn equilibrium(gap: &GapMembrane, load: Vector3<f64>, steps: u32) -> DVector
     u
 }
 
+/// Returns the displacements under `load` on the right scale, by Newton's method from `u`.
 fn newton(gap: &GapMembrane, mut u: DVector<f64>, load: Vector3<f64>) -> DVector<f64> {
     let free = gap.unknowns() - 3;
     for _ in 0..MAX_ITERATIONS {

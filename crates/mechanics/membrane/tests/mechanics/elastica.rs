@@ -1,4 +1,4 @@
-//! Elastica of a gap: derivatives, closed forms, symmetries, convergence to it.
+//! Elastica of a gap: derivatives, closed forms, symmetry, convergence of elements to the elastica.
 
 use analytical::elastica::tip;
 use geometry::OutOfRange;
@@ -19,15 +19,16 @@ fn elastica(span: Span, order: usize) -> Result<Elastica, OutOfRange> {
 /// Boundary condition of the right scale.
 #[derive(Clone, Copy)]
 enum Right {
-    /// Displacement and rotation of the right end of the membrane against the left end.
+    /// Prescribed displacement and rotation of the right end of the membrane from rest.
     End(Span, Vector3<f64>),
-    /// Force and moment on the right scale.
+    /// Prescribed force and moment on the right scale.
     Load(Vector3<f64>),
 }
 
-/// Solves for the state of a gap under `right`, in equal steps from rest.
+/// Returns the state of a gap under the boundary condition `right`.
 ///
-/// Each step starts from a linear extrapolation of the last two.
+/// The boundary condition is applied in equal steps from rest. Newton's method starts each step
+/// from a linear extrapolation of the last two solutions.
 fn equilibrium(gap: &Elastica, right: Right, steps: u32) -> Vec<f64> {
     let mut last = DVector::zeros(gap.unknowns());
     let mut z = last.clone();
@@ -46,6 +47,7 @@ fn equilibrium(gap: &Elastica, right: Right, steps: u32) -> Vec<f64> {
     z.as_slice().to_vec()
 }
 
+/// Returns the state in which the first `free` unknowns are in equilibrium, by Newton's method.
 fn newton(gap: &Elastica, mut z: DVector<f64>, free: usize, load: Vector3<f64>) -> DVector<f64> {
     for _ in 0..60 {
         let mut residual: DVector<f64> = -gap.derivatives(z.as_slice()).gradient;
@@ -62,19 +64,19 @@ fn newton(gap: &Elastica, mut z: DVector<f64>, free: usize, load: Vector3<f64>) 
     panic!("no equilibrium under {load:?}");
 }
 
-/// Returns displacement and rotation of the scale at the right membrane end.
+/// Returns the displacement and rotation of the right scale for `end` of the membrane end.
 fn held(span: Span, end: Vector3<f64>) -> Vector3<f64> {
     let (arm, (sin, cos)) = (Vector2::new(-span.half_base, -span.axis_offset), end[2].sin_cos());
     let turned = Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y) - arm;
     Vector3::new(end[0] - turned.x, end[1] - turned.y, end[2])
 }
 
-/// Returns displacement and rotation of the right scale.
+/// Returns the displacement and rotation of the right scale in the state `z`.
 fn pose(gap: &Elastica, z: &[f64]) -> Vector3<f64> {
     Vector3::from_column_slice(&z[gap.interior()..])
 }
 
-/// Returns force and moment on the right scale.
+/// Returns the force and moment that hold the right scale in the state `z`.
 fn load(gap: &Elastica, z: &[f64]) -> Vector3<f64> {
     gap.derivatives(z).gradient.fixed_rows::<3>(gap.interior()).into_owned()
 }
@@ -84,7 +86,7 @@ fn energy(gap: &Elastica, z: &[f64]) -> f64 {
     energies.axial + energies.bending
 }
 
-/// Differentiates a function at 0, with a fourth-order difference.
+/// Returns the derivative of `f` at 0 by a fourth-order difference with the step `h`.
 fn slope(h: f64, f: impl Fn(f64) -> DVector<f64>) -> DVector<f64> {
     (f(-2.0 * h) - 8.0 * f(-h) + 8.0 * f(h) - f(2.0 * h)) / (12.0 * h)
 }
@@ -97,7 +99,7 @@ fn span() -> impl Strategy<Value = Span> {
     })
 }
 
-/// Generates a gap and a random state, not in equilibrium.
+/// Generates a random gap and a random state, which is not in equilibrium.
 fn any_state() -> impl Strategy<Value = (Elastica, Vec<f64>)> {
     (span(), 2_usize..9, prop::collection::vec(-2.0..2.0, 12)).prop_map(|(span, order, mut z)| {
         let gap = elastica(span, order).unwrap();
@@ -106,7 +108,7 @@ fn any_state() -> impl Strategy<Value = (Elastica, Vec<f64>)> {
     })
 }
 
-/// Generates a span and a large pull on its right end.
+/// Generates a span and a large displacement of its right end.
 fn pulled() -> impl Strategy<Value = (Span, Vector3<f64>)> {
     (span(), 0.2..2.0, -0.6..0.6, -0.9..0.9).prop_map(|(span, stretch, shift, phi)| {
         (span, Vector3::new(span.gap * stretch, span.gap * shift, phi))
@@ -132,7 +134,7 @@ proptest! {
 }
 
 proptest! {
-    // Each case follows a path of equilibria.
+    // Each case follows an equilibrium path in 30 steps, so the number of cases is reduced.
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
@@ -152,9 +154,10 @@ proptest! {
         }
     }
 
-    /// A gap rotated by 180° has its scales exchanged and its axis on the other side.
+    /// Rotates a deformed gap by 180°.
     ///
-    /// Energies and force are unchanged.
+    /// The rotation exchanges both scales and changes the sign of the axis offset. Energies, strain
+    /// and force must be unchanged.
     #[test]
     fn rotation_by_180_degrees_exchanges_the_scales((span, end) in pulled()) {
         let gap = elastica(span, 16).unwrap();
@@ -175,10 +178,10 @@ proptest! {
     }
 }
 
-/// Halving the co-rotational elements divides their error by 4.
+/// Compares co-rotational elements with the elastica in a gap under a large force and a moment.
 ///
-/// The remainder after extrapolation is far smaller. The gap is under a strong oblique pull and a
-/// moment.
+/// If the length of the elements is halved, the error decreases by a factor of 4. Extrapolation
+/// from two meshes leaves a far smaller error.
 #[test]
 fn elements_converge_to_the_elastica_quadratically() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.2, gap: 0.5, axis_offset: 0.0 };
@@ -201,11 +204,12 @@ fn elements_converge_to_the_elastica_quadratically() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A moment bends the free length to an arc, here a full circle.
+/// A moment bends the free length to a full circle.
 ///
-/// The result is exact at every order that integrates the position.
+/// The direction is exact at any order. The position is an integral of its cosine and sine, which
+/// is exact to round-off only at the higher order.
 #[test]
-fn pure_bending_is_a_circle() -> Result<(), OutOfRange> {
+fn pure_bending_deforms_a_gap_to_a_circle() -> Result<(), OutOfRange> {
     for (order, tolerance) in [(12, 1e-5), (20, 1e-13)] {
         let gap = elastica(Span { half_base: 0.3, gap: 1.0, axis_offset: 0.1 }, order)?;
         let angle = std::f64::consts::TAU;
@@ -227,11 +231,11 @@ fn pure_bending_is_a_circle() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A pull along the axis stretches it uniformly.
+/// A force `N` along the membrane axis stretches the gap uniformly.
 ///
-/// An axis below the bases requires a couple `N e`.
+/// The axis lies `e` below the node of the scale, so the load also contains the couple `N e`.
 #[test]
-fn pure_stretching_is_uniform() -> Result<(), OutOfRange> {
+fn a_force_along_the_axis_stretches_a_gap_uniformly() -> Result<(), OutOfRange> {
     let (stretch, axis_offset) = (3.0, 0.0625);
     let gap = elastica(Span { half_base: 0.5, gap: 0.1, axis_offset }, 2)?;
     let tension = AXIAL * stretch;
@@ -246,9 +250,9 @@ fn pure_stretching_is_uniform() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// Transverse tip load on a thin cantilever, with elliptic integrals as reference.
+/// Compares a thin cantilever under a transverse tip load with elliptic integrals.
 #[test]
-fn a_thin_cantilever_agrees_with_mattiasson() -> Result<(), OutOfRange> {
+fn a_thin_cantilever_agrees_with_the_closed_form() -> Result<(), OutOfRange> {
     let thickness = 1e-4_f64;
     let section = Section::new(12.0 / thickness.powi(3), thickness)?;
     let gap = Elastica::new(section, Span { half_base: 0.0, gap: 1.0, axis_offset: 0.0 }, 20)?;
@@ -261,11 +265,11 @@ fn a_thin_cantilever_agrees_with_mattiasson() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// Under a pull the error falls by a growing factor per two orders.
+/// Checks the error of the load at increasing orders in a stretched gap.
 ///
-/// The boundary layers have a thirtieth of the length of the gap.
+/// The length of the boundary layers is about a thirtieth of the gap.
 #[test]
-fn the_error_falls_faster_than_any_power() -> Result<(), OutOfRange> {
+fn the_error_falls_faster_than_any_power_of_the_order() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.5, gap: 1.0, axis_offset: 0.0 };
     let turned = Right::End(span, Vector3::new(0.5, -0.5, 0.4));
     let limit = elastica(span, 64)?;
@@ -278,9 +282,9 @@ fn the_error_falls_faster_than_any_power() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A state at a higher order is the same polynomial, with equal energies and axis.
+/// Converts a state of order 32 to order 40, where the same polynomial represents the direction.
 #[test]
-fn a_state_is_transferred_to_another_order() -> Result<(), OutOfRange> {
+fn a_state_transferred_to_a_higher_order_keeps_its_energies_and_axis() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.5, gap: 1.0, axis_offset: 0.0 };
     let [coarse, fine] = [elastica(span, 32)?, elastica(span, 40)?];
     let z = equilibrium(&coarse, Right::End(span, Vector3::new(0.5, -0.5, 0.4)), 10);
@@ -295,9 +299,9 @@ fn a_state_is_transferred_to_another_order() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A state without `ψ` equals the state with `ψ = 0`.
+/// Compares a short state, which omits `ψ`, with the full state for `ψ = 0`.
 #[test]
-fn a_state_without_deviations_is_an_arc() -> Result<(), OutOfRange> {
+fn a_state_without_psi_equals_the_state_with_zero_psi() -> Result<(), OutOfRange> {
     let gap = elastica(Span { half_base: 0.5, gap: 0.3, axis_offset: 0.1 }, 6)?;
     let short = [0.1, -0.2, 0.3, 0.4, 0.5];
     let whole = [vec![0.0; 5], short.to_vec()].concat();

@@ -1,4 +1,4 @@
-//! Forces against energy gradients, and tangents against force gradients.
+//! Comparison of forces with differences of the energy, and of tangents with differences of forces.
 
 use membrane::{Ends, NodePose, Response, RigidArm};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -9,7 +9,7 @@ use crate::states::{bent_beam, bent_gap, bent_offset_beam};
 const STEP: f64 = 2e-4;
 const TOLERANCE: f64 = 1e-8;
 
-/// Differentiates `f` along component `i`, with a fourth-order difference.
+/// Returns the derivative of `f` with respect to component `i` by a fourth-order difference.
 fn derivative(
     f: impl Fn(&DVector<f64>) -> DVector<f64>,
     q: &DVector<f64>,
@@ -23,10 +23,12 @@ fn derivative(
     (a - 8.0 * b + 8.0 * c - d) / (12.0 * STEP)
 }
 
-/// Energy (as a vector of one), force and tangent at a state.
+/// Energy (a vector with one entry), force and tangent at a state.
 type Parts = (DVector<f64>, DVector<f64>, DMatrix<f64>);
 
-/// Returns the largest errors of force and tangent, over their largest entries.
+/// Returns the largest error of the force and of the tangent.
+///
+/// Each error is relative to the largest entry of the force or of the tangent.
 fn errors(parts: impl Fn(&DVector<f64>) -> Parts, q: &DVector<f64>) -> [f64; 2] {
     let (_, force, tangent) = parts(q);
     let mut errors: [f64; 2] = [0.0; 2];
@@ -47,7 +49,7 @@ fn parts(response: &Response) -> Parts {
     )
 }
 
-/// Returns the six poses of a state of two bodies.
+/// Converts a vector with the poses of two bodies to [`Ends`].
 fn ends(q: &DVector<f64>) -> Ends {
     q.fixed_rows::<6>(0).into_owned()
 }

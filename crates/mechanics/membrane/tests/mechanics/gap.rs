@@ -12,11 +12,11 @@ fn gap(span: Span, elements: usize) -> Result<GapMembrane, OutOfRange> {
     GapMembrane::new(Section::new(1.0, THICKNESS)?, span, elements)
 }
 
-/// A moment bends only the free length: `φ = M d/EI`.
+/// A moment `M` bends only the free length `d`, so the right scale rotates by `φ = M d/EI`.
 ///
-/// This holds for any bases, offset and mesh.
+/// The rotation does not depend on the width of the bases, the axis offset or the mesh.
 #[test]
-fn pure_bending_turns_the_scales_by_the_free_length() -> Result<(), OutOfRange> {
+fn rotation_in_pure_bending_depends_only_on_the_free_length() -> Result<(), OutOfRange> {
     let bending_stiffness = THICKNESS.powi(3) / 12.0;
     for (half_base, axis_offset) in [(0.0, 0.0), (0.5, 0.0), (0.5, THICKNESS / 2.0), (0.1, -0.3)] {
         for elements in [1, 2, 5] {
@@ -34,7 +34,7 @@ fn pure_bending_turns_the_scales_by_the_free_length() -> Result<(), OutOfRange> 
 }
 
 #[test]
-fn a_gap_reports_its_mesh() -> Result<(), OutOfRange> {
+fn a_gap_reports_its_numbers_of_elements_and_unknowns() -> Result<(), OutOfRange> {
     for elements in [1, 2, 5] {
         let gap = gap(Span { half_base: 0.5, gap: 0.1, axis_offset: 0.0 }, elements)?;
         assert_eq!((gap.elements(), gap.unknowns()), (elements, 3 * (elements + 1)));
@@ -42,9 +42,10 @@ fn a_gap_reports_its_mesh() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// An axis below the bases is pulled there.
+/// Stretches a gap with the membrane axis at the depth `e` below the bases.
 ///
-/// A counter-clockwise couple `N e` holds the right scale.
+/// The load on the node of the right scale is the axial force `N` and the counter-clockwise couple
+/// `N e`.
 #[test]
 fn tension_acts_below_the_base_for_a_positive_offset() -> Result<(), OutOfRange> {
     let (stretch, axis_offset) = (0.01, 0.0625);
@@ -64,11 +65,11 @@ fn tension_acts_below_the_base_for_a_positive_offset() -> Result<(), OutOfRange>
     Ok(())
 }
 
-/// A small curvature keeps its digits in a gap displaced by a hundred thicknesses.
+/// Evaluates the moment of a small curvature in a gap displaced by up to a hundred thicknesses.
 ///
-/// Only the displacements themselves are rounded.
+/// The only loss of precision is the rounding of the displacements.
 #[test]
-fn a_distant_gap_keeps_its_digits() -> Result<(), OutOfRange> {
+fn a_displaced_gap_loses_only_the_rounding_of_its_displacements() -> Result<(), OutOfRange> {
     let (half_base, angle) = (0.0125, 1e-3_f64);
     let gap = gap(Span { half_base, gap: 0.1, axis_offset: 0.0 }, 1)?;
     let moment = THICKNESS.powi(3) / 12.0 * angle / 0.1;
@@ -95,9 +96,11 @@ fn the_rest_state_has_no_force() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// The cubic axis of an element in pure bending follows its arc to 1 % of the sag.
+/// Compares the axis of an element in pure bending with an arc.
+///
+/// The axis is a cubic polynomial; its sag agrees with the arc to 1 %.
 #[test]
-fn the_drawn_axis_follows_the_arc() -> Result<(), OutOfRange> {
+fn the_deformed_axis_of_an_element_follows_the_arc() -> Result<(), OutOfRange> {
     let (angle, intervals) = (0.4, 10);
     let gap = gap(Span { half_base: 0.5, gap: 1.0, axis_offset: 0.1 }, 2)?;
     let mut u = DVector::zeros(gap.unknowns());

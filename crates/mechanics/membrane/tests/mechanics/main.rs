@@ -1,4 +1,4 @@
-//! Element and gap against finite differences, symmetries and closed forms.
+//! Tests of elements and gaps by finite differences, symmetries and closed-form solutions.
 
 mod cantilever;
 mod elastica;

@@ -1,4 +1,4 @@
-//! A rigid motion preserves energies and rotates the forces, to 1e-12.
+//! Invariance under rigid motions: energies do not change, forces rotate with the body, to 1e-12.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,9 +9,9 @@ use proptest::prelude::*;
 
 use crate::states::{bent_beam, bent_gap};
 
-/// Returns the rotation of poses (or forces) about the origin, `q ↦ Q q`.
+/// Returns the matrix that rotates the positions of poses (or forces) about the origin.
 ///
-/// The change of the angles is not included.
+/// The matrix does not change the angles of the poses (or the moments).
 fn turn(size: usize, angle: f64) -> DMatrix<f64> {
     let mut turn = DMatrix::identity(size, size);
     for node in (0..size).step_by(3) {
@@ -20,7 +20,7 @@ fn turn(size: usize, angle: f64) -> DMatrix<f64> {
     turn
 }
 
-/// Rotates poses about the origin, then shifts them.
+/// Returns the poses `q` after a rotation about the origin by `angle` and a translation `shift`.
 fn moved(q: &DVector<f64>, angle: f64, shift: Vector2<f64>) -> DVector<f64> {
     let mut moved = turn(q.len(), angle) * q;
     for node in (0..q.len()).step_by(3) {
@@ -51,7 +51,7 @@ proptest! {
     }
 
     #[test]
-    fn full_turns_of_either_end_do_not_count(
+    fn full_turns_of_an_end_do_not_change_the_response(
         (beam, q) in bent_beam(), first in -9..=9, second in -9..=9,
     ) {
         let mut turned = q;
@@ -77,9 +77,9 @@ proptest! {
     }
 }
 
-/// An element rotated by multiples of 45°, through ±π and beyond, stays at rest.
+/// Rotates an undeformed element by multiples of 45°, up to five full turns in either direction.
 #[test]
-fn a_rotated_rest_state_has_no_force() -> Result<(), OutOfRange> {
+fn a_rotated_undeformed_element_has_no_force() -> Result<(), OutOfRange> {
     let beam = CorotationalBeam::new(0.1, 1.0, 0.01)?;
     for eighth in -40..=40 {
         let phi = PI / 4.0 * f64::from(eighth);

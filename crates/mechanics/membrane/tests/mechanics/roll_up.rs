@@ -1,4 +1,4 @@
-//! A tip moment rolls the strip up; exact for any mesh.
+//! Strip rolled up by a tip moment: the solution with elements is exact for any mesh.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,9 +8,9 @@ use nalgebra::Vector3;
 
 use crate::cantilever::{cantilever, equilibrium};
 
-/// Checks rotation, energy and shape under an end moment.
+/// Checks energy, shape and moments of a strip under a tip moment.
 ///
-/// The moment rotates the tip by `half_turns`.
+/// The moment rotates the tip by the angle `π half_turns`.
 fn check(elements: usize, half_turns: u32) -> Result<(), OutOfRange> {
     let angle = PI * f64::from(half_turns);
     let gap = cantilever(elements, 0.1)?;
@@ -38,7 +38,7 @@ fn a_strip_rolls_up_to_half_a_circle() -> Result<(), OutOfRange> {
 }
 
 #[test]
-fn a_full_circle_closes() -> Result<(), OutOfRange> {
+fn a_strip_rolls_up_to_a_closed_circle() -> Result<(), OutOfRange> {
     for elements in [2, 3, 4, 7, 16, 50] {
         check(elements, 2)?;
         let u = equilibrium(&cantilever(elements, 0.1)?, Vector3::new(0.0, 0.0, -TAU), 150);

@@ -1,4 +1,4 @@
-//! Random states with large rotations.
+//! Generators of random elements and gaps with large rotations.
 
 use std::f64::consts::TAU;
 
@@ -16,9 +16,9 @@ pub fn beam() -> impl Strategy<Value = CorotationalBeam> {
 /// Position and rotation of the first node of a random chain.
 type Start = (f64, f64, f64);
 
-/// Element of a random chain: stretch, end rotations, full turns.
+/// Element of a random chain: stretch ratio, end rotations, and full turns of the second end.
 ///
-/// The rotations are relative to the chord; the second end has the full turns.
+/// The end rotations are relative to the chord.
 type Link = (f64, [f64; 2], i32);
 
 fn start() -> impl Strategy<Value = Start> {
@@ -29,7 +29,9 @@ fn link() -> impl Strategy<Value = Link> {
     (0.7..1.4, prop::array::uniform2(-2.5..2.5), -3..=3)
 }
 
-/// Returns the node poses of a chain of elements of length `rest` at rest.
+/// Returns the poses of the nodes of a deformed chain of elements.
+///
+/// `rest` is the length of each element at rest.
 fn walk(rest: f64, start: Start, links: &[Link]) -> Vec<[f64; 3]> {
     let mut node = [start.0, start.1, start.2];
     let mut nodes = vec![node];
@@ -56,7 +58,7 @@ fn arm() -> impl Strategy<Value = RigidArm> {
     (-1.0..1.0, -1.0..1.0).prop_map(|(x, y)| RigidArm::new(Vector2::new(x, y)))
 }
 
-/// Generates an element between two random arms, with poses of the bodies.
+/// Generates an element between two random arms, and the poses of the two bodies.
 pub fn bent_offset_beam() -> impl Strategy<Value = (OffsetBeam, Ends)> {
     (bent_beam(), arm(), arm()).prop_map(|((beam, ends), first, second)| {
         let levers = [first.lever(ends[2]), second.lever(ends[5])];
@@ -88,7 +90,9 @@ pub fn bent_gap() -> impl Strategy<Value = (GapMembrane, DVector<f64>)> {
     })
 }
 
-/// Replaces the pose of a membrane end by the pose of its scale at `(x, −e)`.
+/// Replaces the pose of an end of the membrane by the pose of the node of its scale.
+///
+/// The end is at `(x, −e)` in the frame of the scale, where `e` is `axis_offset`.
 fn hold(pose: &mut [f64; 3], x: f64, axis_offset: f64) {
     let lever = RigidArm::new(Vector2::new(x, -axis_offset)).lever(pose[2]);
     pose[0] -= lever.x;

@@ -2,37 +2,39 @@
 
 use crate::newton::Work;
 
-/// Numbers of tangents that a path may always take, however long the row.
+/// Numbers of tangents that a path may always factorise, for a system of any size.
 ///
-/// The first one counts from the start of the path, the second one from its last progress.
+/// The first number counts from the start of the path, the second from its last progress.
 const FREE_TANGENTS: [u64; 2] = [2_000, 1_000];
 
-/// Growth of the control parameter over its scale that counts as progress.
+/// Smallest growth of the control parameter, divided by its scale, that counts as progress.
 const PROGRESS: f64 = 0.01;
 
-/// Work of a path at its last progress.
+/// Control parameter and work of a path at its last progress, for the limit on the work.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Budget {
+    /// Control parameter, divided by its scale, at the last progress.
     farthest: f64,
+    /// Work of the path at the last progress.
     at_farthest: Work,
 }
 
 impl Budget {
-    /// Notes the control parameter at a point.
+    /// Records the control parameter and the work at a point.
     pub(super) fn advance(&mut self, progress: f64, work: Work) {
         if progress >= self.farthest + PROGRESS {
             *self = Self { farthest: progress, at_farthest: work };
         }
     }
 
-    /// Restarts the count where a path is turned back.
+    /// Restarts the count of work without progress, for a path that is turned back.
     pub(super) fn restart(&mut self, work: Work) {
         *self = Self { farthest: f64::NEG_INFINITY, at_farthest: work };
     }
 
-    /// Returns true if the work exceeds `most` unknowns, or half without progress.
+    /// Returns true if the work exceeds `most` unknowns, or half of `most` without progress.
     ///
-    /// Unknowns are counted instead of time, so that results do not depend on the machine.
+    /// The limit is on unknowns, not on time, so that results do not depend on the machine.
     pub(super) fn is_exceeded(&self, work: Work, most: u64) -> bool {
         let since = Work {
             tangents: work.tangents - self.at_farthest.tangents,
@@ -70,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn few_tangents_of_a_long_row_are_within_the_budget() {
+    fn few_tangents_of_a_large_system_do_not_exceed_the_budget() {
         let work = Work { tangents: FREE_TANGENTS[1], unknowns: u64::MAX };
         assert!(!Budget::default().is_exceeded(work, MOST));
     }

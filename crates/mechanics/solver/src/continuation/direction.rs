@@ -1,42 +1,47 @@
-//! Lengths of path directions, and angles that reveal a step to another branch.
+//! Lengths of path directions, and angles between them that reveal a step to another branch.
 
 use super::{Candidate, Continuation, Equilibrium};
 use crate::newton::FLOOR;
 use crate::system::{Control, System};
 
-/// Cosine of the largest angle (45°) by which the path may turn within a step.
+/// Cosine of the largest angle (45°) in the controls by which the path may turn within a step.
 ///
 /// If the angle is larger, Newton's method converged to a part of the path beyond a fold, or the
 /// step is too long.
 const STRAIGHT: f64 = 0.7;
 
-/// Cosine of the largest angle (37°) by which the path may turn in all coordinates.
+/// Cosine of the largest angle (37°) in all coordinates by which the path may turn within a step.
 ///
-/// Far from the load a row may buckle either way within a small part of a step, and the controls
-/// hardly change.
+/// Far from the load a row may buckle in one of two directions within a small part of a step, while
+/// the controls hardly change.
 const STRAIGHT_IN_ALL: f64 = 0.8;
 
-/// Cosine of the largest angle (3°) between a chord and its ends' mean direction.
+/// Cosine of the largest angle (3°) between a chord and the mean of the directions at its ends.
 ///
-/// On an arc, chord and mean direction agree up to the third order of the length. A chord to a
-/// neighbouring path makes angles of the same sign with both directions.
+/// On a smooth path the angle is of third order in the length of the chord. A chord to a
+/// neighbouring path deviates to the same side from the directions at both ends, and so from their
+/// mean.
 const SYMMETRIC: f64 = 0.9986;
 
-/// Rate of all coordinates over the rate of the controls that makes a path hidden.
+/// Ratio of the rate of all coordinates to the rate of the controls above which a path is hidden.
 ///
-/// A hidden path moves far from the load, as in a local instability, and hardly moves the controls.
-/// Its steps are measured by the arc length in all coordinates.
+/// On a hidden path the system deforms far from the load, as in a local instability, while the
+/// controls hardly change. Steps of a hidden path are measured by the arc length in all
+/// coordinates.
 pub(super) const HIDDEN: f64 = 100.0;
 
-/// Step length below which the angle of a step is round-off.
+/// Step length below which the angles of a step are not checked.
 ///
-/// It is in scales of the controls. If the initial stiffness of a contact is a thousand times its
-/// later stiffness, the path turns by a right angle within 1e-8 of contact closure and continues
-/// from there.
+/// The length is in units of the scales of the controls. If the initial stiffness of a contact is a
+/// thousand times its later stiffness, the path may turn by a right angle within 1e-8 after the
+/// contact closes.
 pub(super) const SHORT: f64 = 1e-7;
 
 impl<S: System> Continuation<S> {
-    /// Scales a direction to unit length in the controls, or to less if it is hidden.
+    /// Returns a direction scaled to unit length in the controls.
+    ///
+    /// A hidden direction is scaled to the length [`HIDDEN`] in all coordinates, which is less than
+    /// unit length in the controls.
     pub(crate) fn normalised(&self, mut direction: Vec<f64>) -> Vec<f64> {
         let all = self.coordinates.iter().map(|&index| direction[index].powi(2)).sum::<f64>();
         let factor = 1.0 / self.in_controls(&direction).max(all.sqrt() / HIDDEN);
@@ -46,20 +51,21 @@ impl<S: System> Continuation<S> {
         direction
     }
 
-    /// Computes the length of a direction in the controls.
+    /// Returns the length of a direction in the controls, each divided by its scale.
     fn in_controls(&self, direction: &[f64]) -> f64 {
         let controls = self.system.controls().iter();
         controls.map(|c| (direction[c.index] / c.scale).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Returns true if a direction of the path is hidden from the controls.
+    /// Returns true if a normalised direction is hidden, see [`HIDDEN`].
     pub(super) fn is_hidden(&self, direction: &[f64]) -> bool {
         self.in_controls(direction) < 1.0 - FLOOR.sqrt()
     }
 
-    /// Returns true if the chord to the candidate, or its direction, deviates sharply.
+    /// Returns true if the path from `from` to the candidate turns by too large an angle.
     ///
-    /// Both are compared with the outgoing direction of `from`.
+    /// Compares the chord and the direction at the candidate with the outgoing direction of `from`,
+    /// in the controls, or in all coordinates if the path is hidden.
     pub(crate) fn turns_sharply(
         &self,
         from: &Equilibrium<S::Mode>,
@@ -80,10 +86,11 @@ impl<S: System> Continuation<S> {
         chord > SHORT && (turn < STRAIGHT || along < STRAIGHT * chord)
     }
 
-    /// Returns true if the candidate, the end of a step, lies on another branch.
+    /// Returns true if the candidate, the end of a step, seems to lie on another branch.
     ///
-    /// On another branch the orientation differs, or the step bends. Do not call this before events
-    /// are located: beyond an event a valid step may end on a reversed part of the path.
+    /// The criteria are another orientation (N7) or large angles in all coordinates. Call this only
+    /// after the events within the step have been located: beyond an event the path may have
+    /// reversed.
     pub(super) fn strays(
         &self,
         from: &Equilibrium<S::Mode>,
@@ -92,16 +99,17 @@ impl<S: System> Continuation<S> {
         candidate.is_positive != self.is_positive || self.bends(from, candidate)
     }
 
-    /// Returns true if outgoing, chord and incoming directions differ strongly.
+    /// Returns true if angles between the directions of a step are too large in all coordinates.
     ///
-    /// The angles are those in all coordinates. If one is large, the candidate lies on another
-    /// branch or beyond a bend that the step cuts off.
+    /// The directions are the outgoing direction of `from`, the chord, and the incoming direction
+    /// of the candidate. If an angle is large, the candidate lies on another branch, or the step
+    /// has skipped a bend of the path.
     pub(super) fn bends(
         &self,
         from: &Equilibrium<S::Mode>,
         candidate: &Candidate<S::Mode>,
     ) -> bool {
-        // One pass over all coordinates, because every step evaluates this.
+        // Computed in one pass over all coordinates, because every step needs these products.
         let mut products = [[0.0; 3]; 3];
         for &index in &self.coordinates {
             let chord = candidate.state.z[index] - from.state.z[index];
@@ -117,13 +125,13 @@ impl<S: System> Continuation<S> {
         let along =
             products[0][2] / (lengths[0] * lengths[2]) + products[1][2] / (lengths[1] * lengths[2]);
         let off_mean = along < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
-        // A hidden path is longer than its length in the controls.
+        // A hidden direction is longer in all coordinates than in the controls.
         lengths[2] > SHORT * lengths[0].max(1.0) && (turn < STRAIGHT_IN_ALL || off_mean)
     }
 
-    /// Computes the cosine of the angle between two directions in all coordinates.
+    /// Returns the cosine of the angle between two directions in all coordinates.
     ///
-    /// For a system without [`System::coordinates`], the controls take their place.
+    /// If [`System::coordinates`] is empty, the controls are used instead.
     pub(crate) fn cosine(&self, one: &[f64], other: &[f64]) -> f64 {
         let all = self.coordinates.iter().map(|&index| (index, 1.0));
         let controls = self.system.controls().iter().map(|c| (c.index, c.scale.powi(-2)));

@@ -1,37 +1,39 @@
-//! Detection of paths that make no progress.
+//! Detection of paths without progress, which return to earlier events again and again.
 
-/// Number of returns to earlier events after which a path makes no progress.
+/// Largest number of returns to earlier events.
 ///
-/// Returns count from the last maximum of the control parameter. A path between equal parts, such as
-/// the gaps of a strip, may return to the load of an event several times with other parts changed.
+/// The count starts at the last maximum of the control parameter. In a system of equal parts, such
+/// as the gaps of a strip, a valid path may return several times to control parameter and load of
+/// an event, each time with another part changed.
 const MOST_RETURNS: usize = 50;
 
-/// Number of successive events at one point, per constraint, after which a path makes no progress.
+/// Largest number of successive events at one point, divided by the number of constraints plus one.
 const MOST_AT_A_POINT: usize = 3;
 
-/// Relative difference of the coordinates of equal events.
+/// Largest relative difference between control parameters or loads of events that count as equal.
 const SAME: f64 = 1e-9;
 
-/// Number of earlier events that are compared.
+/// Number of most recent distinct events with which a new event is compared.
 const COMPARED: usize = 1000;
 
-/// Events of a path since its control parameter was last at its maximum.
+/// Record of the events since the control parameter was last at its maximum.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Returns {
-    /// Control parameter and load at the distinct events.
+    /// Control parameter and load of each distinct event.
     events: Vec<[f64; 2]>,
-    /// Index of the last event in the list.
+    /// Index in `events` of the most recent event.
     last: usize,
-    /// Number of events that equal an earlier one with another one in between.
+    /// Number of returns to an earlier event after at least one different event.
     repeated: usize,
-    /// Number of successive events that equal the last one.
+    /// Number of successive repetitions of the most recent event.
     stays: usize,
 }
 
 impl Returns {
-    /// Adds an event of a system with this number of constraints.
+    /// Adds an event, given by control parameter and load.
     ///
-    /// Returns true if the path makes no progress.
+    /// `constraints` is the number of constraints of the system. Returns true if the path makes no
+    /// progress.
     pub(super) fn add(&mut self, event: [f64; 2], constraints: usize) -> bool {
         let first = self.events.len().saturating_sub(COMPARED);
         match self.events[first..]
@@ -49,13 +51,13 @@ impl Returns {
         self.repeated > MOST_RETURNS || self.stays > MOST_AT_A_POINT * (constraints + 1)
     }
 
-    /// Forgets all events, because the path has made progress.
+    /// Removes all events, for a path that has made progress.
     pub(super) fn clear(&mut self) {
         *self = Self::default();
     }
 }
 
-/// Returns true if two events have the same coordinates up to round-off.
+/// Returns true if two events have the same control parameter and load up to round-off.
 fn is_same(one: [f64; 2], other: [f64; 2]) -> bool {
     (0..2).all(|k| (one[k] - other[k]).abs() <= SAME * (one[k].abs() + other[k].abs()))
 }

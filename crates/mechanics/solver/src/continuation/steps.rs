@@ -1,4 +1,4 @@
-//! Steps of a path: their length, the attempt of a step, and its acceptance.
+//! Steps of a path: choice of the length, attempt, and acceptance of a step.
 
 use std::sync::Arc;
 
@@ -10,15 +10,15 @@ use crate::progress;
 use crate::system::{State, System};
 use crate::termination::Termination;
 
-/// Number of steps that undo a change at one point after which the path jumps.
+/// Number of failed steps that would undo the change at a point after which the path jumps.
 ///
-/// Each step is a third of the last. If a change is undone at every length, shorter steps do not
-/// help. If the step was merely too long, fewer reductions suffice.
+/// Each step is a third of the previous step. If the first step was merely too long, fewer
+/// reductions suffice.
 const UNDONE: usize = 5;
 
-/// Distances at which the path is resumed beyond a bifurcation point, the preferred one first.
+/// Step lengths for resuming the path beyond a bifurcation point, in the order of preference.
 ///
-/// Closer to the point Newton's method hardly separates the branches.
+/// With shorter steps Newton's method hardly separates the branches.
 const BEYOND_BIFURCATION: [f64; 3] = [1e-4, 1e-5, 1e-6];
 
 impl<S: System> Continuation<S> {
@@ -38,8 +38,8 @@ impl<S: System> Continuation<S> {
             let attempt = self.attempt(distance);
             let iterations = self.newton.history.len() - before;
             let is_smooth = attempt.as_ref().is_ok_and(|candidate| candidate.event.is_none());
-            // An event without an outgoing branch is approached until the step size reaches its
-            // minimum, so that the last point shows the state in which the path ends.
+            // If an event has no outgoing branch, the path approaches the event until the step size
+            // reaches its minimum, so that the last point shows the state in which the path ends.
             match attempt.map_err(Termination::from).and_then(|candidate| self.accept(candidate)) {
                 Ok(point) => {
                     self.lengthen_step(iterations, is_smooth);
@@ -66,23 +66,29 @@ impl<S: System> Continuation<S> {
         if drive.abs() >= DRIVES { self.step.min(left) } else { self.step }
     }
 
+    /// Reduces the step size after a failed attempt to step by `distance`.
+    ///
+    /// # Errors
+    /// If the step size would fall below its minimum: the reason `stop` of the failure, or
+    /// [`Termination::Jumps`].
     fn shorten_step(&mut self, distance: f64, stop: Termination) -> Result<(), Termination> {
-        // Shorten the attempted distance, because the target may have made it shorter than the step
-        // size.
+        // The target may have limited the attempted distance, so reduce this distance instead of
+        // the step size.
         self.step = distance / 3.0;
         if self.step >= self.settings.min_step {
             return Ok(());
         }
-        // Slip that ends at zero rate has no equilibrium nearby if, to second order, neither slip
-        // nor stick is valid.
+        // After slip has ended at zero rate, there may be no equilibrium nearby, because to second
+        // order neither slip nor stick is valid.
         Err(if self.undone >= UNDONE { Termination::Jumps } else { stop })
     }
 
-    /// Resumes the path beyond a bifurcation point just ahead.
+    /// Returns a point on the incoming branch beyond a bifurcation point just ahead.
     ///
-    /// There the orientation (N7) may change on a smooth path, or an extremum of the load has no
-    /// tangent, and every shorter step is rejected. The path follows its incoming branch. `None` if
-    /// there is no such point, or if the path has no end because its control parameter is constant.
+    /// At a bifurcation point of a smooth path the orientation (N7) may change, or the tangent at
+    /// an extremum of the load is singular, so that every shorter step is rejected. `None` if there
+    /// is no such point ahead, or if the control parameter is nearly constant along the path, which
+    /// then might never end.
     fn pass_bifurcation(&mut self) -> Option<Equilibrium<S::Mode>> {
         let from = Arc::clone(&self.point);
         if self.progress(&from.leaving).abs() < DRIVES {
@@ -113,22 +119,24 @@ impl<S: System> Continuation<S> {
         None
     }
 
+    /// Increases the step size after a step without event (`smooth`) and with few iterations.
     fn lengthen_step(&mut self, iterations: usize, smooth: bool) {
         if smooth && iterations <= 5 {
-            // Newton's method doubles the correct digits in each iteration, so five iterations
-            // suffice from a predictor with two digits. The length and iterations of a step cut
-            // short by an event do not indicate the next step size.
+            // Newton's method doubles the number of correct digits in each iteration, so five
+            // iterations suffice from a predictor with two digits. A step to an event indicates
+            // nothing about the next step size.
             self.step = (self.step * 1.7).min(self.settings.max_step);
         }
     }
 
-    /// Attempts a step that ends at the event predicted within the given distance.
+    /// Attempts a step to the event that is predicted within the given distance.
     ///
-    /// Without a predicted event, or if the prediction fails, attempts a step of the full distance
-    /// and cuts it short at the first event within it.
+    /// If no event is predicted or the prediction fails, attempts a step of the full distance and
+    /// ends this step at the first event.
     fn attempt(&mut self, distance: f64) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let from = Arc::clone(&self.point);
-        // Aiming at the event saves the equilibrium beyond it and the bracketing search.
+        // A direct step to the event saves the equilibrium beyond the event and the search for the
+        // event between both points.
         let mut candidate = match self.predicted_event(&from, distance) {
             Some(candidate) if !self.strays(&from, &candidate) => candidate,
             _ => self.plain_step(&from, distance)?,
@@ -139,21 +147,22 @@ impl<S: System> Continuation<S> {
         } else if self.load_reverses(&candidate) {
             candidate = self.locate_unloading(&from, &candidate)?;
         }
-        // Check again, because the turning point and unloading have moved the end of the step.
+        // Check again, because an extremum or the end of unloading may have moved the end of the
+        // step.
         if self.strays(&from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }
         Ok(candidate)
     }
 
-    /// Steps by the given distance, cut short at the first event within it.
+    /// Steps by the given distance, or to the target or the first event within it.
     fn plain_step(
         &mut self,
         from: &Equilibrium<S::Mode>,
         distance: f64,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let mut candidate = self.step_to(from, distance)?;
-        // A path that is turned back starts at its target, up to round-off.
+        // A path that is turned back starts at its target up to round-off.
         let round_off = if self.is_back { FLOOR } else { 0.0 };
         if self.progress(&candidate.state.z).abs() > self.system.target() + round_off {
             candidate = self.locate_target(from, &candidate)?;
@@ -164,7 +173,7 @@ impl<S: System> Continuation<S> {
         self.first_event(from, candidate)
     }
 
-    /// Solves for the point between two points with the target control parameter.
+    /// Solves for the point between two points at which the control parameter is at its target.
     fn locate_target(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -172,7 +181,7 @@ impl<S: System> Continuation<S> {
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
         // Prescribe the control parameter even if the arc length measured the step, so that the
-        // target is met to the last bit.
+        // control parameter equals its target to the last bit.
         let (target, control) = (end.signum() * self.system.target(), self.control_parameter());
         // A path continued with another system may start at its target up to round-off.
         let fraction = if end == start { 0.0 } else { (target - start) / (end - start) };
@@ -181,14 +190,17 @@ impl<S: System> Continuation<S> {
         self.correct(state, &condition)
     }
 
+    /// Completes a candidate to a point of the path: resolves its event and finds the direction.
+    ///
+    /// # Errors
+    /// If the event has no outgoing branch.
     fn accept(
         &mut self,
         candidate: Candidate<S::Mode>,
     ) -> Result<Equilibrium<S::Mode>, Termination> {
         let Candidate { mut state, direction: arriving, mut event, .. } = candidate;
         if let Some(Event::Changed(changes)) = &event
-            // A constraint that ends the path does not change sides, because there is no outgoing
-            // branch.
+            // A constraint that ends the path is not changed, because there is no outgoing branch.
             && changes.iter().any(|change| self.system.ends(&state, change.constraint))
         {
             event = Some(Event::Target);
@@ -197,7 +209,8 @@ impl<S: System> Continuation<S> {
             Some(Event::Changed(changes)) => {
                 let is_positive = self.is_positive;
                 let resolved = self.resolve_event(&mut state, &arriving, changes);
-                // The step is repeated from the current point, so restore its orientation.
+                // The step will be repeated from the current point, so restore the orientation
+                // there.
                 resolved.inspect_err(|_| self.is_positive = is_positive)?
             }
             _ => arriving.clone(),
@@ -208,13 +221,14 @@ impl<S: System> Continuation<S> {
         Ok(Equilibrium { state, arriving, leaving, event })
     }
 
+    /// Returns true if a path that was not turned back is at its target.
     fn at_target(&self, state: &State<S::Mode>) -> bool {
         !self.is_back && (self.progress(&state.z).abs() - self.system.target()).abs() <= FLOOR
     }
 
-    /// Returns true if the path arrives at its target from within.
+    /// Returns true if the path reaches its target at `point`.
     ///
-    /// A path that is turned back starts there and leads away from it.
+    /// A path that is turned back starts at its target, which does not count.
     pub(super) fn reaches_target(&self, point: &Equilibrium<S::Mode>) -> bool {
         let progress = self.progress(&point.state.z);
         let is_near = (progress.abs() - self.system.target()).abs() <= FLOOR;

@@ -1,47 +1,48 @@
-//! Conditions that fix a point on a path while a parameter changes the path.
+//! Anchors: conditions that select a point of a path while a parameter changes the path.
 
 use super::differences::ALONG;
 use crate::continuation::Equilibrium;
 use crate::newton::{guard, guard_slope};
 use crate::system::{State, System};
 
-/// Condition that fixes a point on a path while a parameter changes the path.
+/// Condition that selects a point of a path while a parameter changes the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathAnchor {
-    /// The point keeps its position along the path.
+    /// The point stays in a fixed section across the path.
     ///
-    /// At rest, or at a smooth maximum, where motion along the path has no first-order effect.
+    /// For the state of rest, and for a smooth maximum, where a motion along the path has no
+    /// first-order effect.
     Still,
-    /// The control parameter is at its target, in either direction.
+    /// The control parameter has the magnitude of its scale, the default [`System::target`].
     Target,
-    /// The guard (N5) of this constraint keeps its value: at an event it vanishes.
+    /// The guard (N5) of the constraint with this number is constant; at an event it is zero.
     Guard(usize),
-    /// The marker of this number keeps its value.
+    /// The marker with this number ([`System::marker`]) is constant.
     Marker(usize),
-    /// The rate of this number vanishes: a quantity is stationary along the path.
+    /// The rate with this number ([`System::rate`]) is zero.
     Stationary(usize),
 }
 
-/// Point of a path with the condition that fixes it.
+/// Point of a path with the condition that selects it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnchoredPoint<M> {
-    /// Equilibrium, with fixed active set and mode.
+    /// Equilibrium, with the active set and mode for the derivatives.
     pub state: State<M>,
     /// Direction of the path at the point.
     pub direction: Vec<f64>,
-    /// Condition that fixes the point on the path.
+    /// Condition that selects the point.
     pub anchor: PathAnchor,
 }
 
 impl<M: Clone> AnchoredPoint<M> {
-    /// Anchors a point of a path, with its incoming direction.
+    /// Creates an anchored point from a point of a path and its incoming direction.
     pub fn arriving(point: &Equilibrium<M>, anchor: PathAnchor) -> Self {
         Self { state: point.state.clone(), direction: point.arriving.clone(), anchor }
     }
 }
 
 impl PathAnchor {
-    /// Evaluates the function of the state that vanishes where the anchor holds.
+    /// Evaluates the function of the state that the anchor keeps constant.
     pub(super) fn off<S: System>(self, system: &S, state: &State<S::Mode>) -> f64 {
         let control = system.controls()[0];
         match self {
@@ -52,7 +53,7 @@ impl PathAnchor {
         }
     }
 
-    /// Evaluates the derivative of the anchor function along a direction.
+    /// Evaluates the derivative of the function of the anchor along a direction.
     pub(super) fn slope<S: System>(
         self,
         system: &S,

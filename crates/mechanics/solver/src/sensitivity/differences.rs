@@ -1,12 +1,15 @@
-//! Rates of unknowns and directions by differences of two neighbouring systems.
+//! Rates of unknowns and directions from differences between two neighbouring systems.
 
 use crate::newton::Newton;
 use crate::system::{State, System, inactive};
 
-/// Relative step of differences along the path.
+/// Step along the path of difference quotients.
 pub(super) const ALONG: f64 = 1e-5;
 
-/// Computes `−J⁻¹ d(J v)/dq` between two states of neighbouring systems.
+/// Computes `−J⁻¹ d(J v)/dq` (D3) from two states of neighbouring systems.
+///
+/// `direction` is `v`, and `newton` contains the factors of `J`. The parameter `q` of the systems
+/// `sides` with the states `states` differs by `2 step`.
 pub(super) fn turning<S: System>(
     newton: &mut Newton,
     sides: [&S; 2],
@@ -25,9 +28,9 @@ pub(super) fn turning<S: System>(
     rates(newton, sides[0], &states[0], change)
 }
 
-/// Solves `J x = −change`.
+/// Returns the solution `x` of `J x = −change` with the factors of `J` in `newton`.
 ///
-/// The change is zero in the section and at inactive constraints.
+/// The entries of `change` for the section and for inactive constraints are replaced by zero.
 pub(super) fn rates<S: System>(
     newton: &mut Newton,
     system: &S,
@@ -35,7 +38,7 @@ pub(super) fn rates<S: System>(
     change: Vec<f64>,
 ) -> Vec<f64> {
     if change.iter().all(|change| *change == 0.0) {
-        // A parameter that enters only an anchor leaves the equations unchanged.
+        // A parameter that only enters the function of an anchor does not change the equations.
         return change;
     }
     let mut x: Vec<f64> = change.into_iter().map(|change| -change).collect();
@@ -47,7 +50,7 @@ pub(super) fn rates<S: System>(
     x
 }
 
-/// Computes the central difference quotient.
+/// Returns the central difference quotient `(above − below)/(2 step)`.
 pub(super) fn difference(below: Vec<f64>, mut above: Vec<f64>, step: f64) -> Vec<f64> {
     for (above, below) in above.iter_mut().zip(below) {
         *above = (*above - below) / (2.0 * step);
@@ -55,6 +58,7 @@ pub(super) fn difference(below: Vec<f64>, mut above: Vec<f64>, step: f64) -> Vec
     above
 }
 
+/// Returns `from` plus `step` times `rates`.
 pub(super) fn moved(from: &[f64], step: f64, rates: &[f64]) -> Vec<f64> {
     from.iter().zip(rates).map(|(from, rate)| from + step * rate).collect()
 }

@@ -7,29 +7,29 @@ use crate::newton::{Condition, Newton};
 use crate::settings::Settings;
 use crate::system::{State, System};
 
-/// First step of the secant search, relative to [`reach`].
+/// First step of the secant search, as a fraction of [`reach`].
 const SECANT: f64 = 1e-3;
 
-/// Convergence tolerance of the secant search: largest last step over [`reach`].
+/// Largest last step of a converged secant search, as a fraction of [`reach`].
 const SETTLED: f64 = 1e-8;
 
-/// Largest step of the secant search, as a fraction of the path.
+/// Largest step of the secant search, in units of the arc length in the controls.
 const FARTHEST: f64 = 0.1;
 
-/// Lower bound of [`reach`], as a fraction of the path.
+/// Lower bound of [`reach`], in units of the arc length in the controls.
 const SHORTEST: f64 = 1e-6;
 
-/// Slope over the path below which a function is constant, relative to its value.
+/// Ratio of slope to value of a function below which the function is constant along the path.
 const FLAT: f64 = 1e-9;
 
-/// Limit on the steps of the secant search.
+/// Maximum number of steps of the secant search.
 const MOST_SECANTS: usize = 20;
 
 impl<M: Clone> AnchoredPoint<M> {
-    /// Finds the nearby point at which a function is stationary along the path.
+    /// Finds the nearby point at which the function `f` is stationary along the path.
     ///
-    /// Uses the secant method. The function of system, state and direction must have an extremum
-    /// there. `None` if the iteration does not converge.
+    /// `f` is a function of system, state and path direction with an extremum near this point. The
+    /// secant method is applied to the slope of `f`. `None` if the iteration does not converge.
     pub fn stationary<S: System<Mode = M>>(
         &self,
         system: &S,
@@ -43,12 +43,12 @@ impl<M: Clone> AnchoredPoint<M> {
         let mut here = self.with_slope(system, SECANT * reach, &origin, f, settings)?;
         let value = f(system, &self.state, &self.direction);
         if last.1.abs().max(here.1.abs()) <= FLAT * value.abs() {
-            // The function is constant along the path.
+            // The function is constant along the path, so any point is stationary.
             return Some(last.2.anchored(system));
         }
         for _ in 0..MOST_SECANTS {
             let step = -here.1 * (here.0 - last.0) / (here.1 - last.1);
-            // At this distance the search would find a different extremum.
+            // With such a large step the search would find a different extremum.
             if !step.is_finite() || step.abs() > FARTHEST {
                 return None;
             }
@@ -61,9 +61,10 @@ impl<M: Clone> AnchoredPoint<M> {
         None
     }
 
-    /// Solves for the point at a distance along the path.
+    /// Solves for the point at a distance along the path from this point.
     ///
-    /// Returns the slope of `f` at the point, and the point.
+    /// Returns the distance, the slope of `f` there, and the point. `None` if Newton's method
+    /// fails.
     fn with_slope<S: System<Mode = M>>(
         &self,
         system: &S,
@@ -80,10 +81,10 @@ impl<M: Clone> AnchoredPoint<M> {
         Some((distance, slope, Self { state, direction, anchor: PathAnchor::Still }))
     }
 
-    /// Anchors the point to the unknown of the fastest constraint.
+    /// Returns the point with the unknown of the fastest constraint as its anchor.
     ///
-    /// At a stationary point any section serves. This one keeps the boundary layers fixed that form
-    /// where a force has just begun to act.
+    /// Any anchor is valid at a stationary point. With this anchor a force that has just begun to
+    /// act, and changes by its own value within a short distance, is kept constant.
     fn anchored<S: System<Mode = M>>(self, system: &S) -> Self {
         let fast = fastest(system, &self.state, &self.direction).filter(|(_, way)| *way < 1.0);
         let anchor =
@@ -92,10 +93,10 @@ impl<M: Clone> AnchoredPoint<M> {
     }
 }
 
-/// Differentiates a function of system, state and direction along the path.
+/// Returns the derivative of `f` along the path.
 ///
-/// The last factorised tangent must belong to the state. The function must not depend on the length
-/// of the direction.
+/// `f` is a function of system, state and path direction that does not depend on the length of the
+/// direction. The last factorised tangent of `newton` must belong to `state`.
 pub(crate) fn slope_along<S: System>(
     system: &S,
     newton: &mut Newton,
@@ -111,16 +112,18 @@ pub(crate) fn slope_along<S: System>(
     (above - below) / (2.0 * step)
 }
 
-/// Returns the active constraint with the largest relative rate along the path.
+/// Returns the active constraint with the largest relative rate of its unknown along the path.
 ///
-/// The second number is the distance over which its unknown changes by its own value.
+/// The second value is the distance over which this unknown changes by its own value. `None` if no
+/// active constraint changes.
 fn fastest<S: System>(
     system: &S,
     state: &State<S::Mode>,
     direction: &[f64],
 ) -> Option<(usize, f64)> {
     let constraints = system.constraints().iter().zip(&state.active).enumerate();
-    // A slip distance is counted from a point of this path that differs for another design.
+    // The unknown of a monotone constraint, a slip distance, is measured from a point of the path
+    // that depends on the parameter, so leave it out.
     let active =
         constraints.filter(|(number, (_, active))| **active && !system.monotone().contains(number));
     let ways = active
@@ -128,9 +131,9 @@ fn fastest<S: System>(
     ways.filter(|(_, way)| way.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Returns the distance over which no unknown changes by more than its value.
+/// Returns the distance, at most 1, over which no constraint changes by more than its value.
 ///
-/// It is at most 1.
+/// Only the unknowns of active constraints count.
 fn reach<S: System>(system: &S, state: &State<S::Mode>, direction: &[f64]) -> f64 {
     fastest(system, state, direction).map_or(1.0, |(_, way)| way.clamp(SHORTEST, 1.0))
 }

@@ -1,13 +1,13 @@
-//! Band LU against dense LU.
+//! Comparison of band LU factorisation with dense LU factorisation.
 
 use approx::assert_relative_eq;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use solver::{BandLu, BandMatrix, Tangent};
 
-/// Builds a band matrix from `entries`, row by row.
+/// Creates a band matrix from `entries`, row by row.
 ///
-/// Numbers above 2 stand for zeros.
+/// Entries above 2 are replaced by zeros.
 fn matrix(size: usize, half: usize, entries: &[f64]) -> BandMatrix {
     let mut matrix = BandMatrix::new(size, half);
     let positions = (0..size).flat_map(|i| matrix.columns(i).map(move |j| (i, j)));
@@ -20,6 +20,7 @@ fn matrix(size: usize, half: usize, entries: &[f64]) -> BandMatrix {
     matrix
 }
 
+/// Returns the entry at (`i`, `j`), which is zero outside the band.
 fn at(matrix: &BandMatrix, i: usize, j: usize) -> f64 {
     if i.abs_diff(j) <= matrix.half_bandwidth() { matrix.get(i, j) } else { 0.0 }
 }
@@ -29,9 +30,9 @@ fn times(matrix: &BandMatrix, x: &[f64]) -> Vec<f64> {
     (0..matrix.size()).map(|i| matrix.columns(i).map(|j| matrix.get(i, j) * x[j]).sum()).collect()
 }
 
-/// Solves without some rows and columns by dense LU.
+/// Returns the solution for the rows and columns `kept`, computed by dense LU factorisation.
 ///
-/// Also returns the smallest pivot relative to the largest.
+/// The second value is the ratio of the smallest to the largest pivot.
 fn reference(matrix: &BandMatrix, kept: &[usize], rhs: &[f64]) -> (Vec<f64>, f64) {
     if kept.is_empty() {
         return (vec![0.0; matrix.size()], 1.0);
@@ -78,7 +79,7 @@ proptest! {
     }
 
     #[test]
-    fn the_product_with_the_solution_is_the_right_hand_side(
+    fn the_product_of_matrix_and_solution_is_the_right_hand_side(
         size in 1_usize..40, half in 0_usize..8,
         entries in prop::collection::vec(-1.0_f64..1.0, 40 * 15),
         rhs in prop::collection::vec(-1.0_f64..1.0, 40),
@@ -98,7 +99,7 @@ proptest! {
 }
 
 #[test]
-fn a_row_of_zeros_has_no_factors() {
+fn a_matrix_with_a_row_of_zeros_is_singular() {
     let mut matrix = BandMatrix::new(3, 1);
     matrix.add(0, 0, 1.0);
     matrix.add(2, 2, 1.0);
@@ -108,7 +109,7 @@ fn a_row_of_zeros_has_no_factors() {
 }
 
 #[test]
-fn dependent_rows_have_no_factors() {
+fn a_matrix_with_dependent_rows_is_singular() {
     let mut matrix = BandMatrix::new(4, 1);
     matrix.add(0, 0, 5.0);
     for (row, column) in [(1, 1), (1, 2), (2, 1), (2, 2)] {
@@ -119,7 +120,7 @@ fn dependent_rows_have_no_factors() {
 }
 
 #[test]
-fn a_matrix_that_is_not_finite_has_no_factors() {
+fn a_matrix_that_is_not_finite_is_singular() {
     for value in [f64::NAN, f64::INFINITY] {
         let mut matrix = BandMatrix::new(2, 1);
         matrix.add(0, 0, 1.0);
@@ -133,7 +134,7 @@ fn a_matrix_that_is_not_finite_has_no_factors() {
 }
 
 #[test]
-fn a_zero_on_the_diagonal_is_exchanged() {
+fn rows_are_exchanged_if_a_diagonal_entry_is_zero() {
     let mut matrix = BandMatrix::new(2, 1);
     matrix.add(0, 1, 4.0);
     matrix.add(1, 0, 2.0);
@@ -164,9 +165,10 @@ fn entries_outside_the_band_are_refused() {
     BandMatrix::new(5, 2).add(0, 3, 1.0);
 }
 
-/// A large row is not a good pivot merely because of its units.
+/// The entries of the first row are much larger, as if its equation were in other units.
 ///
-/// Without scaling, the first row would be the pivot and the digits of the second would be lost.
+/// Without row scaling, the first row would be the pivot row, and elimination would lose the digits
+/// of the second row.
 #[test]
 fn pivots_do_not_depend_on_row_scaling() {
     let mut matrix = BandMatrix::new(2, 1);

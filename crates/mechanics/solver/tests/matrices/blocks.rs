@@ -1,18 +1,22 @@
-//! Block elimination against dense LU.
+//! Comparison of block elimination with dense LU factorisation.
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use solver::{BlockElimination, BlockMatrix, Blocks, FARTHEST_LINK, LINK, Tangent, UnsafeBlock};
 
-/// Chain of blocks, with the numbers of unknowns before and after each link.
+/// Sizes of a chain of blocks.
 #[derive(Clone, Debug)]
 struct Chain {
+    /// Numbers of unknowns before and after the link of each block.
     extras: Vec<[usize; 2]>,
+    /// Number of the root block.
     root: usize,
+    /// Number of inner neighbours to which a block is coupled.
     reach: usize,
 }
 
 impl Chain {
+    /// Returns the block structure.
     fn blocks(&self) -> Blocks {
         let mut blocks = Blocks { root: self.root, reach: self.reach, ..Blocks::default() };
         let mut size = 0;
@@ -24,14 +28,17 @@ impl Chain {
         blocks
     }
 
+    /// Returns the number of unknowns.
     fn size(&self) -> usize {
         self.extras.iter().map(|[before, after]| before + LINK + after).sum()
     }
 
+    /// Returns the block of an unknown.
     fn block(&self, unknown: usize) -> usize {
         self.blocks().starts.partition_point(|&start| start <= unknown) - 1
     }
 
+    /// Returns true if an unknown belongs to the link of its block.
     fn is_link(&self, unknown: usize) -> bool {
         let link = self.blocks().links[self.block(unknown)];
         (link..link + LINK).contains(&unknown)
@@ -40,7 +47,7 @@ impl Chain {
     /// Returns true if two unknowns may be coupled.
     fn couples(&self, i: usize, j: usize) -> bool {
         let [a, b] = [self.block(i), self.block(j)];
-        // The inner unknown must be a link.
+        // The unknown in the inner block must belong to the link.
         let inner = if a.abs_diff(self.root) < b.abs_diff(self.root) { i } else { j };
         a == b
             || self.is_link(inner)
@@ -49,9 +56,10 @@ impl Chain {
     }
 }
 
-/// Generates chains of at most eight blocks, with extra unknowns beside links.
+/// Generates chains of at most seven blocks.
 ///
-/// Each link has up to three. Chains of larger reach have their root at the end.
+/// Each block has up to three unknowns before and after its link. If the reach is above 1, the root
+/// is the last block.
 fn chains() -> impl Strategy<Value = Chain> {
     let extras = prop::collection::vec(prop::array::uniform2(0_usize..4), 1..8);
     (extras, 0_usize..8, prop_oneof![Just(1), 2..=FARTHEST_LINK]).prop_map(
@@ -62,7 +70,7 @@ fn chains() -> impl Strategy<Value = Chain> {
     )
 }
 
-/// Converts a dense matrix without some rows and columns to blocks.
+/// Converts a dense matrix to blocks, without the rows and columns `left_out`.
 fn in_blocks(chain: &Chain, dense: &DMatrix<f64>, left_out: &[bool]) -> BlockMatrix {
     let mut matrix = BlockMatrix::default();
     matrix.reshape(&chain.blocks(), left_out);
@@ -74,15 +82,15 @@ fn in_blocks(chain: &Chain, dense: &DMatrix<f64>, left_out: &[bool]) -> BlockMat
     matrix
 }
 
-/// Factorises a matrix in an existing solver.
+/// Factorises `matrix` in the storage of `solver`.
 fn factorise(solver: &mut BlockElimination, matrix: BlockMatrix) -> Result<(), UnsafeBlock> {
     solver.matrix = matrix;
     solver.factorise()
 }
 
-/// Solves without some unknowns by dense LU.
+/// Returns the solution without the unknowns `left_out`, computed by dense LU factorisation.
 ///
-/// Also returns the smallest pivot relative to the largest.
+/// The second value is the ratio of the smallest to the largest pivot, the third the determinant.
 fn reference(dense: &DMatrix<f64>, left_out: &[bool], rhs: &[f64]) -> (Vec<f64>, f64, f64) {
     let kept: Vec<_> = (0..rhs.len()).filter(|&i| !left_out[i]).collect();
     let part = DMatrix::from_fn(kept.len(), kept.len(), |i, j| dense[(kept[i], kept[j])]);
@@ -99,6 +107,7 @@ fn reference(dense: &DMatrix<f64>, left_out: &[bool], rhs: &[f64]) -> (Vec<f64>,
     (full, low / high, lu.determinant())
 }
 
+/// Asserts that two vectors agree; `tolerance` is relative to the largest expected entry.
 fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
     let largest = expected.iter().fold(1e-300_f64, |max, x| max.max(x.abs()));
     for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
@@ -107,9 +116,10 @@ fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
     }
 }
 
-/// Number of different entries of a matrix, a prime number.
+/// Number of different entries of a matrix.
 ///
-/// Most of the time is spent on generating them.
+/// It is small, because generating random numbers takes most of the time, and a prime number, so
+/// that entries repeat irregularly.
 const ENTRIES: usize = 509;
 
 proptest! {
@@ -133,7 +143,7 @@ proptest! {
         // A previous factorisation must not affect the result.
         let _ = factorise(&mut solver, in_blocks(&chain, &dense, &vec![false; size]));
         let found = factorise(&mut solver, in_blocks(&chain, &dense, &left_out));
-        // A block of random numbers is hardly ever singular.
+        // Block elimination is refused only in rare cases, if a random block is nearly singular.
         prop_assume!(found.is_ok());
         let mut x = rhs[..size].to_vec();
         solver.solve(&mut x);
@@ -142,7 +152,7 @@ proptest! {
     }
 
     #[test]
-    fn a_unit_in_the_root_or_before_it_is_a_right_hand_side_like_others(
+    fn the_solution_for_a_unit_vector_equals_the_general_solution(
         chain in chains(), entries in prop::collection::vec(-1.0_f64..1.0, ENTRIES), which in 0_usize..72,
     ) {
         let size = chain.size();
@@ -163,12 +173,12 @@ proptest! {
         prop_assert_eq!(x, solver.solve_unit(unknown));
     }
 
-    /// Blocks after elimination have as many negative eigenvalues as the matrix.
+    /// Uses symmetric matrices with blocks of three unknowns.
     ///
-    /// This holds for symmetric matrices without extra unknowns. The sign of a block's determinant
-    /// shows only whether its number is odd.
+    /// All `D` together have as many negative eigenvalues as the matrix. The determinant of a `D`
+    /// is negative if its number of negative eigenvalues is odd.
     #[test]
-    fn negative_determinants_count_negative_eigenvalues(
+    fn negative_determinants_of_blocks_agree_with_the_number_of_negative_eigenvalues(
         count in 1_usize..6, root in 0_usize..6, entries in prop::collection::vec(-1.0_f64..1.0, 18 * 18),
         shift in 1.0_f64..4.0,
     ) {
@@ -189,16 +199,20 @@ proptest! {
     }
 }
 
-/// Row of scales: springs under bases and stiff contacts of some neighbours.
+/// Tangent of a row of scales on springs, with stiff contacts between some neighbours.
 ///
-/// The bases have half-width `a`. The forces are numbered between the displacements of their
-/// scales, the load after the displacements of the root.
+/// The unknowns of a contact follow or precede the displacements of the outer scale of its pair.
+/// The load follows the displacements of the root.
 struct ContactRow {
     chain: Chain,
     dense: DMatrix<f64>,
 }
 
 impl ContactRow {
+    /// Creates a row of scales with half-width `a` of the bases.
+    ///
+    /// `contacts` is the number of contacts of each pair of neighbours. `numbers` are random
+    /// numbers.
     fn new(
         root: usize,
         contacts: &[usize],
@@ -233,7 +247,7 @@ impl ContactRow {
                         row.dense[(force, at + k)] = part;
                         row.dense[(at + k, force)] = -part;
                     }
-                    // The force turns with the scale.
+                    // The direction of the force rotates with the scale.
                     row.dense[(at + 2, at + 2)] += 0.1 * a * number();
                 }
                 row.dense[(force, force)] = compliance;
@@ -246,6 +260,7 @@ impl ContactRow {
         row
     }
 
+    /// Adds `value` to the entries (`i`, `j`) and (`j`, `i`).
     fn add_symmetric(&mut self, i: usize, j: usize, value: f64) {
         self.dense[(i, j)] += value;
         self.dense[(j, i)] += value;
@@ -256,7 +271,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
 
     #[test]
-    fn rows_of_stiff_contacts_are_as_accurate_as_with_a_dense_solver(
+    fn solutions_of_rows_with_stiff_contacts_agree_with_a_dense_solver(
         root in 0_usize..10, contacts in prop::collection::vec(0_usize..3, 9),
         half_base in -2.0_f64..0.0, compliance in -18.0_f64..-3.0,
         numbers in prop::collection::vec(-1.0_f64..1.0, 200),
@@ -271,7 +286,7 @@ proptest! {
         prop_assume!(factorise(&mut solver, matrix).is_ok());
         let mut x = rhs.clone();
         solver.solve(&mut x);
-        // Residual of each equation, relative to its terms.
+        // The residual of each equation is compared with the sum of the magnitudes of its terms.
         for (i, rhs) in rhs.iter().enumerate() {
             let terms = (0..size).map(|j| row.dense[(i, j)] * x[j]);
             let (sum, scale) = terms.fold((-rhs, 1.0), |(s, a), t| (s + t, a + t.abs()));
@@ -283,8 +298,8 @@ proptest! {
 }
 
 #[test]
-fn a_block_held_only_by_its_inner_neighbour_is_refused() {
-    // The outer block is singular, but the matrix is regular.
+fn a_singular_block_of_a_regular_matrix_is_refused() {
+    // The outer block is zero; only the coupling to its inner neighbour makes the matrix regular.
     let chain = Chain { extras: vec![[0, 0]; 2], root: 1, reach: 1 };
     let dense =
         DMatrix::from_fn(6, 6, |i, j| f64::from(u8::from(i % 3 == j % 3 && (i >= 3 || j >= 3))));
@@ -294,7 +309,7 @@ fn a_block_held_only_by_its_inner_neighbour_is_refused() {
 }
 
 #[test]
-fn blocks_with_nan_are_refused() {
+fn blocks_that_are_not_finite_are_refused() {
     for value in [f64::NAN, f64::INFINITY] {
         let chain = Chain { extras: vec![[0, 0]; 2], root: 1, reach: 1 };
         let dense = DMatrix::from_fn(6, 6, |i, j| match (i, j) {
@@ -308,7 +323,7 @@ fn blocks_with_nan_are_refused() {
 }
 
 #[test]
-fn blocks_that_are_too_large_are_refused() {
+fn a_block_with_too_many_unknowns_is_refused() {
     let chain = Chain { extras: vec![[0, 8]], root: 0, reach: 1 };
     let dense = DMatrix::identity(11, 11);
     let mut solver = BlockElimination::default();
@@ -317,7 +332,7 @@ fn blocks_that_are_too_large_are_refused() {
 }
 
 #[test]
-fn entries_are_stored_at_their_position() {
+fn added_entries_are_returned_at_their_row_and_column() {
     let chain = Chain { extras: vec![[1, 2], [0, 1], [2, 0]], root: 1, reach: 1 };
     let size = chain.size();
     let mut left_out = vec![false; size];

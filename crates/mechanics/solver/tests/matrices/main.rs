@@ -1,4 +1,4 @@
-//! Matrices of every shape against dense ones.
+//! Tests of band, block and skyline matrices against dense matrices.
 
 mod bands;
 mod blocks;

@@ -1,4 +1,4 @@
-//! Inertia of symmetric matrices, against dense eigenvalues.
+//! Comparison of the factors of skyline matrices with the eigenvalues of dense matrices.
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -25,7 +25,7 @@ fn matrices(size: usize, reach: usize, numbers: &[f64]) -> (SkylineMatrix, DMatr
 
 proptest! {
     #[test]
-    fn negative_pivots_are_as_many_as_negative_eigenvalues(
+    fn the_number_of_negative_pivots_is_the_number_of_negative_eigenvalues(
         size in 1_usize..25, reach in 0_usize..8,
         numbers in prop::collection::vec(-1.0_f64..1.0, 97),
     ) {
@@ -46,7 +46,7 @@ proptest! {
 }
 
 #[test]
-fn a_vanishing_pivot_is_singular() {
+fn a_matrix_with_a_zero_pivot_is_refused() {
     let mut matrix = SkylineMatrix::new(vec![0, 0]);
     for (row, column) in [(0, 0), (1, 0), (1, 1)] {
         matrix.add(row, column, 1.0);

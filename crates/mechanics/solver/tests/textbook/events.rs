@@ -1,4 +1,4 @@
-//! Constraints that change sides.
+//! Events at which constraints become active or inactive.
 
 use approx::assert_relative_eq;
 use solver::{Continuation, Settings, State, System, Termination};
@@ -9,7 +9,7 @@ use crate::walls::Walls;
 use crate::{changes, extrema, follow, follow_modes, steps};
 
 #[test]
-fn a_bump_activates_and_deactivates_its_constraint() {
+fn a_bump_activates_its_constraint_and_then_deactivates_it() {
     let (points, stop) = follow(bump(), Settings::default());
     assert_eq!(stop, Termination::Reached);
     let changes = changes(&points);
@@ -25,9 +25,9 @@ fn a_bump_activates_and_deactivates_its_constraint() {
     }
 }
 
-/// At both events the path has two directions, one for each side.
+/// Compares incoming and outgoing directions at both events with the closed form.
 #[test]
-fn the_path_has_a_kink_where_a_bump_begins_and_ends() {
+fn the_path_has_a_kink_at_both_ends_of_a_bump() {
     let (points, _) = follow(bump(), Settings::default());
     let slopes = changes(&points).into_iter().map(|(point, _)| {
         [&point.arriving, &point.leaving].map(|direction| direction[2] / direction[0])
@@ -49,9 +49,9 @@ fn a_bump_within_one_step_is_not_missed() {
     assert_relative_eq!(positions[1], 3.0, max_relative = 1e-10);
 }
 
-/// The bump is found from any point and with steps of any length.
+/// Starts paths at different points with steps of different lengths.
 #[test]
-fn a_bump_within_a_later_step_is_not_missed() {
+fn a_bump_is_found_from_any_start_and_with_any_step() {
     for (start, step) in [(0.4, 1.0), (0.9, 0.7), (0.7, 0.6)] {
         let rest = State { z: vec![start, 0.0, 0.5 * start], active: vec![false], mode: () };
         let mut path = Continuation::new(Scaled::by_one(bump()), rest, steps(step));
@@ -66,9 +66,9 @@ fn a_bump_within_a_later_step_is_not_missed() {
     }
 }
 
-/// A step over the whole path touches the wall for a hundredth of its length.
+/// The wall is in contact only between `u = 0.69` and `u = 0.71`, within a single step.
 ///
-/// The cubic through the ends of the step equals the guard, so its minimum lies at the wall.
+/// The guard is a parabola, so the minimum of the cubic that predicts the contact is exact.
 #[test]
 fn a_thin_wall_within_one_step_is_not_missed() {
     let wall: fn(f64) -> [f64; 2] = |u| [(u - 0.7).powi(2) - 1e-4, 2.0 * (u - 0.7)];
@@ -86,9 +86,9 @@ fn a_thin_wall_within_one_step_is_not_missed() {
     }
 }
 
-/// The secant of the guard of the nearer wall would predict it beyond the farther wall.
+/// A secant of the curved guard of the nearer wall would predict contact behind the farther wall.
 #[test]
-fn the_nearer_of_two_walls_is_met_first() {
+fn the_nearer_of_two_walls_becomes_active_first() {
     let near: fn(f64) -> [f64; 2] =
         |u| [1.0 - (1.0 + 18.0 * u).log10(), -18.0 / (1.0 + 18.0 * u) / 10.0_f64.ln()];
     let far: fn(f64) -> [f64; 2] = |u| [0.6 - u, -1.0];
@@ -107,11 +107,11 @@ fn the_nearer_of_two_walls_is_met_first() {
     }
 }
 
-/// Two walls at one position: one carries the force and shields the other.
+/// Both walls are at the same position, but the shielding wall carries all of the force.
 ///
-/// The shielded wall never acts, in either order of evaluation.
+/// The result must not depend on the order of the walls.
 #[test]
-fn a_shielded_wall_stays_open() {
+fn a_shielded_wall_stays_inactive() {
     let wall: fn(f64) -> [f64; 2] = |u| [0.5 - u, -1.0];
     for (shielded, by) in [(0, 1), (1, 0)] {
         let walls = Walls::shielded(vec![wall, wall], shielded, by);
@@ -128,7 +128,7 @@ fn a_shielded_wall_stays_open() {
     }
 }
 
-/// Units are arbitrary: the path has the same points, in equal number.
+/// Compares the points of paths of the same system in different units.
 #[test]
 fn a_path_does_not_depend_on_the_units_of_its_unknowns() {
     fn compare(
@@ -160,7 +160,7 @@ fn a_path_does_not_depend_on_the_units_of_its_unknowns() {
 }
 
 #[test]
-fn a_path_that_turns_back_at_an_event_goes_on() {
+fn a_path_on_which_the_control_parameter_reverses_at_an_event_continues() {
     let (points, stop) = follow(corner(), Settings::default());
     assert_eq!(stop, Termination::Reached);
     let changes = changes(&points);
@@ -175,11 +175,9 @@ fn a_path_that_turns_back_at_an_event_goes_on() {
     assert_relative_eq!(end[1], 0.5 * (1.0 + 5.0_f64.sqrt()), max_relative = 1e-9);
 }
 
-/// On the reversed path of the corner, `p = u + 3c` still increases.
-///
-/// There `u = 1 − c + c²`.
+/// After the reversal of the control parameter `u = 1 − c + c²`, the load `p = u + 3c` increases.
 #[test]
-fn a_turn_at_an_event_is_no_load_extremum() {
+fn a_reversal_of_the_control_parameter_at_an_event_is_not_a_load_extremum() {
     let (points, _) = follow(corner(), Settings::default());
     assert_eq!(extrema(&points).len(), 0);
 }

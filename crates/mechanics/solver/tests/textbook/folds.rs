@@ -1,4 +1,4 @@
-//! Turning loads and control parameters.
+//! Paths with extrema of the load and reversals of the control parameter.
 
 use approx::assert_relative_eq;
 use solver::{Continuation, Settings, State, Termination};
@@ -9,7 +9,7 @@ use crate::scaled::Scaled;
 use crate::{extrema, follow, steps};
 
 #[test]
-fn the_extrema_of_an_arch_agree_with_its_cubic() {
+fn the_load_extrema_of_an_arch_agree_with_the_closed_form() {
     let (points, stop) = follow(arch(), Settings::default());
     assert_eq!(stop, Termination::Reached);
     let extrema = extrema(&points);
@@ -25,7 +25,7 @@ fn the_extrema_of_an_arch_agree_with_its_cubic() {
 }
 
 #[test]
-fn a_turning_control_parameter_is_followed() {
+fn the_path_is_followed_through_reversals_of_the_control_parameter() {
     let (points, stop) = follow(arch_on_spring(), steps(0.05));
     assert_eq!(stop, Termination::Reached);
     let mut before = 0.0;
@@ -33,7 +33,7 @@ fn a_turning_control_parameter_is_followed() {
         let [w, d, p] = point.state.z[..] else { unreachable!() };
         assert_relative_eq!(p, w * (1.0 - w) * (2.0 - w), epsilon = 1e-9);
         assert_relative_eq!(d, w + p / SPRING, epsilon = 1e-9);
-        // The arch snaps through continuously.
+        // The displacement of the arch increases continuously.
         assert!(before < w && w < before + 0.2, "from w = {before} to {w}");
         before = w;
     }
@@ -44,7 +44,7 @@ fn a_turning_control_parameter_is_followed() {
 }
 
 #[test]
-fn a_snap_back_does_not_depend_on_the_steps() {
+fn extrema_and_end_of_a_snap_back_do_not_depend_on_the_step_size() {
     let ends = [0.05, 0.005].map(|step| {
         let (points, stop) = follow(arch_on_spring(), steps(step));
         assert_eq!(stop, Termination::Reached);
@@ -58,11 +58,11 @@ fn a_snap_back_does_not_depend_on_the_steps() {
     }
 }
 
-/// The path starts at the lowest point and goes round once.
+/// The path starts at the lowest point of the circle and returns to this point.
 ///
-/// Where `x` reverses, the solver measures steps by the arc length.
+/// Near the reversals of `x` the solver measures steps by the arc length.
 #[test]
-fn a_circle_is_followed_all_the_way_round() {
+fn a_circle_is_followed_for_a_full_turn() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let mut path = Continuation::new(Scaled::by_one(circle()), start, Settings::default());
     let (mut turned, mut before) = (0.0, path.point().clone());
@@ -74,7 +74,7 @@ fn a_circle_is_followed_all_the_way_round() {
         let angle = (u * y - v * x).atan2(u * x + v * y);
         assert!(angle > 0.0);
         if turned + angle >= TAU {
-            // The chord is measured in x alone, which is zero at the start.
+            // The segment is measured by x, which is zero at the start of the path.
             let fraction = u / (u - x);
             let end = path.between(&before, &point, fraction).unwrap();
             assert_relative_eq!(end.state.z[0], 0.0, epsilon = 1e-12);
@@ -86,9 +86,9 @@ fn a_circle_is_followed_all_the_way_round() {
     }
 }
 
-/// Successive outgoing directions differ by at most 45°.
+/// The angle between successive outgoing directions must be at most 45°.
 #[test]
-fn steps_with_sharp_turns_are_shortened() {
+fn steps_on_a_strongly_curved_path_are_shortened() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let points: Vec<_> =
         Continuation::new(Scaled::by_one(circle()), start, steps(1.0)).take(100).collect();
@@ -104,7 +104,7 @@ fn steps_with_sharp_turns_are_shortened() {
 }
 
 #[test]
-fn the_load_of_a_circle_turns_at_the_top_and_at_the_bottom() {
+fn the_load_extrema_of_a_circle_are_at_the_top_and_at_the_bottom() {
     let start = State { z: vec![0.6, -0.8], active: Vec::new(), mode: () };
     let path = Continuation::new(Scaled::by_one(circle()), start, Settings::default());
     let points: Vec<_> = path.take(300).collect();
@@ -118,9 +118,9 @@ fn the_load_of_a_circle_turns_at_the_top_and_at_the_bottom() {
 
 /// The critical load is `λ = 2 (2θ/cosh θ)²` with `θ tanh θ = 1`.
 ///
-/// The error of central differences is `O(h²)`.
+/// The error of central differences is of second order in the length of the intervals.
 #[test]
-fn bratu_folds_at_the_critical_load() {
+fn the_fold_of_bratus_problem_converges_to_the_critical_load() {
     let critical = 3.513_830_719_125_16;
     let loads = [10, 20, 40].map(|intervals| {
         let (points, stop) = follow(Bratu::new(intervals), Settings::default());
@@ -139,13 +139,13 @@ fn bratu_folds_at_the_critical_load() {
 }
 
 #[test]
-fn a_path_is_the_same_every_time() {
+fn a_path_is_reproducible() {
     let [first, second] = [(); 2].map(|()| follow(arch_on_spring(), Settings::default()).0);
     assert_eq!(first, second);
 }
 
 #[test]
-fn intermediate_equilibria_lie_on_the_path() {
+fn equilibria_between_two_points_lie_on_the_path() {
     let mut path =
         Continuation::new(Scaled::by_one(arch()), State::at_rest(&arch()), Settings::default());
     let start = path.point().clone();

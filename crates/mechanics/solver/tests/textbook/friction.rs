@@ -1,4 +1,4 @@
-//! Block with friction: history in the mode, and an unsymmetric tangent.
+//! Block with friction: a system with history in its mode and an unsymmetric tangent.
 
 use approx::assert_relative_eq;
 use solver::{
@@ -7,26 +7,29 @@ use solver::{
 
 use crate::{follow_modes, steps};
 
-/// Friction coefficient, and relative normal-force increase with displacement.
+/// Friction coefficient `μ`.
 const FRICTION: f64 = 0.2;
+/// Relative increase `c` of the normal force per unit displacement.
 const WEDGE: f64 = 0.5;
 
-/// Block on a spring of stiffness 1, pushed by `f = 4 D (1 − D)` with friction.
+/// Block with friction on a spring of stiffness 1, under the force `f = 4 D (1 − D)`.
 ///
-/// The friction force obeys `|T| ≤ μ (1 + c u)`.
-///
-/// Unknowns `u, T, s⁺, s⁻, D`: the block sticks at the anchor `u₀`, its mode, while both slip
-/// distances `s` are inactive.
+/// The friction force satisfies `|T| ≤ μ (1 + c u)`. The unknowns are the displacement `u`, `T`,
+/// the slip distances `s⁺` and `s⁻` in both directions, and `D`, which is load and control
+/// parameter. While both slip distances are inactive, the block sticks at the anchor `u₀`, which is
+/// stored in the mode.
 struct Block {
     controls: [Control; 1],
     blocks: Option<Blocks>,
 }
 
+/// Creates the block, with or without a block structure of its tangent.
 fn block(in_blocks: bool) -> Block {
     let blocks = Blocks { starts: vec![0], links: vec![0], root: 0, reach: 1 };
     Block { controls: [Control { index: 4, scale: 1.0 }], blocks: in_blocks.then_some(blocks) }
 }
 
+/// Returns the largest magnitude of the friction force.
 fn limit(u: f64) -> f64 {
     FRICTION * (1.0 + WEDGE * u)
 }
@@ -78,8 +81,8 @@ impl System for Block {
         match active[..] {
             [true, _] => residual.add(1, z[1] - limit(z[0])),
             [_, true] => residual.add(1, z[1] + limit(z[0])),
-            // This sign preserves the determinant where the block begins to slip, so that a
-            // reversed path is detected.
+            // With this sign of the equation, the determinant keeps its sign when the block begins
+            // to slip. The solver detects reversed paths by this sign.
             _ => residual.add(1, mode - z[0]),
         }
     }
@@ -104,14 +107,15 @@ impl System for Block {
     }
 
     fn transition(&self, state: &mut State<f64>, change: Change) -> Option<usize> {
-        // At the start and at the end of slip, the block is at its anchor.
+        // When slip begins or ends, the current position becomes the anchor.
         state.mode = state.z[0];
         Some(change.constraint)
     }
 }
 
-/// Displacement at the reversal, and at the end: `u = (f ∓ μ)/(1 ± μ c)`.
+/// Displacement `u = (1 − μ)/(1 + μ c)` at the largest force `f = 1`, where the slip reverses.
 const TURNED: f64 = (1.0 - FRICTION) / (1.0 + FRICTION * WEDGE);
+/// Displacement `u = μ/(1 − μ c)` at the end, at `f = 0`.
 const LEFT: f64 = FRICTION / (1.0 - FRICTION * WEDGE);
 
 #[test]
@@ -121,8 +125,8 @@ fn a_block_sticks_slips_sticks_and_slips_back() {
         assert_eq!(stop, Termination::Reached);
         let changes: Vec<_> = points.iter().filter(|point| point.event.is_some()).collect();
         let [slides, stops, back, _] = &changes[..] else { panic!("{changes:?}") };
-        // The block slips from f = μ on, stops at the maximum push, and slips back from f = u₀ − μ
-        // (1 + c u₀) on.
+        // The block slips from f = μ on, sticks from the maximum f = 1 on, and slips back from
+        // f = u₀ − μ (1 + c u₀) on.
         let [slide, slide_back] =
             [FRICTION, TURNED - limit(TURNED)].map(|push| 0.5 - 0.5 * (1.0 - push).sqrt());
         assert_relative_eq!(slides.state.z[4], slide, max_relative = 1e-10);
@@ -133,14 +137,15 @@ fn a_block_sticks_slips_sticks_and_slips_back() {
     }
 }
 
-/// The tangent of a slipping block is not symmetric.
+/// Checks the tangent of the block, which is unsymmetric while the block slips.
 #[test]
 fn the_tangent_of_a_slipping_block_agrees_with_differences() {
     let (points, _) = follow_modes(block(true), steps(0.05));
     for point in points {
         check_tangent(&block(true), &point.state, 1e-8).unwrap_or_else(|wrong| {
-            // Rows of slip distances may differ: the tangent has the slope of the condition if a
-            // slip distance is inactive, and its own equation if it is active.
+            // Only the rows of slip distances may differ. For an active slip distance the check
+            // compares the slope of `conditions` with differences of `residual`, which has another
+            // equation in this row.
             assert!(wrong.row >= 2, "{wrong}");
         });
     }

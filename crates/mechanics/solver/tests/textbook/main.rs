@@ -1,4 +1,4 @@
-//! Paths and equilibria with known answers.
+//! Tests of paths and equilibria against known solutions.
 
 mod events;
 mod folds;
@@ -15,12 +15,14 @@ mod work;
 use scaled::Scaled;
 use solver::{Continuation, Equilibrium, Event, Settings, State, System, Termination};
 
-/// Returns settings with a largest step.
+/// Returns settings in which the first and the largest step have the length `largest`.
 fn steps(largest: f64) -> Settings {
     Settings { first_step: largest, max_step: largest, ..Settings::default() }
 }
 
-/// Returns all points of a path from rest, and the reason of its end.
+/// Follows the path of a system without modes, and returns its points and its termination.
+///
+/// The path starts at rest, which is not among the returned points.
 fn follow(
     system: impl System<Mode = ()> + 'static,
     settings: Settings,
@@ -28,7 +30,7 @@ fn follow(
     follow_modes(Scaled::by_one(system), settings)
 }
 
-/// Follows the path of a system with any modes, see [`follow`].
+/// Follows the path of a system with modes, otherwise like [`follow`].
 fn follow_modes<S: System>(
     system: S,
     settings: Settings,
@@ -39,13 +41,15 @@ fn follow_modes<S: System>(
     (points, path.termination().expect("an ended path has a termination"))
 }
 
-/// Returns the states at the load extrema of a path.
+/// Returns the unknowns at each load extremum of a path.
 fn extrema(points: &[Equilibrium]) -> Vec<&[f64]> {
     let extrema = points.iter().filter(|point| point.event == Some(Event::LoadExtremum));
     extrema.map(|point| point.state.z.as_slice()).collect()
 }
 
-/// Returns the constraints that change sides along a path, with their points.
+/// Returns the points of a path at which constraints become active or inactive.
+///
+/// For each point, lists number and new state (true if active) of the changed constraints.
 fn changes(points: &[Equilibrium]) -> Vec<(&Equilibrium, Vec<(usize, bool)>)> {
     let changes = points.iter().filter_map(|point| match &point.event {
         Some(Event::Changed(changes)) => {

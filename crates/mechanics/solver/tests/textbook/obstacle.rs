@@ -1,4 +1,4 @@
-//! String above a floor.
+//! Tests with a string above a floor, which has many contacts.
 
 use approx::assert_relative_eq;
 use solver::{Condition, Newton, Settings, State, System, Termination};
@@ -7,7 +7,7 @@ use crate::problems::{DEPTH, StringOverFloor};
 use crate::{changes, follow, steps};
 
 #[test]
-fn a_loaded_string_settles_on_the_floor() {
+fn deflections_of_a_string_on_the_floor_agree_with_the_closed_form() {
     for load in [0.5, 0.9, 3.0, 40.0] {
         let string = StringOverFloor::whole(40, load);
         let (points, stop) = follow(string.clone(), Settings::default());
@@ -23,11 +23,11 @@ fn a_loaded_string_settles_on_the_floor() {
     }
 }
 
-/// Nodes without contact have no force, whatever the initial iterate.
+/// Newton's method starts with forces at inactive constraints.
 ///
-/// Nodes that just touch stay open.
+/// The load is the one at which the middle node just touches the floor.
 #[test]
-fn nodes_without_force_stay_open() {
+fn newtons_method_sets_the_forces_of_inactive_constraints_to_zero() {
     let string = StringOverFloor::whole(4, 1.0);
     let mut newton = Newton::new(&string);
     let touching = string.touching_load(2);
@@ -63,7 +63,7 @@ fn the_floor_supports_nodes_one_after_the_other() {
 }
 
 #[test]
-fn symmetric_nodes_close_together() {
+fn contacts_of_symmetric_nodes_close_at_the_same_event() {
     let string = StringOverFloor::whole(20, 10.0);
     let (points, stop) = follow(string.clone(), Settings::default());
     assert_eq!(stop, Termination::Reached);
@@ -84,7 +84,7 @@ fn symmetric_nodes_close_together() {
 }
 
 #[test]
-fn events_do_not_depend_on_the_steps() {
+fn events_do_not_depend_on_the_step_size() {
     let loads = [0.1, 0.01].map(|step| {
         let (points, _) = follow(StringOverFloor::halved(40, 20.0), steps(step));
         let loads = changes(&points).into_iter().map(|(point, _)| point.state.z[40]);

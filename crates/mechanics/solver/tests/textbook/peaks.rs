@@ -1,4 +1,4 @@
-//! Maximum slopes of a path.
+//! Tests of the search for the maximum slope of a path.
 
 use approx::assert_relative_eq;
 use solver::{Continuation, Equilibrium, Peak, State, System};
@@ -7,20 +7,20 @@ use crate::problems::{arch, kink, step, two_laws};
 use crate::scaled::Scaled;
 use crate::steps;
 
-/// Returns the largest slope `dp/du` from rest, at points and between them.
+/// Returns the largest slope `dp/du` of a path at its points, and the largest also between them.
 fn steepest(system: impl System<Mode = ()> + 'static, largest_step: f64) -> [f64; 2] {
     steepest_of_modes(Scaled::by_one(system), largest_step)
 }
 
-/// Returns the largest slope of a system with any modes, see [`steepest`].
+/// Returns the largest slopes for a system with modes, otherwise like [`steepest`].
 fn steepest_of_modes<S: System>(system: S, largest_step: f64) -> [f64; 2] {
     let load = system.load();
     largest(system, largest_step, |_, direction| direction[load] / direction[0])
 }
 
-/// Returns the maximum of a function of state and direction.
+/// Returns the largest value of `f` on a path at its points, and the largest also between them.
 ///
-/// It is evaluated at points and between them.
+/// `f` is a function of state and path direction.
 fn largest<S: System>(
     system: S,
     largest_step: f64,
@@ -46,7 +46,7 @@ fn largest<S: System>(
 fn the_largest_slope_is_located_between_points() {
     for largest_step in [0.13, 0.047, 0.017, 0.0031] {
         let mut system = step();
-        // Start from rest: shifting the load satisfies the equation at u = 0.
+        // The constant shifts the load so that the state of rest satisfies the equation.
         system.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
         let [sampled, refined] = steepest(system, largest_step);
         assert!(sampled < 4.0 - 1e-9, "{sampled} at steps of {largest_step}");
@@ -55,7 +55,7 @@ fn the_largest_slope_is_located_between_points() {
 }
 
 #[test]
-fn a_largest_slope_at_the_start_of_the_path_is_found() {
+fn the_largest_slope_is_found_at_the_start_of_the_path() {
     let mut system = arch();
     system.controls[0].scale = 1.0;
     let [sampled, refined] = steepest(system, 0.05);
@@ -63,9 +63,9 @@ fn a_largest_slope_at_the_start_of_the_path_is_found() {
     assert_relative_eq!(refined, 2.0, max_relative = 1e-12);
 }
 
-/// Returns the maximum slope of the [`kink`].
+/// Returns the maximum slope of [`kink`] with the decay `k` in closed form.
 ///
-/// `(c^1.1 e^(−kc))′` has its maximum where `(kc)² − 2.2 kc + 0.11 = 0`.
+/// The maximum of `(c^1.1 e^(−kc))′` is at the solution of `(kc)² − 2.2 kc + 0.11 = 0`.
 fn steepest_behind_the_kink(decay: f64) -> f64 {
     let scaled = 1.1 - (1.1_f64.powi(2) - 0.11).sqrt();
     let c = scaled / decay;
@@ -82,8 +82,8 @@ fn a_maximum_close_behind_a_kink_is_found() {
 
 /// The maximum lies within the first thousandth of a segment.
 ///
-/// It is located to `10⁻⁵`, a hundredth of its distance from the kink. The error of the value is
-/// quadratic in this, some `(10⁻³)²`. The function is lower elsewhere, where the slope is 1 too.
+/// Far from the kink the slope is 1, so the distance from the kink is subtracted there to exclude
+/// other maxima.
 #[test]
 fn a_maximum_very_close_behind_a_kink_is_found() {
     for largest_step in [0.13, 0.047, 0.011] {
@@ -97,7 +97,7 @@ fn a_maximum_very_close_behind_a_kink_is_found() {
 }
 
 #[test]
-fn a_peak_before_a_change_of_mode_belongs_to_the_earlier_mode() {
+fn a_maximum_before_a_change_of_mode_is_evaluated_in_the_earlier_mode() {
     for largest_step in [0.047, 0.031] {
         let [_, refined] = steepest_of_modes(two_laws(), largest_step);
         assert_relative_eq!(refined, 3.0, max_relative = 1e-8);

@@ -1,4 +1,4 @@
-//! Problems with known answers.
+//! Problems with known solutions.
 
 mod bratu;
 mod one_constraint;
@@ -14,7 +14,7 @@ pub use smooth::{
 };
 pub use string_over_floor::{DEPTH, StringOverFloor};
 
-/// Creates control parameters from indices and scales.
+/// Creates controls from pairs of index and scale.
 fn controls(controls: &[(usize, f64)]) -> Vec<Control> {
     controls.iter().map(|&(index, scale)| Control { index, scale }).collect()
 }

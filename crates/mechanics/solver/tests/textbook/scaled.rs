@@ -1,13 +1,14 @@
-//! Systems behind a pointer, in their own or in other units.
+//! Wrapper for systems, with a change of the units of their unknowns.
 //!
-//! The solver is then compiled for one type instead of one for each problem.
+//! The wrapper contains the system as a trait object, so that the solver is compiled for a single
+//! type instead of for each problem.
 
 use std::borrow::Cow;
 use std::rc::Rc;
 
 use solver::{BandMatrix, Change, Control, Residual, State, System, Tangent};
 
-/// Methods of a [`System`] without history, callable through a pointer.
+/// Object-safe methods of a [`System`] without modes.
 trait Problem {
     fn size(&self) -> usize;
     fn half_bandwidth(&self) -> usize;
@@ -60,9 +61,7 @@ impl<S: System<Mode = ()>> Problem for S {
     }
 }
 
-/// System in other units: `factors` multiply unknowns and control scales.
-///
-/// The path is the same.
+/// System in other units: its unknowns and control scales are multiplied by `factors`.
 #[derive(Clone)]
 pub struct Scaled {
     system: Rc<dyn Problem>,
@@ -71,7 +70,7 @@ pub struct Scaled {
 }
 
 impl Scaled {
-    /// Factors of constraints must be positive.
+    /// Wraps `system`; `factors` has one factor per unknown, positive for constraints.
     pub fn new(system: impl System<Mode = ()> + 'static, factors: Vec<f64>) -> Self {
         let mut controls = system.controls().to_vec();
         for control in &mut controls {
@@ -80,17 +79,18 @@ impl Scaled {
         Self { system: Rc::new(system), factors, controls }
     }
 
-    /// Returns a system in its own units.
+    /// Wraps `system` without a change of units.
     pub fn by_one(system: impl System<Mode = ()> + 'static) -> Self {
         let factors = vec![1.0; System::size(&system)];
         Self::new(system, factors)
     }
 
+    /// Returns the state in the units of the wrapped system.
     fn unscaled_state(&self, state: &State) -> State {
         State { z: self.unscaled(&state.z), ..state.clone() }
     }
 
-    /// Returns the unknowns in the units of the system.
+    /// Returns the unknowns in the units of the wrapped system.
     pub fn unscaled<'a>(&self, z: impl Into<Cow<'a, [f64]>>) -> Vec<f64> {
         z.into().iter().zip(&self.factors).map(|(z, factor)| z / factor).collect()
     }

@@ -1,4 +1,4 @@
-//! Every reason for which a path can end.
+//! Tests of the reasons for the end of a path.
 
 use approx::assert_relative_eq;
 use solver::{Condition, Continuation, Event, Newton, NewtonFailure, Settings, State, Termination};
@@ -17,7 +17,7 @@ fn a_path_ends_at_its_target() {
 }
 
 #[test]
-fn a_path_of_a_pushing_load_ends_at_zero_load() {
+fn a_path_under_a_load_that_can_only_push_ends_at_zero_load() {
     for step in [0.01, 0.1, 0.5] {
         let (points, stop) = follow(pushed_arch(), steps(step));
         let last = points.last().unwrap();
@@ -29,19 +29,19 @@ fn a_path_of_a_pushing_load_ends_at_zero_load() {
 }
 
 #[test]
-fn a_discontinuous_path_does_not_converge() {
+fn a_path_ends_without_convergence_at_a_discontinuity() {
     let (points, stop) = follow(jump(), Settings::default());
     assert_eq!(stop, Termination::NoConvergence);
     assert_relative_eq!(points.last().unwrap().state.z[0], 0.5, max_relative = 1e-6);
 }
 
 #[test]
-fn a_stationary_control_parameter_is_singular() {
+fn the_tangent_is_singular_where_the_control_parameter_is_stationary() {
     let (points, stop) = follow(parabola(), Settings::default());
     assert_eq!((points.len(), stop), (0, Termination::Singular));
 }
 
-/// The column buckles at the load 1.
+/// The column may buckle at the load 1; the path must follow the straight column.
 #[test]
 fn a_path_keeps_its_branch_at_a_bifurcation() {
     let mut path =
@@ -51,7 +51,7 @@ fn a_path_keeps_its_branch_at_a_bifurcation() {
 }
 
 #[test]
-fn a_path_without_end_has_too_many_points() {
+fn a_path_without_end_stops_at_the_largest_number_of_points() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let settings = Settings { max_points: 50, ..Settings::default() };
     let mut path = Continuation::new(Scaled::by_one(circle()), start, settings);
@@ -59,7 +59,7 @@ fn a_path_without_end_has_too_many_points() {
     assert_eq!(path.termination(), Some(Termination::TooManyPoints));
 }
 
-/// `max_work` holds for the default step size; steps a thousand times smaller raise the limit.
+/// With steps a thousand times smaller than the default, the limit is a thousand times larger.
 #[test]
 fn smaller_steps_raise_the_limit_on_work() {
     let (first_step, max_step, max_work) = (2e-4, 2e-4, 3000);
@@ -69,9 +69,9 @@ fn smaller_steps_raise_the_limit_on_work() {
     assert_eq!(stop, Termination::Reached);
 }
 
-/// The circle passes its two load extrema again and again.
+/// The path on a circle passes both load extrema again and again.
 #[test]
-fn a_path_that_goes_to_and_fro_makes_no_progress() {
+fn a_path_that_returns_to_the_same_events_stops_without_progress() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let mut path = Continuation::new(Scaled::by_one(circle()), start, Settings::default());
     let points = path.by_ref().count();
@@ -80,7 +80,7 @@ fn a_path_that_goes_to_and_fro_makes_no_progress() {
 }
 
 #[test]
-fn a_path_outside_the_domain_of_its_equations_is_not_finite() {
+fn a_path_ends_as_not_finite_at_the_end_of_the_domain_of_its_equations() {
     let start = State { z: vec![0.0, 0.5_f64.sqrt()], active: Vec::new(), mode: () };
     let mut path = Continuation::new(Scaled::by_one(root()), start, Settings::default());
     let last = path.by_ref().last().unwrap();
@@ -89,20 +89,20 @@ fn a_path_outside_the_domain_of_its_equations_is_not_finite() {
 }
 
 #[test]
-fn a_constraint_that_never_settles_cycles() {
+fn a_path_ends_as_cycling_if_both_directions_violate_a_constraint() {
     let (points, stop) = follow(Unwilling::Refusing(kink::<5>()), Settings::default());
     assert_eq!(stop, Termination::Cycling);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
 #[test]
-fn a_constraint_that_cannot_change_sides_is_singular() {
+fn a_path_ends_as_singular_if_the_transition_of_a_constraint_fails() {
     let (points, stop) = follow(Unwilling::Stuck(kink::<5>()), Settings::default());
     assert_eq!(stop, Termination::Singular);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
-/// Equations with large terms are satisfied up to their large round-off.
+/// Equations with large terms have large round-off errors, which must not prevent convergence.
 #[test]
 fn equations_are_satisfied_relative_to_their_terms() {
     let mut path =
@@ -116,7 +116,7 @@ fn equations_are_satisfied_relative_to_their_terms() {
 }
 
 #[test]
-fn newton_failures_state_their_reason() {
+fn failures_of_newtons_method_state_their_reason() {
     let settings = Settings::default();
     let impatient = Settings { max_iterations: 0, ..Settings::default() };
     let failures =
@@ -132,7 +132,7 @@ fn newton_failures_state_their_reason() {
 }
 
 #[test]
-fn terminations_have_names() {
+fn terminations_are_displayed_by_their_names() {
     let stops = [
         Termination::Reached,
         Termination::Unloaded,

@@ -1,4 +1,4 @@
-//! Tangents of the problems against differences of their residuals.
+//! Comparison of the tangents of the problems with differences of their residuals.
 
 use solver::{Change, Control, Residual, State, System, Tangent, check_tangent};
 
@@ -7,17 +7,18 @@ use crate::problems::{
     parabola, root, step,
 };
 
-/// Returns a state with all constraints active.
+/// Returns the state with the unknowns `z` and with all constraints active.
 fn state<S: System<Mode = ()>>(system: &S, z: &[f64]) -> State {
     State { z: z.to_vec(), active: vec![true; system.constraints().len()], mode: () }
 }
 
+/// Checks the tangent of `system` at the unknowns `z`.
 fn check<S: System<Mode = ()>>(system: &S, z: &[f64]) {
     check_tangent(system, &state(system, z), 2e-9).unwrap();
 }
 
 #[test]
-fn tangents_are_derivatives() {
+fn tangents_are_derivatives_of_the_residuals() {
     check(&arch(), &[0.3, 0.2]);
     check(&arch_on_spring(), &[0.3, 0.4, 0.2]);
     check(&circle(), &[0.3, 0.4]);
@@ -32,10 +33,13 @@ fn tangents_are_derivatives() {
     check(&string, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
 }
 
-/// Bead on a bump with one wrong entry of its tangent or slope.
+/// System with an error in one entry of its tangent or in its slope.
 struct Wrong {
+    /// System with correct derivatives.
     right: OneConstraint,
+    /// Row and column of the wrong entry, if any.
     entry: Option<(usize, usize)>,
+    /// Error of the slope.
     slope: f64,
 }
 
@@ -89,8 +93,8 @@ fn a_wrong_derivative_is_reported() {
     let entries = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2)].map(Some);
     let mut cases = entries.map(|entry| (entry, 0.0, true, entry)).to_vec();
     cases.extend([(None, 0.0, true, None), (None, 1e-6, true, Some((1, 0)))]);
-    // The solver uses only the slope of an inactive constraint, so errors in its row and column are
-    // accepted.
+    // Of an inactive constraint the solver uses only the slope, so errors in its row and column of
+    // the tangent are accepted.
     cases.push((None, 1e-6, false, Some((1, 0))));
     cases.extend([(1, 0), (1, 2), (0, 1)].map(|entry| (Some(entry), 0.0, false, None)));
     for (entry, slope, active, expected) in cases {

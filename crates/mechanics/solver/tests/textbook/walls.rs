@@ -1,23 +1,25 @@
-//! Coordinate pushed against walls.
+//! System with one displacement that is limited by compliant walls.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use solver::{Control, Residual, State, System, Tangent};
 
-/// Coordinate `u` under a load `p`, against compliant walls.
+/// Displacement `u` under a load `p`, with compliant walls.
 ///
-/// `p = u + Σ c_k` with `0 ≤ c_k ⟂ r_k(u) + c_k + s_k ≥ 0`, and `s_k` twice the force on the wall
-/// that shields wall `k`. Unknowns `u, c_1, c_2 … p`; driven by `u` to 1.
+/// `c_k` is the force of wall `k`. The equations are `p = u + Σ c_k` and
+/// `0 ≤ c_k ⟂ r_k(u) + c_k + s_k ≥ 0`. The term `s_k` is twice the force of the wall that shields
+/// wall `k`, or zero without such a wall. The unknowns are `u, c_1, c_2 … p`, and the control
+/// parameter is `u` with the target 1.
 #[derive(Clone)]
 pub struct Walls {
-    /// `r_k` and its derivative.
+    /// Function `r_k` of each wall, with its derivative.
     gaps: Vec<fn(f64) -> [f64; 2]>,
-    /// Shielded wall and shielding wall.
+    /// Number of the shielded wall and of the wall that shields it.
     shielded: Option<(usize, usize)>,
     constraints: Vec<usize>,
     controls: Vec<Control>,
-    /// Number of evaluated tangents.
+    /// Number of evaluations of the tangent.
     pub tangents: Arc<AtomicUsize>,
 }
 
@@ -28,12 +30,12 @@ impl Walls {
         Self { gaps, shielded: None, constraints, controls, tangents: Arc::default() }
     }
 
-    /// Creates walls, one of which is shielded by another.
+    /// Creates walls of which the wall `wall` is shielded by the wall `by`.
     pub fn shielded(gaps: Vec<fn(f64) -> [f64; 2]>, wall: usize, by: usize) -> Self {
         Self { shielded: Some((wall, by)), ..Self::new(gaps) }
     }
 
-    /// Creates walls with the load as a second measure of the path.
+    /// Creates walls with the load as a second control.
     pub fn measured_by_the_load(gaps: Vec<fn(f64) -> [f64; 2]>) -> Self {
         let mut walls = Self::new(gaps);
         walls.controls.push(Control { index: walls.load(), scale: 1.0 });

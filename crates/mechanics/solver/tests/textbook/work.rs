@@ -1,7 +1,7 @@
-//! Work of a path: numbers of points and Newton iterations.
+//! Upper bounds for the work of a path: numbers of points and Newton iterations.
 //!
-//! A slowly converging search or a needlessly cut step still reaches the same equilibria and shows
-//! only here. The counts are upper bounds: lower them when the solver improves.
+//! A search that converges slowly, or a step that is needlessly shortened, leads to the same
+//! equilibria, so other tests do not reveal them. Lower the bounds when the solver improves.
 
 use std::sync::atomic::Ordering;
 
@@ -14,12 +14,12 @@ use crate::scaled::Scaled;
 use crate::steps;
 use crate::walls::Walls;
 
-/// Returns the points and Newton iterations of a path from rest.
+/// Returns the numbers of points and Newton iterations of a path from rest.
 fn work(system: impl System<Mode = ()> + 'static, settings: Settings) -> [usize; 2] {
     work_of_modes(Scaled::by_one(system), settings)
 }
 
-/// Returns the work of a system with any modes, see [`work`].
+/// Returns the work for a system with modes, otherwise like [`work`].
 fn work_of_modes<S: System>(system: S, settings: Settings) -> [usize; 2] {
     let rest = State::at_rest(&system);
     let mut path = Continuation::new(system, rest, settings);
@@ -51,16 +51,16 @@ fn paths_with_extrema_take_few_iterations() {
 }
 
 #[test]
-fn paths_with_turning_control_parameters_take_few_iterations() {
+fn paths_with_reversals_of_the_control_parameter_take_few_iterations() {
     assert_at_most(&work(arch_on_spring(), Settings::default()), &[45, 411]);
     assert_at_most(&work(arch_on_spring(), steps(0.4)), &[42, 432]);
 }
 
-/// Reaches the maximum slope of `p = tanh 4 (u − 0.6)`, a steep target.
+/// The target is at the maximum slope of `p = tanh 4 (u − 0.6)`.
 ///
-/// The step is measured by arc length and passes the target.
+/// Steps near the target are measured by the arc length and end beyond the target.
 #[test]
-fn a_steep_target_takes_few_iterations() {
+fn a_target_on_a_steep_path_takes_few_iterations() {
     let mut steep = step();
     let [progress, load] = [(0, 0.6), (1, 0.03)].map(|(index, scale)| Control { index, scale });
     steep.controls = vec![progress, load];
@@ -82,9 +82,9 @@ fn paths_with_constraints_take_few_iterations() {
     assert_at_most(&work(StringOverFloor::whole(20, 10.0), steps(0.5)), &[9, 17]);
 }
 
-/// Returns the number of samples of a search for a maximum.
+/// Returns the number of samples in the search for the maximum slope.
 ///
-/// Each sample evaluates the quantity three times, for its value and its slope.
+/// Each sample evaluates the slope of the path three times, for a value and a derivative.
 fn samples<S: System>(system: S, largest_step: f64) -> usize {
     let load = system.load();
     let count = std::cell::Cell::new(0);
@@ -118,9 +118,9 @@ fn a_maximum_between_points_takes_few_evaluations() {
     assert_at_most(&[0.047, 0.031].map(|step| samples(two_laws(), step)), &[8, 7]);
 }
 
-/// Walls at one position close together, without a separate solve for each.
+/// Walls at one position become active together, without a separate solution for each wall.
 #[test]
-fn coincident_walls_take_no_longer_than_one() {
+fn the_number_of_tangents_does_not_depend_on_the_number_of_coincident_walls() {
     let [few, many] = [2, 20].map(|count| {
         let walls = Walls::new(vec![|u| [0.5 - u, -1.0]; count]);
         let counter = walls.tangents.clone();

@@ -1,11 +1,11 @@
-//! Bratu's problem, with a fold at a known critical load.
+//! Bratu's problem, which has a fold at a known critical load.
 
 use solver::{Control, Residual, State, System, Tangent};
 
 /// Bratu's problem `u″ + λ eᵘ = 0` on the unit interval, by central differences.
 ///
-/// `u = 0` at the ends (Bratu 1914); driven by `u` in the middle. `λ` has its maximum 3.513 830 719
-/// where `cosh θ = θ sinh θ`.
+/// `u` is zero at both ends (Bratu 1914). The load is `λ`, the control parameter is `u` in the
+/// middle. The maximum of `λ` is 3.513 830 719, at the solution of `cosh θ = θ sinh θ`.
 #[derive(Clone)]
 pub struct Bratu {
     intervals: usize,
@@ -17,6 +17,7 @@ impl Bratu {
         Self { intervals, controls: [Control { index: intervals / 2 - 1, scale: 3.0 }] }
     }
 
+    /// Returns the length of an interval.
     fn h(&self) -> f64 {
         1.0 / self.intervals as f64
     }

@@ -1,18 +1,19 @@
-//! Systems with one constraint: kinks, changes of mode, constraints that cannot change.
+//! Systems with one constraint: kinks, a change of mode, constraints that cannot become active.
 
 use solver::{Change, Control, Residual, State, System, Tangent};
 
 use super::controls;
 
-/// System with coordinate `u`, constraint `0 ≤ c ⟂ r(u, c) ≥ 0`, `p = f(u, c)`.
+/// System with the unknowns `u, c, p`, given by two functions.
 ///
-/// Unknowns `u, c, p`; driven by `u`.
+/// The constraint is `0 ≤ c ⟂ r(u, c) ≥ 0`, the load is `p = f(u, c)`, and the control parameter
+/// is `u`.
 #[derive(Clone)]
 pub struct OneConstraint {
     pub controls: Vec<Control>,
-    /// `r` and its derivatives with respect to `u` and `c`.
+    /// Function `r` with its derivatives with respect to `u` and `c`.
     pub condition: fn(f64, f64) -> [f64; 3],
-    /// `f` and its derivatives with respect to `u` and `c`.
+    /// Function `f` with its derivatives with respect to `u` and `c`.
     pub load: fn(f64, f64) -> [f64; 3],
 }
 
@@ -61,9 +62,10 @@ impl System for OneConstraint {
     }
 }
 
-/// Bead drawn along a wire over a bump `1 − (u − 2)²`, held down by a unit spring.
+/// Bead that is pulled along a straight wire over a bump of height `1 − (u − 2)²`.
 ///
-/// The bump lifts it by `c` from `u = 1` to `u = 3`, and `p = u/2 + 2 c (2 − u)`.
+/// From `u = 1` to `u = 3` the bump lifts the bead by `c` against a unit spring. The load is
+/// `p = u/2 + 2 c (2 − u)`.
 pub fn bump() -> OneConstraint {
     OneConstraint {
         controls: controls(&[(0, 4.0)]),
@@ -72,10 +74,10 @@ pub fn bump() -> OneConstraint {
     }
 }
 
-/// Corner: `0 ≤ c ⟂ 1 − u − c + c² ≥ 0`, `p = u + 3 c`.
+/// Constraint `0 ≤ c ⟂ 1 − u − c + c² ≥ 0` with the load `p = u + 3 c`.
 ///
-/// The path arrives at `u = 1`, reverses to `u = 3/4`, and then reaches its target `u = 2` with
-/// `c = (1 + √5)/2`.
+/// The control parameter increases to `u = 1`, where the constraint becomes active. From there it
+/// decreases to `u = 3/4`, and then increases to its target `u = 2`, with `c = (1 + √5)/2`.
 pub fn corner() -> OneConstraint {
     OneConstraint {
         controls: controls(&[(0, 2.0), (1, 1.0)]),
@@ -84,16 +86,17 @@ pub fn corner() -> OneConstraint {
     }
 }
 
-/// Kink: a constraint that acts from `u = 0.5` on with a force `c^1.1 e^(−kc)`.
+/// Constraint that becomes active at `u = 0.5` and then adds `c^1.1 e^(−kc)` to the load.
 ///
-/// `c = u − 0.5` and the decay is `k`. The force has infinite curvature at first and its maximum
-/// slope soon after.
+/// `c = u − 0.5`, and `k` is `DECAY`. The curvature of the load is infinite just behind the kink,
+/// and the maximum slope is close behind it.
 pub fn kink<const DECAY: u32>() -> OneConstraint {
     OneConstraint {
         controls: controls(&[(0, 1.0)]),
         condition: |u, c| [0.5 - u + c, -1.0, 1.0],
         load: |u, c| {
-            // Odd continuation below zero, through which Newton's method may pass.
+            // Newton iterations may pass through negative `c`, so the force continues as an odd
+            // function.
             let (size, decay) = (c.abs(), (-f64::from(DECAY) * c).exp());
             let slope = decay * (1.1 * size.powf(0.1) - f64::from(DECAY) * size.powf(1.1));
             [u + decay * size.powf(1.1).copysign(c), 1.0, slope]
@@ -101,23 +104,24 @@ pub fn kink<const DECAY: u32>() -> OneConstraint {
     }
 }
 
-/// System with two laws, before and after a constraint activates at `u = 0.5`.
+/// System in which the load has another law after a constraint has become active at `u = 0.5`.
 ///
-/// `p = u + 0.2 (tanh 10 (u − 0.2) + tanh 2)` before, and `p = u` plus a constant after. The first
-/// law has its maximum slope 3 at `u = 0.2`.
+/// The load is `p = u + 0.2 (tanh 10 (u − 0.2) + tanh 2)` before, and `u` plus a constant after
+/// this event. The first law has its maximum slope 3 at `u = 0.2`.
 #[derive(Clone)]
 pub struct TwoLaws {
     before: OneConstraint,
     after: OneConstraint,
 }
 
-/// Current law.
+/// Mode of [`TwoLaws`]: the law of the load before or after the event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhichLaw {
     Before,
     After,
 }
 
+/// Creates the system of [`TwoLaws`].
 pub fn two_laws() -> TwoLaws {
     let before = OneConstraint {
         load: |u, _| {
@@ -134,6 +138,7 @@ pub fn two_laws() -> TwoLaws {
 }
 
 impl TwoLaws {
+    /// Returns the system with the law of a mode.
     fn law(&self, mode: WhichLaw) -> &OneConstraint {
         match mode {
             WhichLaw::Before => &self.before,
@@ -183,16 +188,17 @@ impl System for TwoLaws {
     }
 }
 
+/// Returns the state without its mode.
 fn without_mode<M>(state: &State<M>) -> State {
     State { z: state.z.clone(), active: state.active.clone(), mode: () }
 }
 
-/// Kink with a constraint that cannot become active.
+/// Variants of [`kink`] in which the constraint cannot become active.
 #[derive(Clone)]
 pub enum Unwilling {
-    /// The constraint is violated in both directions of the path.
+    /// Both directions of the path violate the constraint.
     Refusing(OneConstraint),
-    /// The constraint cannot change sides.
+    /// The transition of the constraint fails.
     Stuck(OneConstraint),
 }
 

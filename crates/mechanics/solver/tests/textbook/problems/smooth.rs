@@ -4,14 +4,15 @@ use solver::{Control, Residual, State, System, Tangent};
 
 use super::controls;
 
-/// Unconstrained system of a few unknowns, given by functions.
+/// System of `N` unknowns without constraints, given by functions.
 ///
-/// The functions are the equations (one fewer than unknowns; the load is the last unknown) and
-/// their derivatives.
+/// The load is the last unknown.
 #[derive(Clone)]
 pub struct Smooth<const N: usize> {
     pub controls: Vec<Control>,
+    /// Values of the `N − 1` equations.
     pub equations: fn(&[f64]) -> Vec<f64>,
+    /// Derivatives of each equation with respect to all unknowns.
     pub derivatives: fn(&[f64]) -> Vec<[f64; N]>,
     pub load_only_pushes: bool,
 }
@@ -57,7 +58,7 @@ impl<const N: usize> System for Smooth<N> {
     }
 }
 
-/// Shallow arch pushed down by `u`: `p = u (1 − u)(2 − u)`.
+/// Shallow arch with the displacement `u` and the load `p = u (1 − u)(2 − u)`.
 ///
 /// The load has its extrema `± 2/(3√3)` at `u = 1 ∓ 1/√3`.
 pub fn arch() -> Smooth<2> {
@@ -69,7 +70,7 @@ pub fn arch() -> Smooth<2> {
     }
 }
 
-/// Arch under a load that only pushes and returns to zero at `u = 1`.
+/// [`arch`] under a load that can only push, which returns to zero at `u = 1`.
 pub fn pushed_arch() -> Smooth<2> {
     Smooth { load_only_pushes: true, ..arch() }
 }
@@ -77,10 +78,11 @@ pub fn pushed_arch() -> Smooth<2> {
 /// Stiffness of the spring of [`arch_on_spring`].
 pub const SPRING: f64 = 0.25;
 
-/// Arch pushed through a soft spring: `p = w (1 − w)(2 − w) = k (d − w)`.
+/// Arch that is loaded by a soft spring: `p = w (1 − w)(2 − w) = k (d − w)`.
 ///
-/// The control parameter `d` turns back at `w = 1/2`, `d = 2`, and forward again at `w = 3/2`,
-/// `d = 0`. Unknowns `w, d, p`.
+/// The unknowns are the displacement `w` of the arch, the displacement `d` of the end of the
+/// spring, and `p`. The control parameter `d` reverses at `w = 1/2`, `d = 2`, and again at
+/// `w = 3/2`, `d = 0`.
 pub fn arch_on_spring() -> Smooth<3> {
     Smooth {
         controls: controls(&[(1, 3.0), (0, 1.0)]),
@@ -94,7 +96,9 @@ pub fn arch_on_spring() -> Smooth<3> {
     }
 }
 
-/// Circle `x² + y² = 1`, driven by `x`, which never reaches its target 2.
+/// Circle `x² + y² = 1` with the load `y` and the control parameter `x`.
+///
+/// The control parameter never reaches its target 2.
 pub fn circle() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 2.0), (1, 2.0)]),
@@ -104,7 +108,9 @@ pub fn circle() -> Smooth<2> {
     }
 }
 
-/// Column with the shortening `x = F` and the deflection `y (1 − F + y²) = 0`.
+/// Column under the load `F` that may buckle at `F = 1`.
+///
+/// The shortening is `x = F`, and the deflection `y` satisfies `y (1 − F + y²) = 0`.
 pub fn column() -> Smooth<3> {
     Smooth {
         controls: controls(&[(0, 2.0)]),
@@ -114,7 +120,7 @@ pub fn column() -> Smooth<3> {
     }
 }
 
-/// Steep step `p = tanh 4 (u − 0.6)`, with the maximum slope 4 at `u = 0.6`.
+/// Smooth step `p = tanh 4 (u − 0.6)`, with the maximum slope 4 at `u = 0.6`.
 pub fn step() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 1.0)]),
@@ -124,7 +130,7 @@ pub fn step() -> Smooth<2> {
     }
 }
 
-/// Parabola `y² = u`: its control parameter `u` turns at the start.
+/// Parabola `y² = u`; the control parameter `u` has its minimum at the start of the path.
 pub fn parabola() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 1.0)]),
@@ -144,7 +150,7 @@ pub fn root() -> Smooth<2> {
     }
 }
 
-/// Discontinuous path `p = u`, with a drop of `p` by 1 at `u = 1/2`.
+/// Discontinuous path: `p = u` up to `u = 1/2`, and `p = u − 1` beyond.
 pub fn jump() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 1.0), (1, 1.0)]),
@@ -154,9 +160,9 @@ pub fn jump() -> Smooth<2> {
     }
 }
 
-/// System `10¹⁵ (sin u − p) = 0`, driven by `u` to 1.
+/// System `10¹⁵ (sin u − p) = 0`, with the control parameter `u` and its target 1.
 ///
-/// Its two large terms leave a round-off of about 0.1.
+/// The difference of the two large terms has a round-off error of about 0.1.
 #[derive(Clone)]
 pub struct Stiff;
 

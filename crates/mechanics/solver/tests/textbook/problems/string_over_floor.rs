@@ -1,37 +1,39 @@
-//! String that is loaded onto a floor.
+//! String above a floor, which supports the string under large loads.
 
 use solver::{Control, Residual, State, System, Tangent};
 
-/// String above a floor, by linear elements of length `h = 1/n`.
+/// String above a floor, modelled by `n` linear elements of length `h = 1/n`.
 ///
-/// The string has unit length and tension, carries a uniform load `q`, and hangs from its ends at
-/// the height `D` above the floor:
+/// The string has unit length and unit tension and carries a uniform load `q`. Its ends are fixed
+/// at the height `D` above the floor. With the deflection `u_i` and the contact force `λ_i` of node
+/// `i`,
 ///
 /// ```text
 /// (2 u_i − u_{i−1} − u_{i+1})/h + λ_i = q h,     0 ≤ λ_i  ⟂  D − u_i ≥ 0
 /// ```
 ///
-/// Nodes are counted from the left end. The floor supports node `j` from `q = 2D/(h² j (j+1))` on,
-/// the middle one of `n = 2m` from `8 D` on. Unknowns `u_1, λ_1, u_2, λ_2 … q`.
+/// Nodes are numbered from the left end. The floor supports node `j` of the left half from
+/// `q = 2D/(h² j (j+1))` on, and the middle node from `q = 8 D` on. The unknowns are
+/// `u_1, λ_1, u_2, λ_2 … q`.
 #[derive(Clone)]
 pub struct StringOverFloor {
     intervals: usize,
-    /// True if the right half is omitted by symmetry.
+    /// True if only the left half is modelled, because of symmetry.
     halved: bool,
     constraints: Vec<usize>,
     controls: [Control; 1],
 }
 
-/// Depth of the floor below the string.
+/// Depth `D` of the floor below the ends of the string.
 pub const DEPTH: f64 = 0.1;
 
 impl StringOverFloor {
-    /// Creates a string of `intervals` (even) elements, loaded up to `q = load`.
+    /// Creates a string of `intervals` elements, an even number, with the target `q = load`.
     pub fn whole(intervals: usize, load: f64) -> Self {
         Self::new(intervals, load, false)
     }
 
-    /// Creates the left half of the string.
+    /// Creates the left half of a string of `intervals` elements with the target `q = load`.
     pub fn halved(intervals: usize, load: f64) -> Self {
         Self::new(intervals, load, true)
     }
@@ -46,10 +48,12 @@ impl StringOverFloor {
         }
     }
 
+    /// Returns the length of an element.
     pub fn h(&self) -> f64 {
         1.0 / self.intervals as f64
     }
 
+    /// Returns the number of nodes that are modelled.
     pub fn nodes(&self) -> usize {
         self.constraints.len()
     }
@@ -60,10 +64,10 @@ impl StringOverFloor {
         2.0 * DEPTH / (self.h().powi(2) * (node * next) as f64)
     }
 
-    /// Returns the deflection of a node under a load.
+    /// Returns the deflection of a node under a load in closed form.
     ///
-    /// The floor supports the nodes from number `m` on, and the string hangs freely between there
-    /// and its end.
+    /// The floor supports the nodes of the left half from some number `m` on. Between its end and
+    /// node `m` the string is a parabola.
     pub fn deflection(&self, node: usize, load: f64) -> f64 {
         let middle = self.intervals / 2;
         let node = node.min(self.intervals - node);
@@ -79,7 +83,9 @@ impl StringOverFloor {
         }
     }
 
-    /// Returns the fraction of an element's load and stiffness assigned to a node.
+    /// Returns the fraction of the load and stiffness of node `i` that is modelled.
+    ///
+    /// The fraction is one half for the middle node of a halved string, else 1.
     fn fraction(&self, i: usize) -> f64 {
         if self.halved && i + 1 == self.nodes() { 0.5 } else { 1.0 }
     }
