@@ -1,4 +1,4 @@
-//! Cost of one calibration, and of all for the paper's sweep of 720 designs.
+//! Time to compute the springs of one footprint, and of all 120 footprints of the paper's sweep.
 
 use std::hint::black_box;
 

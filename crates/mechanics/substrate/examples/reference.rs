@@ -1,12 +1,13 @@
-//! Prints reference coefficients on fine meshes, the table `tests/reference.csv`:
+//! Prints reference coefficients from fine meshes, the file `tests/springs/reference.csv`:
 //!
 //! ```text
 //! cargo run --release -p squama-substrate --example reference \
-//!     > crates/mechanics/substrate/tests/reference.csv
+//!     > crates/mechanics/substrate/tests/springs/reference.csv
 //! ```
 //!
-//! 16 and 24 cells per side, extrapolated; takes a few minutes. The geometries are the paper's
-//! sweeps with a base of `L` and of `2L` (`b = t`, `ν = 0.5`), and a grid over the whole range.
+//! The coefficients are extrapolated from 16 and 24 cells per side, which takes a few minutes. The
+//! footprints cover the 720 designs of Shafiei et al. (2021) with a base of `L` and of `2L`
+//! (`b = t`, `ν = 0.5`), and a grid over the range of the tests.
 
 use std::error::Error;
 
@@ -48,7 +49,7 @@ fn geometries() -> Vec<[f64; 3]> {
             all.push([gap, width, poisson_ratio]);
         }
     }
-    // One footprint may serve a length with either base.
+    // The same footprint can occur for two lengths, one with a base of L and one with a base of 2L.
     let mut seen = std::collections::HashSet::new();
     all.retain(|key| seen.insert(key.map(f64::to_bits)));
     all

@@ -5,7 +5,7 @@
 //!     -- crates/mechanics/substrate/src/table.bin
 //! ```
 //!
-//! Takes four minutes of processor time. `src/table.rs` documents the layout.
+//! The computation takes four minutes of processor time. `src/table.rs` documents the layout.
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -16,9 +16,10 @@ use substrate::boundary_element::{Unresolved, row_reactions_at};
 use substrate::table::{GAPS, NEAREST, RATIOS, ROW, WIDTHS, poisson_ratio};
 use substrate::{Footprint, NEIGHBOURS};
 
-/// Cells per side of the three meshes for rows of three scales, and for long rows.
+/// Numbers of cells per side of the three meshes: `FINE` for rows of three scales, `COARSE` for
+/// long rows.
 ///
-/// The table stores the small difference of long rows from rows of three.
+/// For long rows the table stores only their small difference from rows of three scales.
 const FINE: [usize; 3] = [12, 16, 20];
 const COARSE: [usize; 3] = [6, 8, 10];
 
@@ -31,12 +32,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Values of the table as a function of the footprint.
+/// Function that computes the values to be tabulated for a footprint.
 type Solve<'a> = &'a (dyn Fn(&Footprint) -> Result<Vec<f64>, Unresolved> + Sync);
 
-/// Computes polynomial coefficients through `nodes × nodes` points.
+/// Computes the coefficients of the polynomials through `nodes × nodes` points.
 ///
-/// They are ordered by polynomial.
+/// The coefficients of one function of the footprint are contiguous.
 fn coefficients(nodes: usize, solve: Solve<'_>) -> Result<Vec<f64>, Unresolved> {
     let next = AtomicUsize::new(0);
     let workers = thread::available_parallelism().map_or(1, usize::from);
@@ -56,7 +57,7 @@ fn coefficients(nodes: usize, solve: Solve<'_>) -> Result<Vec<f64>, Unresolved> 
     Ok(coefficients)
 }
 
-/// Solves points until none is left, and returns their numbers with the values.
+/// Solves the next unsolved points until none is left; returns their numbers and values.
 fn solve_nodes(
     next: &AtomicUsize,
     nodes: usize,
@@ -75,7 +76,7 @@ fn solve_nodes(
     }
 }
 
-/// Transforms values in the rows of a square to coefficients of their polynomials.
+/// Transforms each row of a matrix with `nodes` columns to Chebyshev coefficients.
 fn transform(values: &[f64], nodes: usize) -> Vec<f64> {
     let mut coefficients = Vec::with_capacity(values.len());
     for row in values.chunks(nodes) {
@@ -94,15 +95,15 @@ fn transposed(values: &[f64], nodes: usize) -> Vec<f64> {
     (0..nodes * nodes).map(|i| values[i % nodes * nodes + i / nodes]).collect()
 }
 
-/// Returns a root of the Chebyshev polynomial of order `nodes`.
+/// Returns the root number `k` of the Chebyshev polynomial of order `nodes`.
 fn node(k: usize, nodes: usize) -> f64 {
     ((k as f64 + 0.5) * PI / nodes as f64).cos()
 }
 
-/// Returns the values of Eq. (1) to be tabulated.
+/// Returns the values for Eq. (1) at a footprint.
 ///
-/// `ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ`, then `ln α_x` and `β_x/α_x`, each as a polynomial in
-/// `log(1 − ν)`.
+/// First `ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ`, then the coefficients of `ln α_x` and of `β_x/α_x` as
+/// polynomials in `log(1 − ν)`.
 fn nearest(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     let rows = extrapolated(footprint, 1, FINE)?;
     let part =
@@ -113,10 +114,10 @@ fn nearest(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     Ok(normal.into_iter().chain(direct).chain(coupling).collect())
 }
 
-/// Returns additional values of a long row over a row of three, over `α`.
+/// Returns the values by which a long row differs from a row of three scales, over `α`.
 ///
-/// In `y` and then in `φ` the scale itself and its neighbours, then `c` over `√(α_y α_φ)`, then in
-/// `x` polynomials in `log(1 − ν)`.
+/// First `y` and then `φ`, each for the scale itself and for its neighbours; then `c` over
+/// `√(α_y α_φ)`; then the coefficients of `x` as polynomials in `log(1 − ν)`.
 fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     let long = extrapolated(footprint, NEIGHBOURS, COARSE)?;
     let short = extrapolated(footprint, 1, COARSE)?;
@@ -136,14 +137,14 @@ fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     Ok(numbers)
 }
 
-/// Returns the difference between a reaction in a long row and in a short one, divided by `α`.
+/// Returns the difference of a reaction between a long and a short row, over `α`.
 fn added(long: &[f64], short: &[f64], scale: usize, direction: usize) -> f64 {
     (reaction(long, scale, direction) - reaction(short, scale, direction)) / short[direction]
 }
 
-/// Returns a reaction on the scale itself, number 0, or on a neighbour.
+/// Returns a reaction on the displaced scale (`scale` 0) or on its neighbour number `scale`.
 ///
-/// 0 beyond the row.
+/// Returns 0 for a neighbour beyond the end of the row.
 fn reaction(row: &[f64], scale: usize, direction: usize) -> f64 {
     match scale {
         0 => row[direction],
@@ -151,10 +152,10 @@ fn reaction(row: &[f64], scale: usize, direction: usize) -> f64 {
     }
 }
 
-/// Computes row values for the table's Poisson's ratios, from three meshes.
+/// Computes the reactions for the Poisson's ratios of the table, extrapolated from three meshes.
 ///
-/// The error decreases with the third power of the cells, the remainder after extrapolation with
-/// the fourth.
+/// The error decreases with the third power of the number of cells. After the first extrapolation
+/// the remainder decreases with the fourth power, so a second one follows.
 fn extrapolated(
     footprint: &Footprint,
     neighbours: usize,
@@ -172,7 +173,7 @@ fn extrapolated(
     Ok(rows.collect())
 }
 
-/// Extrapolates from two meshes with an error of the given order in the number of cells.
+/// Extrapolates from two meshes if the error falls with the power `order` of the number of cells.
 fn limit([coarse, fine]: [&[f64]; 2], cells: [usize; 2], order: i32) -> Vec<f64> {
     let share = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(order) - 1.0);
     coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()

@@ -1,23 +1,24 @@
-//! Reactions of rigid rectangles on an elastic half-space, by collocation.
+//! Reactions of rigid rectangles on an elastic half-space, computed by collocation.
 //!
-//! The traction is uniform in each cell `j`, and the displacement is imposed at one point `i` of
-//! each cell,
+//! The traction is uniform in each cell `j`. The displacement is imposed at one point `i` of each
+//! cell:
 //!
 //! ```text
 //! Σ_j G_ij p_j = u_i      (S5)
 //! ```
 //!
-//! with `G` from (S1) for normal and from (S2) for tangential tractions. Both planes of symmetry
-//! are used: `z` always (every load is even in it), `x` with the sign of the load (displacements
-//! are even, the rotation is odd). The unknowns are therefore `n × n` cells on a quarter of the
-//! middle rectangle and as many on half of each neighbour. The reactions are
+//! `G_ij` follows from (S1) for normal and from (S2) for tangential tractions. Both planes of
+//! symmetry are used. All loads are even in `z`. In `x`, displacements of the middle rectangle are
+//! even and its rotation is odd. The unknowns are therefore the tractions in `n × n` cells on a
+//! quarter of the middle rectangle and in `n × n` cells on half of each neighbour. The reactions
+//! are
 //!
 //! ```text
 //! α_x, α_y = ∬ q, ∬ p,  α_φ = ∬ p (x − x_m)   on the middle rectangle
 //! β_x, β_y = −∬ q, −∬ p,  β_φ = −∬ p (x − x_n)   on a neighbour      (S6)
 //! ```
 //!
-//! for `u_x = 1`, `u_y = 1` and `u_y = x − x_m`, with `E* = a = 1`.
+//! for `u_x = 1`, `u_y = 1` and `u_y = x − x_m` under the middle rectangle, with `E* = a = 1`.
 
 use nalgebra::DMatrix;
 
@@ -25,7 +26,7 @@ use crate::Footprint;
 use crate::half_space::{CornerLine, Influence};
 use crate::mesh::{GradedAxis, Mesh};
 
-/// Row of rectangles that double precision cannot resolve.
+/// Error for a row of rectangles with gaps or cells that double precision cannot resolve.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "cannot solve for the tractions under rectangles of gap/a = {:e} and width/a = {:e} with \
@@ -39,9 +40,9 @@ pub struct Unresolved {
     pub cells: usize,
 }
 
-/// The two cross terms of a pair of rectangles.
+/// The two cross terms between the middle rectangle and a neighbour.
 ///
-/// They are equal by Betti's theorem, up to the error of the mesh.
+/// Betti's theorem makes both equal; on a mesh they differ by the error of discretisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossTerms {
     /// Normal force on the neighbour from a unit rotation of the middle rectangle.
@@ -52,26 +53,27 @@ pub struct CrossTerms {
 
 /// Reactions of a row of rectangles on one mesh, for `E* = a = 1`.
 ///
-/// The middle rectangle has a unit displacement and the others are fixed.
+/// The middle rectangle is displaced by 1 or rotated by 1, and the others are fixed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowReactions {
-    /// Reactions on the middle rectangle, in displacement direction: `x`, `y`, `φ`.
+    /// Reactions on the middle rectangle in the direction of its displacement: `x`, `y`, `φ`.
     pub direct: [f64; 3],
-    /// Reactions on right neighbours, nearest first, in the same directions.
+    /// Reactions on the right neighbours, nearest first, in the same directions `x`, `y`, `φ`.
     pub neighbours: Vec<[f64; 3]>,
-    /// Coupling of middle rotation and normal displacement of each neighbour.
+    /// Coupling of the rotation of the middle rectangle with normal forces on each neighbour.
     pub cross: Vec<CrossTerms>,
 }
 
-/// Computes the reactions (S6) of a row of rectangles.
+/// Computes the reactions (S6) of a row of rectangles on one mesh.
 ///
-/// It uses `n × n` cells per quarter (S5). The row has `neighbours ≥ 1` rectangles on each side of
-/// the middle one, which is displaced while the others are fixed.
+/// The row has `neighbours ≥ 1` rectangles on each side of the middle one. The middle one is
+/// displaced and the others are fixed. Half of each neighbour and a quarter of the middle one have
+/// `n × n` cells.
 ///
-/// Eqs. (2)–(3) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176) treat normal and tangential
-/// tractions separately. This is exact at `ν = 0.5`, where neither displaces the surface in the
-/// direction of the other. Otherwise it neglects their coupling, proportional to `1 − 2ν`, as if
-/// the base slid freely in the direction that is not driven.
+/// Normal and tangential tractions are solved separately, as in Eqs. (2) and (3) of Shafiei et al.
+/// (doi 10.1016/j.jmps.2020.104176). This is exact at `ν = 0.5`, where normal tractions cause no
+/// tangential displacement and vice versa. At other ratios it neglects a coupling proportional to
+/// `1 − 2ν`, as if the base slid freely in the direction in which no displacement is imposed.
 ///
 /// # Errors
 /// If the gap or a cell vanishes by rounding.
@@ -84,13 +86,13 @@ pub fn row_reactions(
     reactions.into_iter().next().ok_or(Unresolved { footprint: *footprint, cells: n })
 }
 
-/// Computes [`row_reactions`] for several Poisson's ratios.
+/// Computes [`row_reactions`] for several Poisson's ratios at once.
 ///
-/// `poisson_ratios` replace the ratio of the footprint. A footprint needs a matrix each for shear,
-/// normal displacement and rotation; every further ratio needs only another one for shear.
+/// `poisson_ratios` replace the ratio of the footprint. The matrices for normal displacement and
+/// rotation do not depend on the ratio; each ratio only needs its own matrix for shear.
 ///
 /// # Errors
-/// As [`row_reactions`].
+/// If the gap or a cell vanishes by rounding.
 pub fn row_reactions_at(
     footprint: &Footprint,
     poisson_ratios: &[f64],
@@ -98,7 +100,7 @@ pub fn row_reactions_at(
     n: usize,
 ) -> Result<Vec<RowReactions>, Unresolved> {
     let mesh = Mesh::row(footprint, neighbours, n);
-    // If round-off collapses cells or gaps, the solution is meaningless.
+    // If rounding reduces a cell or a gap to zero width, the solution is meaningless.
     let reactions =
         if mesh.is_resolved() { mesh.reactions(footprint, poisson_ratios) } else { None };
     reactions
@@ -107,10 +109,10 @@ pub fn row_reactions_at(
 }
 
 impl RowReactions {
-    /// Returns all numbers as a list.
+    /// Returns all reactions as a list.
     ///
-    /// First come the reactions of the middle rectangle, then for each neighbour its three
-    /// reactions and two cross terms.
+    /// The list begins with three reactions of the middle rectangle. For each neighbour follow its
+    /// three reactions, its cross force and its cross moment.
     pub fn numbers(&self) -> Vec<f64> {
         let neighbours = self.neighbours.iter().zip(&self.cross);
         let neighbours =
@@ -119,23 +121,21 @@ impl RowReactions {
     }
 }
 
-/// Displacement of a rectangle, or its traction lever arm, as a function of `x`.
+/// Function of `x`: the imposed displacement under a rectangle, or the lever arm of its traction.
 pub(crate) type Profile = fn(f64) -> f64;
 
 pub(crate) const ONE: Profile = |_| 1.0;
 pub(crate) const ZERO: Profile = |_| 0.0;
 pub(crate) const ARM: Profile = |x| x;
 
-/// Load case: displacement of the middle rectangle.
-///
-/// An optional neighbour is displaced by 1.
+/// Load case: imposed displacement of the middle rectangle, or of one neighbour by 1.
 pub(crate) struct Load {
     pub(crate) middle: Profile,
     pub(crate) neighbour: Option<usize>,
 }
 
 impl Load {
-    /// Returns the displacement at a point of rectangle `body`, 0 being the middle one.
+    /// Returns the displacement imposed at `x` under rectangle `body`; 0 is the middle rectangle.
     fn displacement(&self, body: usize, x: f64) -> f64 {
         match body {
             0 => (self.middle)(x),
@@ -145,9 +145,7 @@ impl Load {
 }
 
 impl Mesh {
-    /// Solves for the reactions at each Poisson's ratio.
-    ///
-    /// `None` if a matrix is singular.
+    /// Solves for the reactions at each Poisson's ratio, or returns `None` if a matrix is singular.
     fn reactions(
         &self,
         footprint: &Footprint,
@@ -155,9 +153,9 @@ impl Mesh {
     ) -> Option<Vec<RowReactions>> {
         let equations = Equations::assemble(self, poisson_ratios);
         let push = self.imposed(&[Load { middle: ONE, neighbour: None }]);
-        // With the rotation, a neighbour and its mirror image are displaced by 1 and −1. Half of
-        // this is the odd part of a single displaced neighbour; the even part exerts no moment on
-        // the middle rectangle.
+        // Displacing one neighbour is the sum of an even and an odd load. The even load causes no
+        // moment on the middle rectangle. The odd load displaces the neighbour by ½ and its mirror
+        // image by −½. This odd system is solved for 1 and −1, so `sums` halves its moments.
         let turn = Load { middle: ARM, neighbour: None };
         let opposed = (0..self.neighbours.len()).map(|k| Load { middle: ZERO, neighbour: Some(k) });
         let loads: Vec<_> = [turn].into_iter().chain(opposed).collect();
@@ -171,9 +169,10 @@ impl Mesh {
         Some(reactions)
     }
 
-    /// Sums the tractions to reactions.
+    /// Integrates the tractions to reactions.
     ///
-    /// `odd` holds the reactions of the rotation first, then of each displaced neighbour.
+    /// The first column of `odd` is the solution for the rotation of the middle rectangle. The
+    /// further columns are the solutions for the displacement of each neighbour.
     fn sums(
         &self,
         footprint: &Footprint,
@@ -202,7 +201,7 @@ impl Mesh {
         RowReactions { direct, neighbours, cross }
     }
 
-    /// Returns the axes along `x` in the order of the unknowns (`z` fastest).
+    /// Returns the axes along `x` in the order of the unknowns, in which `z` varies fastest.
     pub(crate) fn across(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
         std::iter::once(&self.middle).chain(&self.neighbours)
     }
@@ -211,7 +210,7 @@ impl Mesh {
         self.across().map(GradedAxis::cells).sum::<usize>() * self.depth.cells()
     }
 
-    /// Returns the imposed displacements, one column per load.
+    /// Returns the displacements imposed at the collocation points, one column for each load.
     pub(crate) fn imposed(&self, loads: &[Load]) -> DMatrix<f64> {
         let depth = self.depth.cells();
         let points: Vec<(usize, f64)> = self
@@ -225,16 +224,14 @@ impl Mesh {
         })
     }
 
-    /// Returns `∬ p arm(x)` over the middle rectangle.
-    ///
-    /// It is four times the integral over its quarter.
+    /// Returns `∬ p arm(x)` over the middle rectangle, four times the integral over its quarter.
     pub(crate) fn middle_sum(&self, tractions: &[f64], arm: impl Fn(f64) -> f64) -> f64 {
         4.0 * self.sum(&self.middle, 0, tractions, arm)
     }
 
-    /// Returns `∬ p arm(x)` over neighbour `k`, from 0.
+    /// Returns `∬ p arm(x)` over neighbour `k`, twice the integral over its half.
     ///
-    /// It is twice the integral over its half.
+    /// `k` is 0 for the nearest neighbour.
     pub(crate) fn neighbour_sum(
         &self,
         k: usize,
@@ -247,7 +244,7 @@ impl Mesh {
 
     /// Returns `∬ p arm(x)` over the meshed part of a rectangle.
     ///
-    /// `first` is the index of its first unknown.
+    /// `first` is the index of the first unknown of the rectangle.
     fn sum(
         &self,
         axis: &GradedAxis,
@@ -264,7 +261,9 @@ impl Mesh {
     }
 }
 
-/// Matrices `G` of (S5) for the three loads; shear has one per Poisson's ratio.
+/// Matrices `G` of (S5) for shear, normal displacement and rotation.
+///
+/// `shear` holds one matrix for each Poisson's ratio.
 struct Equations {
     shear: Vec<DMatrix<f64>>,
     normal: DMatrix<f64>,
@@ -279,8 +278,8 @@ impl Equations {
         let mut equations = Self { shear, normal: zeros.clone(), rotation: zeros };
         let depth = mesh.depth.cells();
         let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
-        // A line of corners serves all field points of a depth, so its logarithms are computed
-        // once.
+        // All field points at the same depth share one line of corners, so that its logarithms are
+        // computed once.
         for (k, &z) in mesh.depth.points().iter().enumerate() {
             let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
             for (i, &x) in fields.iter().enumerate() {
@@ -291,7 +290,7 @@ impl Equations {
         equations
     }
 
-    /// Fills a matrix row with the influences of the cells and their mirror images in `x`.
+    /// Fills a matrix row with the influences of all cells and of their mirror images in `x`.
     fn fill_row(
         &mut self,
         row: usize,
@@ -300,7 +299,7 @@ impl Equations {
         poisson_ratios: &[f64],
     ) {
         for (column, (&right, &left)) in right.iter().zip(left).enumerate() {
-            // The edges of a mirror image descend, which reverses the sign.
+            // `left` is negative, because the edges of a mirror image descend. So this is the sum.
             let even = right - left;
             for (shear, ratio) in self.shear.iter_mut().zip(poisson_ratios) {
                 shear[(row, column)] = even.tangential(*ratio);
@@ -311,7 +310,7 @@ impl Equations {
     }
 }
 
-/// Influence of cell columns at one depth, each with its mirror image in `z`.
+/// Influence of all cells on points at one depth `z`, each cell with its mirror image in `z`.
 pub(crate) struct CellColumns {
     line: CornerLine,
     last: Vec<Influence>,
@@ -319,18 +318,18 @@ pub(crate) struct CellColumns {
 }
 
 impl CellColumns {
-    /// Creates the columns of cells between the edges in `line`.
+    /// Creates the influences for a line of corners with an odd number of corners.
     ///
-    /// They are the edges of the cells and of their mirror images; their number is odd.
+    /// The corners lie at the edges of the cells and of their mirror images in `z`.
     pub(crate) fn new(line: CornerLine) -> Self {
         let blank = vec![Influence::default(); line.len()];
         Self { line, last: blank.clone(), next: blank }
     }
 
-    /// Computes the influence at `x` of the cells on one side of the symmetry plane.
+    /// Computes the influence at `x` of the cells on one side of the symmetry plane `x = 0`.
     ///
-    /// The cells are ordered by column. `side` is 1 on the right and −1 on the left. On the left
-    /// the edges descend, so the influence is negative.
+    /// `side` is 1 for the cells on the right and −1 for their mirror images. The edges of mirror
+    /// images descend, so their influence has the opposite sign. `z` varies fastest in the result.
     pub(crate) fn on_side(&mut self, mesh: &Mesh, x: f64, side: f64) -> Vec<Influence> {
         let mut influence = Vec::with_capacity(mesh.unknowns());
         for axis in mesh.across() {
@@ -346,9 +345,9 @@ impl CellColumns {
     }
 }
 
-/// Appends the influence of the cells between two lines of corners.
+/// Appends the influence of the cells between two neighbouring lines of corners.
 ///
-/// Each cell includes its mirror image in `z`.
+/// The influence of each cell includes its mirror image in `z`.
 fn append_cells(last: &[Influence], next: &[Influence], into: &mut Vec<Influence>) {
     let half = last.len() / 2;
     into.extend((0..half).map(|k| {

@@ -7,15 +7,16 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use crate::Footprint;
 use crate::boundary_element::Unresolved;
 
-/// Result filled by the first thread that needs it.
+/// Result of a footprint, computed by the first thread that needs it.
 ///
-/// Threads that hold it when the cache drops it still share it.
+/// A thread that holds the slot can still use it after the cache has dropped it.
 type Slot<T> = Arc<OnceLock<Result<T, Unresolved>>>;
 
-/// Results by footprint, each solved by the first thread that requests it.
+/// Cache of results by footprint; the first thread that requests a footprint solves it.
 ///
-/// Two generations of at most half the capacity each bound the memory. When the young one is full,
-/// it replaces the old one, which is dropped. An entry that is used again moves to the young one.
+/// The memory is bounded by two generations, `young` and `old`, each with at most half the
+/// capacity. If `young` is full, it becomes `old`, and the previous `old` generation is dropped. An
+/// entry of `old` that is requested again moves to `young`.
 #[derive(Debug)]
 pub(crate) struct BoundedCache<T>(Mutex<Generations<T>>);
 
@@ -27,13 +28,14 @@ struct Generations<T> {
 }
 
 impl<T: Clone> BoundedCache<T> {
-    /// Creates an empty cache for at most `capacity` footprints, at least two.
+    /// Creates an empty cache for at most `capacity` footprints; a capacity below two counts as
+    /// two.
     pub(crate) fn with_capacity(capacity: usize) -> Self {
         let limit = (capacity / 2).max(1);
         Self(Mutex::new(Generations { limit, young: HashMap::new(), old: HashMap::new() }))
     }
 
-    /// Returns the cached result for `footprint`, or calls `solve`.
+    /// Returns the cached result for `footprint`, or calls `solve` and caches its result.
     ///
     /// Errors are cached too.
     pub(crate) fn get_or_solve(
@@ -41,8 +43,8 @@ impl<T: Clone> BoundedCache<T> {
         footprint: &Footprint,
         solve: impl FnOnce() -> Result<T, Unresolved>,
     ) -> Result<T, Unresolved> {
-        // Solve outside the lock. A panic elsewhere leaves the maps intact, so a poisoned lock is
-        // usable.
+        // The lock is released before `solve` runs. A panic in another thread leaves the maps
+        // consistent, so a poisoned lock can still be used.
         let slot = self.0.lock().unwrap_or_else(PoisonError::into_inner).slot(footprint);
         slot.get_or_init(solve).clone()
     }
@@ -53,7 +55,7 @@ impl<T> Generations<T> {
         if let Some(slot) = self.young.get(footprint) {
             return Arc::clone(slot);
         }
-        // Move before dropping the old generation, so that an entry in use is not solved again.
+        // Takes the entry out of `old` before `old` is dropped, so that it is not solved again.
         let slot = self.old.remove(footprint).unwrap_or_default();
         if self.young.len() >= self.limit {
             self.old = mem::take(&mut self.young);
@@ -76,7 +78,7 @@ mod tests {
         (1..=count).map(|k| Footprint::new(0.1 * f64::from(k), 2.0, 0.5).unwrap()).collect()
     }
 
-    /// Cache that counts its solves; the cached result is the gap.
+    /// Cache that counts its solutions; the result of a footprint is its gap.
     struct Counted {
         cache: BoundedCache<f64>,
         solved: AtomicUsize,
@@ -122,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn memory_is_bounded_and_no_result_depends_on_it() {
+    fn a_full_cache_drops_footprints_and_solves_them_again() {
         let (small, asked) = (Counted::with_capacity(4), footprints(9));
         for _ in 0..2 {
             for footprint in &asked {
@@ -134,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn an_entry_in_use_survives_any_number_of_others() {
+    fn a_recently_used_footprint_is_not_dropped() {
         let (small, asked) = (Counted::with_capacity(4), footprints(12));
         for footprint in &asked {
             small.get(footprint);
@@ -144,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_are_remembered() {
+    fn errors_are_cached() {
         let (cache, footprint) = (BoundedCache::<f64>::with_capacity(4), footprints(1)[0]);
         let unresolved = Unresolved { footprint, cells: 4 };
         assert_eq!(cache.get_or_solve(&footprint, || Err(unresolved)), Err(unresolved));

@@ -1,4 +1,4 @@
-//! Closed form for the free scales beyond the end of the solved part of a row.
+//! Closed-form solution for the free scales beyond the end of the solved part of a row.
 
 mod coupled;
 
@@ -6,59 +6,59 @@ use coupled::CoupledRow;
 
 use crate::RowStiffness;
 
-/// Effect of free scales on the scales at the end of the solved part.
+/// Effect of the free scales of a row on the scales at the end of its solved part.
 ///
-/// With the coupling of Eq. (1), a free scale `k` obeys `α u_k = β (u_{k−1} + u_{k+1})` in each
-/// direction. The decaying solution of this chain is
+/// With nearest-neighbour coupling, a free scale `k` is in equilibrium if
+/// `α u_k = β (u_{k−1} + u_{k+1})` in each direction. The decaying solution of this chain is
 ///
 /// ```text
 /// u_k = r^k u_0,     β (r + 1/r) = α,  |r| < 1                                       (S13)
 /// ```
 ///
-/// so a scale 0 with an infinite row on one side has the stiffness `α − β r` instead of `α`, and
-/// the scales beyond need not be solved. `r` has the sign of `β`: rotations alternate. If the row
-/// ends after `n` more scales, a combination of both solutions leaves the last one free,
+/// The last solved scale, 0, then has the stiffness `α − β r` instead of `α`, and the free scales
+/// need not be solved. `r` has the sign of `β`, so rotations alternate in sign. If only `n` free
+/// scales follow, both solutions `r^k` and `r^{−k}` are combined so that no force acts on the last
+/// one:
 ///
 /// ```text
 /// u_k = r^k (1 − r^{2(n+1−k)})/(1 − r^{2(n+1)}) u_0,     held by α − β u_1/u_0          (S16)
 /// ```
 ///
-/// If scales couple with `m > 1` neighbours, or forces with rotations, the last `m` scales take the
-/// role of scale 0 (S17).
-///
-/// Scales are counted from the end, starting at 0; the free scales lie to the right.
+/// If scales couple with `m > 1` neighbours, or forces with rotations, the last `m` solved scales
+/// take the role of scale 0 (S17). Solved scales are counted from the end inwards, starting at 0;
+/// the free scales lie to the right of the end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FarField {
-    /// Reductions of the stiffness of the scales at the end.
+    /// Reductions of the stiffness of the last solved scales.
     pub relief: Vec<Relief>,
     motion: FreeMotion,
 }
 
-/// Reduction of a stiffness block by free scales, in [`RowStiffness`] units.
+/// Reduction of one 3 × 3 stiffness block by the free scales, in units of [`RowStiffness`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relief {
-    /// Scale with the force.
+    /// Scale on which the force acts, counted from the end inwards.
     pub force: usize,
-    /// Scale with the displacement.
+    /// Scale that is displaced, counted from the end inwards.
     pub displacement: usize,
-    /// Reduction of force along `x`, force along `y` and moment.
+    /// Reductions: rows are force along `x`, force along `y` and moment.
     ///
-    /// Each is for the three displacements.
+    /// Columns are the displacements `x`, `y`, `φ`.
     pub by: [[f64; 3]; 3],
 }
 
-/// Law by which the free scales follow the scales at the end.
+/// Motion of the free scales as a function of the displacements of the last solved scales.
 #[derive(Clone, Debug, PartialEq)]
 enum FreeMotion {
-    /// Decay `r` of each direction, and the number of free scales if the row ends.
+    /// Decay `r` in each direction, and the number of free scales (`None`: infinite).
     Chain([f64; 3], Option<usize>),
     Coupled(CoupledRow),
 }
 
 impl FarField {
-    /// Computes the displacements of the first `count` free scales.
+    /// Computes the displacements `(x, y, φ)` of the first `count` free scales.
     ///
-    /// `end` returns the displacements of the scales at the end, counted from there.
+    /// `end(i)` returns the displacements of the solved scale `i`, counted from the end inwards.
     pub fn displacements(&self, end: impl Fn(usize) -> [f64; 3], count: usize) -> Vec<[f64; 3]> {
         match &self.motion {
             FreeMotion::Chain(..) => (1..=count).map(|k| self.displacement(&end, k)).collect(),
@@ -66,7 +66,7 @@ impl FarField {
         }
     }
 
-    /// Computes the displacement of the scale `distance > 0` beyond the end.
+    /// Computes the displacements of the free scale `distance`, where 1 is next to the end.
     pub fn displacement(&self, end: impl Fn(usize) -> [f64; 3], distance: usize) -> [f64; 3] {
         match &self.motion {
             FreeMotion::Chain(decay, scales) => {
@@ -78,9 +78,9 @@ impl FarField {
     }
 }
 
-/// Returns `u_k/u_0` of (S13), or of (S16) if the row ends after `scales` further scales.
+/// Returns `u_k/u_0` by (S13), or by (S16) if the row ends after `scales` free scales.
 fn decayed(r: f64, scales: Option<usize>, k: usize) -> f64 {
-    // A row is always shorter than the range of `i32`.
+    // The cast is exact, because a row has far fewer scales than `i32::MAX`.
     let decay = r.powi(k as i32);
     let Some(n) = scales else { return decay };
     let [of_distance, of_length] = [n + 1 - k, n + 1].map(|n| 1.0 - r.powi(2 * n as i32));
@@ -88,13 +88,14 @@ fn decayed(r: f64, scales: Option<usize>, k: usize) -> f64 {
 }
 
 impl RowStiffness {
-    /// Returns the far field of an infinite row, or of a row with `scales` more scales.
+    /// Returns the far field of `scales` free scales, or of infinitely many for `None`.
     ///
-    /// A finite number has a closed form only with the coupling of Eq. (1). `None` without a closed
-    /// form, and if nothing decays because the row is unstable (`α ≤ 2 |β|`).
+    /// The result is `None` if displacements do not decay because the row is unstable
+    /// (`α ≤ 2 |β|`). It is also `None` for a finite number of scales with a coupling other than
+    /// nearest neighbours, because there is no closed form.
     pub fn far_field(&self, scales: Option<usize>) -> Option<FarField> {
         match self.neighbours.as_slice() {
-            // Without coupling of directions, each of the three is a separate chain.
+            // The three directions are uncoupled, so each direction is a separate chain.
             [nearest] if nearest.is_diagonal() && self.roll == 0.0 => {
                 self.chain(nearest.direct, scales)
             }
@@ -102,7 +103,7 @@ impl RowStiffness {
         }
     }
 
-    /// Returns the far field with the coupling of Eq. (1).
+    /// Returns the far field for nearest-neighbour coupling without coupling of directions.
     fn chain(&self, coupling: [f64; 3], scales: Option<usize>) -> Option<FarField> {
         let beta = coupling.map(|stiffness| -stiffness);
         if !(0..3).all(|k| self.direct[k] > 2.0 * beta[k].abs()) {
@@ -110,7 +111,7 @@ impl RowStiffness {
         }
         let decay: [f64; 3] = std::array::from_fn(|k| {
             let (alpha, twice) = (self.direct[k], 2.0 * beta[k]);
-            // Smaller root of β r² − α r + β = 0, without cancellation.
+            // The smaller root of β r² − α r + β = 0, in a form without cancellation.
             twice / (alpha + ((alpha - twice) * (alpha + twice)).sqrt())
         });
         let mut by = [[0.0; 3]; 3];
@@ -121,7 +122,7 @@ impl RowStiffness {
         Some(FarField { relief, motion: FreeMotion::Chain(decay, scales) })
     }
 
-    /// Returns the far field of an infinite row with coupling to several neighbours.
+    /// Returns the far field of infinitely many free scales with coupling to several neighbours.
     fn coupled(&self) -> Option<FarField> {
         let (row, relief) = CoupledRow::endless(self)?;
         Some(FarField { relief, motion: FreeMotion::Coupled(row) })

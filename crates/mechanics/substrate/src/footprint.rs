@@ -1,13 +1,13 @@
-//! Footprint of a row: the parameters that determine its springs.
+//! Footprint of a row: the dimensionless parameters that determine its springs.
 
 use std::hash::{Hash, Hasher};
 
 use geometry::OutOfRange;
 
-/// Bases of a row of scales as loaded areas of the substrate.
+/// Dimensionless bases of a row of scales, as loaded areas of the substrate.
 ///
-/// They are rectangles `2a × b` at gaps `d`, with all lengths over the half-width `a`, on a
-/// substrate with a Poisson's ratio and, if it is a layer on a rigid base, a thickness.
+/// The bases are rectangles `2a × b` at gaps `d`. All lengths are divided by the half-width `a`.
+/// The substrate has a Poisson's ratio, and a thickness if it is a layer on a rigid base.
 ///
 /// ```text
 ///        z
@@ -17,14 +17,14 @@ use geometry::OutOfRange;
 ///        └── x        ├ d ─┤─ 2a ───┤
 /// ```
 ///
-/// Footprints are equal, with equal hash, if their four numbers are equal bit by bit. Since none is
-/// NaN and zeros are positive, a footprint can be the key of a map.
+/// Two footprints are equal, with equal hash, if their four numbers are bitwise equal. No number is
+/// NaN and zeros are positive, so a footprint can be the key of a hash map.
 #[derive(Clone, Copy, Debug)]
 pub struct Footprint {
     gap_over_a: f64,
     width_over_a: f64,
     poisson_ratio: f64,
-    /// Substrate thickness over the half-width `a`; infinite for a half-space.
+    /// Substrate thickness divided by the half-width `a`; infinite for a half-space.
     thickness_over_a: f64,
 }
 
@@ -43,18 +43,18 @@ pub struct Bases {
     pub thickness: Option<f64>,
 }
 
-/// Parameters of a footprint.
+/// Parameter of a footprint with respect to which a stiffness is differentiated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FootprintParameter {
-    /// `d/a`.
+    /// Gap `d/a`.
     Gap,
-    /// `b/a`.
+    /// Width out of the plane `b/a`.
     Width,
-    /// `ν`.
+    /// Poisson's ratio `ν`.
     PoissonRatio,
-    /// `h/a`.
+    /// Thickness of the substrate `h/a`.
     Thickness,
-    /// The logarithm of all lengths over `a`, as for shrinking bases.
+    /// Logarithm of a common factor of `d/a`, `b/a` and `h/a`, which grow if `a` shrinks.
     Size,
 }
 
@@ -62,7 +62,7 @@ impl Bases {
     /// Returns the footprint of the bases.
     ///
     /// # Errors
-    /// As [`Footprint::new`] and [`Footprint::on_layer`].
+    /// If a parameter is out of range, see [`Footprint::new`] and [`Footprint::on_layer`].
     pub fn footprint(&self) -> Result<Footprint, OutOfRange> {
         let a = self.half_width;
         let footprint = Footprint::new(self.gap / a, self.width / a, self.poisson_ratio)?;
@@ -70,28 +70,27 @@ impl Bases {
     }
 }
 
-/// Smallest thickness, over `a`, that the cells of a mesh resolve.
+/// Smallest layer thickness divided by `a` that the cells of a mesh resolve.
 const THINNEST: f64 = 0.25;
 
 impl Footprint {
-    /// Creates a footprint on a half-space.
+    /// Creates the footprint of rectangles on a half-space.
     ///
-    /// The rectangles have the gap `d/a` and the out-of-plane width `b/a`; the substrate has
-    /// Poisson's ratio `ν`.
+    /// Arguments are the gap `d/a`, the out-of-plane width `b/a` and Poisson's ratio `ν`.
     ///
     /// # Errors
-    /// If a length is not positive and finite, or `ν` lies outside `[0, 0.5]`.
+    /// If a length is not positive and finite, or `ν` lies outside `0..=0.5`.
     pub fn new(gap_over_a: f64, width_over_a: f64, poisson_ratio: f64) -> Result<Self, OutOfRange> {
         positive("gap over a", gap_over_a)?;
         positive("width over a", width_over_a)?;
         let possible = (0.0..=0.5).contains(&poisson_ratio);
         OutOfRange::unless(possible, "poisson's ratio", poisson_ratio, "a ratio from 0 to 0.5")?;
-        // −0 + 0 = 0, so equal numbers give one key.
+        // −0.0 + 0.0 = +0.0, so that ratios of −0.0 and +0.0 have the same hash.
         let poisson_ratio = poisson_ratio + 0.0;
         Ok(Self { gap_over_a, width_over_a, poisson_ratio, thickness_over_a: f64::INFINITY })
     }
 
-    /// Returns the same rectangles on a bonded layer of thickness `h/a`.
+    /// Returns the footprint of the same rectangles on a bonded layer of thickness `h/a`.
     ///
     /// # Errors
     /// If the layer is thinner than a quarter of the half-width `a`.
@@ -102,7 +101,7 @@ impl Footprint {
         Ok(Self { thickness_over_a, ..self })
     }
 
-    /// Returns the same rectangles on the half-space.
+    /// Returns the footprint of the same rectangles on the half-space.
     #[must_use]
     pub fn on_half_space(self) -> Self {
         Self { thickness_over_a: f64::INFINITY, ..self }
@@ -133,15 +132,16 @@ impl Footprint {
         self.poisson_ratio
     }
 
-    /// Returns the pitch `p/a = 2 + d/a`.
+    /// Returns the pitch `p/a = 2 + d/a` of the rectangles.
     pub fn pitch_over_a(&self) -> f64 {
         2.0 + self.gap_over_a
     }
 
-    /// Returns the footprint with one number increased by a small step.
+    /// Returns the footprint with one of its numbers increased by `step`.
     ///
-    /// The numbers are gap, width, Poisson's ratio and thickness. The ratio may leave its valid
-    /// range, because the shear compliance has a continuation there.
+    /// `number` is 0 for the gap, 1 for the width, 2 for Poisson's ratio and 3 for the thickness.
+    /// Poisson's ratio may leave its valid range, because the shear compliance is defined beyond
+    /// it.
     pub(crate) fn moved(&self, number: usize, step: f64) -> Self {
         let mut numbers = self.numbers();
         numbers[number] += step;
@@ -151,7 +151,8 @@ impl Footprint {
 
     /// Returns the step of a finite difference with respect to a parameter.
     ///
-    /// It is `fraction` of a length, or `fraction` itself for Poisson's ratio.
+    /// For a length the step is `fraction` times this length, for Poisson's ratio `fraction`
+    /// itself.
     pub(crate) fn step(&self, parameter: FootprintParameter, fraction: f64) -> f64 {
         match parameter {
             FootprintParameter::PoissonRatio => fraction,

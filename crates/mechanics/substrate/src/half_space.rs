@@ -1,36 +1,36 @@
-//! Surface displacement of a half-space under uniformly loaded cells.
+//! Surface displacement of an elastic half-space under uniformly loaded rectangular cells.
 //!
-//! The cells are rectangles. With `E* = E_s / (1 − ν²)` and the distance `r = √(x² + z²)` to a
-//! point load, a normal load displaces the surface normally, and a tangential load along `x`
-//! displaces it along `x`, by
+//! With `E* = E_s / (1 − ν²)` and the distance `r = √(x² + z²)` from a point load, a normal load
+//! `P` displaces the surface normally by `u_y`, and a tangential load `Q` along `x` displaces it
+//! along `x` by `u_x`:
 //!
 //! ```text
 //! u_y = 1/(π E*) · P / r                            (S1, Boussinesq)
 //! u_x = 1/(π E*) · Q [1/r + ν/(1 − ν) · x²/r³]      (S2, Cerruti)
 //! ```
 //!
-//! which are Eqs. (3) and (2) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176); for both see
-//! Barber, *Elasticity* (2002). Integrated over a rectangle, each is a sum over its four corners of
-//! two functions of the offset `(X, Z)` from the field point to the corner,
+//! (S1) and (S2) are Eqs. (3) and (2) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176); both are
+//! derived in Barber, *Elasticity* (2002). Their integrals over a rectangle are sums over its four
+//! corners. The summands are two functions of the offset `(X, Z)` from the field point to a corner:
 //!
 //! ```text
 //! A = X asinh(Z/|X|),   ∬ z²/r³ = A₊₊ − A₋₊ − A₊₋ + A₋₋
 //! B = Z asinh(X/|Z|),   ∬ x²/r³ = B₊₊ − B₋₊ − B₊₋ + B₋₋     (S3)
 //! ```
 //!
-//! and `1/r = x²/r³ + z²/r³`, so the pair `(A, B)` serves both loads.
+//! Because `1/r = x²/r³ + z²/r³`, the two functions `A` and `B` give both `u_y` and `u_x`.
 
 use std::f64::consts::PI;
 use std::ops::{Add, Sub};
 
-/// Integrals of (S3): the effect of a unit traction on a cell.
+/// Integrals (S3) of a cell, which give the displacement due to a unit traction.
 ///
-/// They contain no elastic constants. The corner functions of a single corner have the same type.
+/// They contain no elastic constants. The same type holds `A` and `B` of a single corner.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Influence {
-    /// `A`, `∬ z²/r³`.
+    /// `∬ z²/r³` over the cell, or `A` of a corner.
     pub across: f64,
-    /// `B`, `∬ x²/r³`.
+    /// `∬ x²/r³` over the cell, or `B` of a corner.
     pub along: f64,
 }
 
@@ -64,19 +64,20 @@ impl Sub for Influence {
     }
 }
 
-/// Line of corners parallel to `z`, seen from one field point.
+/// Line of cell corners parallel to `z`, with their offsets from one field point.
 ///
-/// Cells between two such lines share their corners, and the logarithm of `|Z|` serves every line.
-///
-/// With `asinh(Z/|X|) = sgn Z · [ln(|Z| + r) − ln|X|]`, a corner costs two logarithms and one root.
+/// The cells between two neighbouring lines share these corners. `ln|Z|` of a corner is stored,
+/// because it is the same on every line of a mesh. With
+/// `asinh(Z/|X|) = sgn Z · [ln(|Z| + r) − ln|X|]`, a corner costs two logarithms and one root.
 #[derive(Clone, Debug)]
 pub struct CornerLine {
-    /// `Z` and `ln|Z|` of each corner.
+    /// `Z` and `ln|Z|` of each corner; `Z` is measured from the field point.
     corners: Vec<[f64; 2]>,
 }
 
 impl CornerLine {
-    /// Creates a line of corners at the depths `edges`, seen from the depth `field`.
+    /// Creates a line of corners at the coordinates `edges` along `z`, for a field point at
+    /// `field`.
     pub fn new(edges: impl IntoIterator<Item = f64>, field: f64) -> Self {
         let offsets = edges.into_iter().map(|edge| edge - field);
         Self { corners: offsets.map(|z| [z, ln_or_zero(z)]).collect() }
@@ -87,14 +88,15 @@ impl CornerLine {
         self.corners.len()
     }
 
-    /// Returns true if the set has no corners.
+    /// Returns true if the line has no corners.
     pub fn is_empty(&self) -> bool {
         self.corners.is_empty()
     }
 
-    /// Evaluates the corner functions along the line at the offset `x`, into `corners`.
+    /// Writes the corner functions `A` and `B` of a line at the offset `x` into `corners`.
     ///
-    /// The field point must not be a corner, which is never the case for a collocation point.
+    /// `x` is measured from the field point, which must not coincide with a corner. Collocation
+    /// points lie inside cells and never do.
     pub fn evaluate(&self, x: f64, corners: &mut [Influence]) {
         let ln_x = ln_or_zero(x);
         for (corner, &[z, ln_z]) in corners.iter_mut().zip(&self.corners) {
@@ -107,7 +109,7 @@ impl CornerLine {
 
 /// Returns `ln|s|`, or 0 at `s = 0`.
 ///
-/// There the corner function vanishes with its factor `s`.
+/// At `s = 0` the corner function is 0 because it is proportional to `s`.
 fn ln_or_zero(s: f64) -> f64 {
     if s == 0.0 { 0.0 } else { s.abs().ln() }
 }

@@ -1,8 +1,8 @@
-//! Surface displacement of a layer on a rigid base, relative to a half-space.
+//! Surface displacement of a layer on a rigid base, minus the displacement of a half-space.
 //!
-//! A traction wave of wave number `k` displaces the surface of a layer of thickness `h`. With
-//! `x = k h`, `κ = 3 − 4ν` and `D = κ cosh 2x + 2x² + 5 − 12ν + 8ν²`, and over `G k`, the
-//! displacement is
+//! A traction wave of unit amplitude and wave number `k` acts on a layer of thickness `h` and shear
+//! modulus `G`. With `x = k h`, `κ = 3 − 4ν` and `D = κ cosh 2x + 2x² + 5 − 12ν + 8ν²`, the
+//! displacement times `G k` is
 //!
 //! ```text
 //! normal             N = (1 − ν) (κ sinh 2x − 2x)/D                          (Carbone & Mangialardi 2008)
@@ -10,38 +10,38 @@
 //! normal and shear   C = [x² − (1 − 2ν) κ sinh² x]/D                                                      (S19)
 //! ```
 //!
-//! The limits for a deep layer are the values of the half-space: `1 − ν`, `1 − ν`, `1` and
-//! `−(1 − 2ν)/2`. The remainder decays as `e^(−2x)`, so in real space it is a smooth function of
-//! `ρ = r/h`, which is added to the closed forms (S1) and (S2). With the angle `ψ` from the row to
-//! the direction from load to field point,
+//! In a deep layer these compliances are the values of the half-space: `1 − ν`, `1 − ν`, `1` and
+//! `−(1 − 2ν)/2`. The differences `Δ` from these values decay as `e^(−2x)`. In real space they are
+//! therefore smooth functions of `ρ = r/h`, which are added to the closed forms (S1) and (S2). Let
+//! `ψ` be the angle between the row and the direction from the load to the field point. Then
 //!
 //! ```text
 //! u_y of P   ∫ ΔN J₀(xρ) dx                     u_x of Q   ∫ ½Δ(S + T) J₀ dx − cos 2ψ ∫ ½Δ(S − T) J₂ dx
 //! u_x of P   −cos ψ ∫ ΔC J₁ dx                  u_y of Q   cos ψ ∫ ΔC J₁ dx               all over π (1 − ν) E* h   (S20)
 //! ```
 //!
-//! (Carbone & Mangialardi, J. Mech. Phys. Solids 56, 684, doi 10.1016/j.jmps.2007.05.009.) As on
-//! the half-space, the coupling of a deep layer, proportional to `1 − 2ν`, is neglected.
+//! (Carbone & Mangialardi, J. Mech. Phys. Solids 56, 684, doi 10.1016/j.jmps.2007.05.009). The
+//! coupling of normal and shear in a deep layer, `−(1 − 2ν)/2`, is neglected as on the half-space.
 
 use std::f64::consts::PI;
 use std::ops::{Add, Mul};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The four integrals of (S20), in order.
+/// The four integrals of (S20): of `ΔN`, `½Δ(S + T)`, `½Δ(S − T)` and `ΔC`, in this order.
 type Integrals = [f64; 4];
 
-/// Number of tabulated `ρ` per unit; cubic interpolation is then accurate to 1e-8.
+/// Number of tabulated distances `ρ` per unit; cubic interpolation is then accurate to 1e-8.
 const PER_UNIT: usize = 48;
 
-/// Largest tabulated `ρ`.
+/// Largest tabulated distance `ρ`.
 ///
-/// Beyond it the surface of a layer moves by less than 1e-6, so the integrals are the negative
-/// values of the half-space.
+/// At larger distances the surface of a layer moves by less than 1e-6. The differences are then the
+/// negative displacements of the half-space.
 const FARTHEST: usize = 16;
 
-/// Number of quadrature intervals, up to where integrands decay to 1e-12.
+/// Number of intervals of the quadrature over `x`, at the end of which integrands are 1e-12.
 ///
-/// Each has the width of an eighth of a unit, a third of a wave of `J(xρ)` at the largest `ρ`.
+/// An interval has the width 1/8, a third of a wave of `J(xρ)` at the largest `ρ`.
 const INTERVALS: u32 = 128;
 const INTERVAL: f64 = 0.125;
 
@@ -53,17 +53,15 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.861_136_311_594_052_6, 0.347_854_845_137_453_9],
 ];
 
-/// Returns `N`, `½(S + T)`, `½(S − T)` and `C` of (S19) at `x`.
-///
-/// The half-space values are subtracted.
+/// Returns the differences of `N`, `½(S + T)`, `½(S − T)` and `C` of (S19) from the half-space.
 pub fn beside_half_space(poisson_ratio: f64, x: f64) -> Integrals {
     let (left, kappa) = (1.0 - poisson_ratio, 3.0 - 4.0 * poisson_ratio);
-    // Divided by e^(2x), so that differences with the half-space keep their digits.
+    // Divided by e^(2x), so that differences from the half-space keep their digits.
     let decay = (-2.0 * x).exp();
     let rest = 5.0 - 12.0 * poisson_ratio + 8.0 * poisson_ratio * poisson_ratio;
     let constant = 2.0 * x * x + rest;
     let d = 0.5 * kappa * (1.0 + decay * decay) + constant * decay;
-    // S and N minus 1 − ν, T minus 1.
+    // The differences of N and S from 1 − ν, and of T from 1.
     let common = -kappa * decay * decay - constant * decay;
     let [normal, shear] = [-2.0, 2.0].map(|sign| left * (common + sign * x * decay) / d);
     // tanh x − 1, without cancellation.
@@ -73,22 +71,22 @@ pub fn beside_half_space(poisson_ratio: f64, x: f64) -> Integrals {
     [normal, 0.5 * (shear + across), 0.5 * (shear - across), coupled / d]
 }
 
-/// Returns the four compliances of (S19) for the half-space.
+/// Returns `N`, `½(S + T)`, `½(S − T)` and `C` of (S19) for the half-space.
 fn half_space(poisson_ratio: f64) -> Integrals {
     [1.0 - poisson_ratio, 1.0 - 0.5 * poisson_ratio, -0.5 * poisson_ratio, poisson_ratio - 0.5]
 }
 
-/// Effect of a point load on a layer, minus its effect on the half-space (S20).
+/// Displacement due to a point load on a layer, minus the displacement of the half-space (S20).
 #[derive(Debug)]
 pub struct Layer {
     poisson_ratio: f64,
-    /// Values and derivatives of the four integrals of (S20).
+    /// Values of the four integrals of (S20) and their derivatives, at equidistant `ρ` from 0.
     ///
-    /// They are at equidistant distances `ρ` from 0.
+    /// Derivatives are per step of `ρ`.
     nodes: Vec<[[f64; 2]; 4]>,
 }
 
-/// Displacements in two directions for a load in each, `E* = 1`.
+/// Normal and tangential displacements due to normal and tangential unit loads, for `E* = 1`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Displacements {
     /// Normal displacement due to a normal load.
@@ -97,7 +95,7 @@ pub struct Displacements {
     pub shear: f64,
     /// Displacement along the row due to a normal load.
     ///
-    /// The normal displacement due to a load along the row has the opposite sign.
+    /// The normal displacement due to a load along the row has the opposite value.
     pub cross: f64,
 }
 
@@ -119,25 +117,25 @@ impl Mul<f64> for Displacements {
     }
 }
 
-/// Recently used layers, one per Poisson's ratio; few are needed at a time.
+/// Recently used layers, one for each Poisson's ratio, the most recently used first.
 static RECENT: Mutex<Vec<Arc<Layer>>> = Mutex::new(Vec::new());
 
-/// Number of cached layers.
+/// Maximum number of layers in `RECENT`.
 ///
-/// Each thread that differentiates by Poisson's ratio needs several.
+/// Each thread that computes finite differences with respect to Poisson's ratio needs several.
 const KEPT: usize = 16;
 
 impl Layer {
-    /// Returns the layer for a Poisson's ratio.
+    /// Returns the integrals of a layer with a Poisson's ratio, from the cache if possible.
     ///
-    /// Its integrals do not depend on the thickness.
+    /// They do not depend on the thickness of the layer.
     pub fn with_poisson_ratio(poisson_ratio: f64) -> Arc<Self> {
-        // Compute under the lock, so that a thread that needs the same layer waits for it.
+        // Computed under the lock, so that other threads that need the same layer wait for it.
         let mut cache = RECENT.lock().unwrap_or_else(PoisonError::into_inner);
         let cached = cache.iter().position(|layer| layer.poisson_ratio == poisson_ratio);
         let layer =
             cached.map_or_else(|| Arc::new(Self::new(poisson_ratio)), |at| cache.remove(at));
-        // Most recently used first, so that the least recently used is dropped.
+        // The most recently used layer is first, so that `truncate` drops the least recently used.
         cache.insert(0, Arc::clone(&layer));
         cache.truncate(KEPT);
         layer
@@ -153,14 +151,13 @@ impl Layer {
             }
         }
         let last = FARTHEST * PER_UNIT;
-        // Two more values than tabulated, because the slope at the last one is a central
-        // difference.
+        // Two values beyond the last tabulated one, because its derivative is a central difference.
         let values: Vec<Integrals> =
             (0..=last + 2).map(|k| integrals(&points, k as f64 / PER_UNIT as f64)).collect();
         let nodes = (0..=last).map(|k| {
             std::array::from_fn(|part| {
                 let [near, far] = [1, 2].map(|steps| {
-                    // Below 0 the integrals continue evenly; the integral with J₁ continues oddly.
+                    // Even continuation to ρ < 0, but odd for the integral with J₁ (part 3).
                     let sign = if k < steps && part == 3 { -1.0 } else { 1.0 };
                     values[k + steps][part] - sign * values[k.abs_diff(steps)][part]
                 });
@@ -170,15 +167,15 @@ impl Layer {
         Self { poisson_ratio, nodes: nodes.collect() }
     }
 
-    /// Returns the displacements of unit loads at the offset `(x, z)`.
+    /// Returns the displacements of unit loads at the offset `(x, z)`, minus the half-space.
     ///
-    /// The half-space values are subtracted. The layer has the given `thickness`.
+    /// The layer has the given `thickness`; `x` is the offset along the row.
     pub fn beside_half_space(&self, thickness: f64, x: f64, z: f64) -> Displacements {
         let square = x * x + z * z;
         let r = square.sqrt();
         let [normal, mean, difference, cross] = self.integrals(r / thickness);
         let unit = 1.0 / (PI * (1.0 - self.poisson_ratio) * thickness);
-        // At zero offset there is no direction, and the terms that depend on it vanish.
+        // At zero offset the direction is undefined, but the terms with cos ψ vanish.
         let (cos, cos_twice) = if r > 0.0 { (x / r, (x * x - z * z) / square) } else { (0.0, 0.0) };
         Displacements {
             normal: unit * normal,
@@ -191,7 +188,7 @@ impl Layer {
         let steps = rho * PER_UNIT as f64;
         let k = steps as usize;
         let Some(next) = self.nodes.get(k + 1) else {
-            // The layer does not move here: J₀, J₁ and J₂ all have the integral 1/ρ.
+            // The layer is at rest at this distance. ∫ J₀, ∫ J₁ and ∫ J₂ over x are all 1/ρ.
             return half_space(self.poisson_ratio).map(|part| -part / rho);
         };
         let t = steps - k as f64;
@@ -204,7 +201,7 @@ impl Layer {
     }
 }
 
-/// Computes the integrals of (S20) at `ρ` from the points of the quadrature.
+/// Computes the integrals of (S20) at `ρ` from the quadrature points `x` and weighted integrands.
 fn integrals(points: &[(f64, Integrals)], rho: f64) -> Integrals {
     let mut sums = [0.0; 4];
     for (x, [normal, mean, difference, cross]) in points {

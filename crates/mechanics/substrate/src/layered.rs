@@ -1,11 +1,12 @@
-//! Contribution of a rigid base below a layer to the stiffness of a row.
+//! Contribution of the rigid base below a layer to the stiffness of a row.
 //!
-//! Layer and half-space are solved by collocation on the same meshes and subtracted, so that mesh
-//! errors cancel. Hence thick layers converge to the half-space to the last digit of the table. On
-//! a layer the tractions `q` along the row and `p` across it are solved together, with (S20) added
-//! to (S1) and (S2). The symmetry plane `x = 0` gives two systems: `q` even and `p` odd for a
-//! displacement along the row and for a rotation, `q` odd and `p` even for a displacement across
-//! it.
+//! The contribution is the difference of two collocation solutions, layer minus half-space, on the
+//! same mesh, so that mesh errors cancel. Thick layers therefore converge to the half-space with
+//! all digits of the table. On a layer the tractions `q` along the row and the normal tractions `p`
+//! are solved together, with (S20) added to (S1) and (S2). Symmetry about `x = 0` splits the
+//! equations into two systems: `q` even and `p` odd for a displacement along the row and for a
+//! rotation, `q` odd and `p` even for a vertical displacement. In this module, "across" means
+//! vertical.
 
 use crate::boundary_element::{ARM, CellColumns, Load, ONE, Profile, Unresolved, row_reactions};
 use crate::extrapolation::{CAUTION, extrapolation};
@@ -16,35 +17,35 @@ use crate::{Coupling, Footprint, FootprintParameter, NEIGHBOURS, Neighbour, RowS
 
 use nalgebra::DMatrix;
 
-/// Cells per side of the meshes.
+/// Number of cells per side of both meshes.
 ///
-/// The contribution is smooth and needs fewer than the stiffness.
+/// The contribution of the base is smooth and needs fewer cells than the stiffness itself.
 const CELLS: [usize; 2] = [4, 6];
 
-/// Relative step of the differences.
+/// Step of the finite differences, relative to the parameter (absolute for Poisson's ratio).
 ///
-/// Third-order terms and the rounding of a solution, about 1e-13, both stay below 1e-6 of the
+/// Both the third-order terms and the rounding of a solution, about 1e-13, stay below 1e-6 of the
 /// derivative.
 const STEP: f64 = 1e-4;
 
-/// Number of values for the scale itself, and for each neighbour.
+/// Number of values of the scale itself (`OWN`) and of each neighbour (`PER_NEIGHBOUR`).
 const OWN: usize = 4;
 const PER_NEIGHBOUR: usize = 6;
 
-/// Computes the contribution of the layer to the stiffness of a row.
+/// Computes the contribution of the rigid base to the stiffness of a row.
 ///
-/// The cells have the quadrature of the footprint `near`, which is almost equal, so that
-/// differences between footprints do not contain a change of the quadrature.
+/// The footprint `near`, almost equal to `footprint`, determines the number of quadrature points.
+/// Footprints of a finite difference share it, so that their quadratures do not differ.
 ///
 /// # Errors
-/// If the gap vanishes by rounding.
+/// If the gap or a cell vanishes by rounding.
 pub(crate) fn addition(
     footprint: &Footprint,
     near: &Footprint,
     coupling: Coupling,
 ) -> Result<RowStiffness, Unresolved> {
     let neighbours = if coupling == Coupling::Full { NEIGHBOURS } else { 1 };
-    // With two meshes only, the step of the extrapolation is the error estimate.
+    // Without a third mesh, the step of the extrapolation serves as the error estimate.
     let coarse = added(footprint, near, neighbours, CELLS[0])?;
     let fine = added(footprint, near, neighbours, CELLS[1])?;
     let best = extrapolation(CELLS, [&coarse.numbers, &fine.numbers]);
@@ -56,7 +57,7 @@ pub(crate) fn addition(
     let error = steps.map(|((best, fine), size)| CAUTION * ((best - fine) / size).abs());
     let neighbours = best[OWN..].as_chunks::<PER_NEIGHBOUR>().0.iter().map(|n| Neighbour {
         direct: [n[0], n[1], n[2]],
-        // Eq. (1) has no force from rotation, so drop it here too.
+        // Eq. (1) has no force due to a rotation, so the term of the layer is dropped, too.
         cross: if coupling == Coupling::Full { n[3] } else { 0.0 },
         lift: n[4],
         roll: n[5],
@@ -70,9 +71,9 @@ pub(crate) fn addition(
     })
 }
 
-/// Computes the derivative of [`addition`] with respect to a parameter.
+/// Computes the derivative of [`addition`] with respect to a parameter by central differences.
 ///
-/// Second-order differences suffice: the contribution of a layer is smooth.
+/// Second-order differences are sufficient, because the contribution is smooth.
 pub(crate) fn slope(
     footprint: &Footprint,
     coupling: Coupling,
@@ -84,17 +85,17 @@ pub(crate) fn slope(
     Ok(high? * (0.5 / step) + low? * (-0.5 / step))
 }
 
-/// Reactions on one mesh, minus the half-space reactions.
+/// Reactions of a row on a layer minus its reactions on the half-space, on one mesh.
 struct Added {
-    /// Values of the middle rectangle, then of each neighbour.
+    /// Values of the middle rectangle, then of each neighbour, in the notation of (S9) and (S21).
     ///
-    /// `K_x`, `K_y`, `K_φ`, `r_0`, then `K_x`, `K_y`, `K_φ`, `c`, `l`, `r`.
+    /// Middle rectangle: `K_x`, `K_y`, `K_φ`, `r_0`. Neighbour: `K_x`, `K_y`, `K_φ`, `c`, `l`, `r`.
     numbers: Vec<f64>,
     /// `K_x`, `K_y`, `K_φ` of the middle rectangle on the layer.
     sizes: [f64; 3],
 }
 
-/// Solves for the reactions on the layer and on the half-space, and subtracts them.
+/// Solves for the reactions on the layer and on the half-space, and returns their difference.
 fn added(
     footprint: &Footprint,
     near: &Footprint,
@@ -129,10 +130,10 @@ fn added(
 }
 
 impl Mesh {
-    /// Solves for the tractions, `q` before `p`.
+    /// Solves for the tractions: `q` of all cells, followed by `p` of all cells.
     ///
-    /// `imposed` holds the displacements of the middle rectangle along and across the row; its
-    /// neighbours are fixed. `None` if the matrix is singular.
+    /// Each entry of `imposed` is a load: the tangential and the normal displacement of the middle
+    /// rectangle. The neighbours are fixed. Returns `None` if the matrix is singular.
     fn solve(
         &self,
         equations: DMatrix<f64>,
@@ -151,20 +152,20 @@ impl Mesh {
     }
 }
 
-/// Tractions of the three loads.
+/// Tractions due to a displacement along the row, a rotation and a vertical displacement.
 struct Tractions<'a> {
     mesh: &'a Mesh,
     pitch: f64,
-    /// Tractions due to a displacement along the row, and due to a rotation.
+    /// First column: due to a displacement along the row. Second column: due to a rotation.
     along: DMatrix<f64>,
-    /// Tractions due to a displacement across the row.
+    /// Tractions due to a vertical displacement.
     across: DMatrix<f64>,
 }
 
 impl Tractions<'_> {
-    /// Returns the tractions by load.
+    /// Returns the tractions of each load.
     ///
-    /// The loads are a displacement along the row, a rotation, and a displacement across the row.
+    /// The loads are a displacement along the row, a rotation and a vertical displacement.
     fn by_load(&self) -> [&[f64]; 3] {
         let (push, turn) = self.along.as_slice().split_at(self.along.nrows());
         [push, turn, self.across.as_slice()]
@@ -176,7 +177,7 @@ impl Tractions<'_> {
         let x = self.mesh.middle_sum(&push[..n], ONE);
         let y = self.mesh.middle_sum(&lift[n..], ONE);
         let moment = self.mesh.middle_sum(&turn[n..], ARM);
-        // By reciprocity both are equal; collocation leaves a small difference, so take the mean.
+        // Both values of `roll` are equal by reciprocity, up to a small error of collocation.
         let roll = f64::midpoint(
             self.mesh.middle_sum(&turn[..n], ONE),
             self.mesh.middle_sum(&push[n..], ARM),
@@ -186,14 +187,15 @@ impl Tractions<'_> {
 
     fn neighbour(&self, k: usize) -> [f64; PER_NEIGHBOUR] {
         let [push, turn, lifted] = self.by_load().map(|load| self.forces_on_neighbour(k, load));
-        // The middle rectangle has two neighbours, its neighbours have one, so collocation gives
-        // two values. An energy requires one value: take the mean.
+        // By reciprocity `push` and `lifted` give the same `lift`, and `push` and `turn` the same
+        // `roll`. On this mesh the values differ, because outer rectangles have fewer neighbours.
+        // Means are used, because an energy requires one value.
         let lift = 0.5 * (push[1] - lifted[0]);
         let roll = f64::midpoint(push[2], turn[0]);
         [push[0], lifted[1], turn[2], turn[1], lift, roll]
     }
 
-    /// Sums the tractions on neighbour `k`: forces along and across the row, moment.
+    /// Integrates tractions on neighbour `k` to the force along the row, vertical force and moment.
     fn forces_on_neighbour(&self, k: usize, tractions: &[f64]) -> [f64; 3] {
         let n = self.mesh.unknowns();
         let centre = (k + 1) as f64 * self.pitch;
@@ -206,10 +208,10 @@ impl Tractions<'_> {
     }
 }
 
-/// Point of a cell with its weight, for the smooth part of the influence.
+/// Coordinate of a quadrature point in a cell and its weight, for the smooth part of the influence.
 type QuadraturePoint = [f64; 2];
 
-/// Quadrature points of cells: along the row by column, across it by row.
+/// Quadrature points of the cells along `x` (`columns`) and along `z` (`depth`).
 struct Quadrature {
     columns: Vec<Vec<QuadraturePoint>>,
     depth: Vec<Vec<QuadraturePoint>>,
@@ -218,7 +220,8 @@ struct Quadrature {
 impl Quadrature {
     /// Places two Gauss points on subcells of at most half the thickness of the layer.
     ///
-    /// The quadrature is accurate to 1e-4 of the contribution.
+    /// The result is accurate to 1e-4 of the contribution. `near` determines the number of
+    /// subcells.
     fn new(mesh: &Mesh, near: &Mesh, footprint: &Footprint) -> Self {
         let largest = 0.5 * footprint.thickness_over_a();
         let columns = mesh.across().zip(near.across());
@@ -226,9 +229,10 @@ impl Quadrature {
         Self { columns, depth: gauss_points(&mesh.depth, &near.depth, largest) }
     }
 
-    /// Assembles the matrices of the two systems.
+    /// Assembles the matrices of the system with even `q` and of the system with even `p`.
     ///
-    /// The displacements along the row precede those across it, and `q` precedes `p`.
+    /// The first half of the rows are displacements along the row, the second half vertical ones.
+    /// The first half of the columns belongs to `q`, the second half to `p`.
     fn equations(&self, mesh: &Mesh, footprint: &Footprint) -> [DMatrix<f64>; 2] {
         let n = mesh.unknowns();
         let layer = Layer::with_poisson_ratio(footprint.poisson_ratio());
@@ -241,7 +245,7 @@ impl Quadrature {
                 let smooth = self.at(&layer, footprint.thickness_over_a(), [x, z]);
                 let [right, left] = [1.0, -1.0].map(|side| columns.on_side(mesh, x, side));
                 for (column, smooth) in smooth.into_iter().enumerate() {
-                    // The edges of a mirror image descend, which reverses the sign.
+                    // Influences of mirror images are negative, because their edges descend.
                     let closed = [right[column], Influence::default() - left[column]];
                     let [right, left] = [0, 1].map(|side| {
                         smooth[side] + on_half_space(closed[side], footprint.poisson_ratio())
@@ -255,9 +259,10 @@ impl Quadrature {
         systems
     }
 
-    /// Computes the smooth influence of each cell at a point.
+    /// Computes the influence of each cell at `(x, z)`: layer minus half-space, a smooth function.
     ///
-    /// The two values are the cell and its mirror image in `x`, each with its mirror image in `z`.
+    /// The two values of a cell are due to the cell and to its mirror image in `x`. Both include
+    /// the mirror image in `z`.
     fn at(&self, layer: &Layer, thickness: f64, [x, z]: [f64; 2]) -> Vec<[Displacements; 2]> {
         let mut influences = Vec::with_capacity(self.columns.len() * self.depth.len());
         for column in &self.columns {
@@ -281,8 +286,8 @@ impl Quadrature {
 
 /// Returns the Gauss points of each cell of an axis.
 ///
-/// Each cell is divided into subcells no wider than `largest`. The axis `near` determines their
-/// number.
+/// Each cell is divided into equal subcells. Their number is chosen so that subcells of the axis
+/// `near` are no wider than `largest`.
 fn gauss_points(axis: &GradedAxis, near: &GradedAxis, largest: f64) -> Vec<Vec<QuadraturePoint>> {
     let mut cells = Vec::with_capacity(axis.cells());
     for k in 0..axis.cells() {
@@ -299,15 +304,16 @@ fn gauss_points(axis: &GradedAxis, near: &GradedAxis, largest: f64) -> Vec<Vec<Q
     cells
 }
 
-/// Returns the displacements of a cell on the half-space.
+/// Returns the surface displacements of the half-space due to unit tractions on a cell.
 fn on_half_space(cell: Influence, poisson_ratio: f64) -> Displacements {
     let (normal, shear) = (cell.normal(), cell.tangential(poisson_ratio));
     Displacements { normal, shear, cross: 0.0 }
 }
 
-/// Fills the four entries of a cell.
+/// Fills the four entries by which a cell influences a collocation point.
 ///
-/// `signs` are the signs of `q` and `p` in the mirror image.
+/// `right` and `left` are the influences of the cell and of its mirror image in `x`. The last
+/// argument holds the signs of `q` and of `p` on the mirror image.
 fn fill(
     matrix: &mut DMatrix<f64>,
     n: usize,

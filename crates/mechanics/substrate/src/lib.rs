@@ -1,44 +1,46 @@
-//! Springs equivalent to an elastic half-space under a row of rigid rectangles.
+//! Springs that represent an elastic substrate under a row of rigid rectangles.
 //!
-//! The bases of the scales, `2a × b` at gaps `d`, rest on a substrate much deeper than they are
-//! wide. Each base loads its neighbours through the substrate. Eq. (1) of Shafiei, Pro, Martini and
-//! Barthelat (2021, doi 10.1016/j.jmps.2020.104176) condenses this to six coefficients,
+//! The rectangles are the bases of the scales. They have the size `2a × b` and the gaps `d`. Each
+//! base loads its neighbours through the substrate, a half-space or a layer on a rigid base. Eq.
+//! (1) of Shafiei, Pro, Martini and Barthelat (2021, doi 10.1016/j.jmps.2020.104176) describes a
+//! row on a half-space by six coefficients `α` and `β`:
 //!
 //! ```text
 //! F_x⁽ⁱ⁾ = E* a  [α_x u_x⁽ⁱ⁾ − β_x (u_x⁽ⁱ⁻¹⁾ + u_x⁽ⁱ⁺¹⁾)]      and the same in y
 //! M⁽ⁱ⁾   = E* a³ [α_φ φ⁽ⁱ⁾ − β_φ (φ⁽ⁱ⁻¹⁾ + φ⁽ⁱ⁺¹⁾)]           E* = E_s / (1 − ν²)
 //! ```
 //!
-//! the reactions of three rigid rectangles to a unit displacement of the middle one while its
-//! neighbours are fixed. They depend only on `d/a`, `b/a` and `ν`. The equations are numbered
-//! (S1)–(S22) here and in `docs/theory/model.md`.
+//! The coefficients are the reactions of three rigid rectangles if the middle rectangle has a unit
+//! displacement and its two neighbours are fixed. They depend only on `d/a`, `b/a` and Poisson's
+//! ratio `ν` of the substrate. Equations (S1) to (S22), cited in this crate, are derived in
+//! `docs/theory/model.md`.
 //!
-//! | Type | Role |
+//! | Item | Content |
 //! |---|---|
-//! | [`Footprint`] | parameters of the springs: `d/a`, `b/a`, `ν`, valid by construction |
-//! | [`Bases`] | dimensions behind a footprint, in any unit |
-//! | [`Springs`] | the six coefficients and their estimated error |
-//! | [`calibrate`] | one footprint to its springs: from a table, elsewhere solved in milliseconds |
+//! | [`Footprint`] | `d/a`, `b/a`, `ν` and thickness of the substrate, checked at construction |
+//! | [`Bases`] | dimensions of the bases, from which a footprint is computed, in any unit |
+//! | [`Springs`] | the six coefficients of Eq. (1) and their estimated error |
+//! | [`calibrate`] | computes the springs of a footprint from a table or by boundary elements |
 //! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | stiffness with more neighbours and cross terms |
-//! | [`FarField`], [`Relief`] | motion of the scales beyond the last contact, and their compliance |
-//! | [`StiffnessSlopes`] | derivatives of the stiffness of a row with respect to the footprint |
-//! | [`Calibrations`] | each footprint solved once, shared by all threads |
-//! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch and its law |
+//! | [`FarField`], [`Relief`] | closed-form motion of the scales beyond the last contact |
+//! | [`StiffnessSlopes`] | derivatives of the stiffness with respect to the footprint |
+//! | [`Calibrations`] | cache that solves each footprint once for all threads |
+//! | [`SurfaceStrip`], [`SubstrateLaw`] | stretch and law of the surface between two bases |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
-//! | [`layer`] | contribution of a rigid base below a layer |
-//! | [`mesh`] | cells graded towards the edges and the gap |
-//! | [`table`] | the springs as polynomials |
+//! | [`layer`] | effect of a rigid base below a layer on the surface displacement |
+//! | [`mesh`] | cells of a rectangle, graded towards its edges |
+//! | [`table`] | springs tabulated as Chebyshev polynomials |
 //! | [`boundary_element`] | collocation equations and the reactions of the rectangles |
 //!
-//! [`Footprint::on_layer`] makes the substrate a layer on a rigid base, which couples the force
-//! along the row, the force across it and the moment. On the half-space, normal and tangential
-//! tractions are treated separately. This is exact at `ν = 0.5` and otherwise neglects their
-//! coupling (see [`boundary_element::row_reactions`]).
+//! On a layer ([`Footprint::on_layer`]) horizontal forces, vertical forces and moments are coupled.
+//! On the half-space, normal and tangential tractions are solved separately. This is exact at
+//! `ν = 0.5`; at other ratios it neglects the coupling of the tractions (see
+//! [`boundary_element::row_reactions`]).
 //!
 //! ```
 //! use substrate::{Calibrations, Footprint};
 //!
-//! // Square bases, a tenth of their side apart, on an incompressible substrate.
+//! // Square bases of side 2a with gaps of a tenth of the side, on an incompressible substrate.
 //! let footprint = Footprint::new(0.2, 2.0, 0.5)?;
 //! let springs = Calibrations::default().get(&footprint)?;
 //! assert!((springs.direct[1] - 3.376).abs() < 1e-3);

@@ -1,22 +1,22 @@
-//! Cells graded towards the rectangle edges, where the tractions are singular.
+//! Cells of a rectangle, graded towards its edges, where the tractions are singular.
 //!
 //! Under a rigid rectangle the traction grows like `s^(−1/2)` with decreasing distance `s` from an
-//! edge. If another rectangle lies beyond a gap `ε`, this holds only within about `ε`, and the
-//! traction grows like `1/s` further in. Cells of equal width in
+//! edge. If another rectangle lies beyond a gap `ε`, this holds only for `s` below about `ε`, and
+//! the traction grows like `1/s` at larger distances. Cells that have equal widths in
 //!
 //! ```text
 //! U(s) = ∫ ds/√(s (s + ε)) = 2 asinh √(s/ε)      (S4)
 //! ```
 //!
-//! from both edges carry approximately equal loads. Their size decreases quadratically towards an
-//! edge, as with Chebyshev points, and geometrically between a small `ε` and the length of the
-//! side.
+//! from both edges therefore carry approximately equal loads. Cell widths decrease quadratically
+//! towards an edge, as with Chebyshev points, and geometrically at distances between a small `ε`
+//! and the length of the side.
 
 use std::f64::consts::PI;
 
 use crate::Footprint;
 
-/// Cells along one side of a rectangle: edges, and collocation points between them.
+/// Cells along one side of a rectangle: their edges, and one collocation point in each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradedAxis {
     edges: Vec<f64>,
@@ -24,27 +24,28 @@ pub struct GradedAxis {
 }
 
 impl GradedAxis {
-    /// Creates `cells` cells over the interval `ends`.
+    /// Creates `cells` cells on the interval between `ends`.
     ///
-    /// `layers` holds the lengths `ε` of (S4) to which the cells are graded at the two ends.
+    /// `layers` holds the length `ε` of (S4) at each end, to which the cells are graded.
     pub fn graded(ends: [f64; 2], layers: [f64; 2], cells: usize) -> Self {
         Self::between(&Grading::new(ends, layers), 0.0, cells)
     }
 
-    /// Creates `cells` cells on `0 … half_length`, the upper half of a graded axis.
+    /// Creates `cells` cells on `0..half_length`: the upper half of an axis graded at both ends.
     pub fn upper_half(half_length: f64, layer: f64, cells: usize) -> Self {
         let grading = Grading::new([-half_length, half_length], [layer; 2]);
         let mut axis = Self::between(&grading, 0.5, cells);
-        // The symmetry plane, exactly.
+        // Sets the edge on the symmetry plane to exactly 0.
         axis.edges[0] = 0.0;
         axis
     }
 
-    /// Creates cells beyond the fraction `start` of the graded interval.
+    /// Creates cells on the part of the graded interval beyond the fraction `start` of the range of
+    /// `U`.
     ///
-    /// Their points lie at the middle in the mapped coordinate, as in cosine-spaced vortex
-    /// lattices. At the middle in length, the error would be ten times as large and only of second
-    /// order.
+    /// Collocation points lie at the middle of a cell in `U`, as in cosine-spaced vortex lattices.
+    /// Points at the middle of its length would give an error ten times as large, of second order
+    /// only.
     fn between(grading: &Grading, start: f64, cells: usize) -> Self {
         let [edges, points] = [(0.0, cells + 1), (0.5, cells)].map(|(shift, count)| {
             let fractions = (0..count).map(|k| (1.0 - start) * (k as f64 + shift) / cells as f64);
@@ -53,7 +54,7 @@ impl GradedAxis {
         Self { edges, points }
     }
 
-    /// Returns the edges of the cells, ascending, one more than cells.
+    /// Returns the edges of the cells in ascending order, one more than there are cells.
     pub fn edges(&self) -> &[f64] {
         &self.edges
     }
@@ -73,45 +74,46 @@ impl GradedAxis {
         self.edges[k + 1] - self.edges[k]
     }
 
-    /// Returns the middle of cell `k`, at the resultant of its uniform traction.
+    /// Returns the middle of cell `k`, where the resultant of its uniform traction acts.
     pub fn middle(&self, k: usize) -> f64 {
         f64::midpoint(self.edges[k], self.edges[k + 1])
     }
 
-    /// Returns the edges of this axis and its mirror image below 0.
+    /// Returns the edges of this axis and of its mirror image below 0.
     ///
-    /// They ascend and contain 0 once. The result is a whole axis if this one is an upper half.
+    /// The edges ascend and contain 0 once. If this axis is an upper half, they are the whole axis.
     pub fn mirrored_edges(&self) -> impl Iterator<Item = f64> + Clone + '_ {
         self.edges.iter().skip(1).rev().map(|e| -e).chain(self.edges.iter().copied())
     }
 }
 
-/// Quarter of an odd number of equal rectangles in a row, in units of `a`.
+/// Mesh of a quarter of a row with an odd number of equal rectangles, lengths in units of `a`.
 ///
-/// The symmetry planes leave the half `x > 0` of the middle rectangle, its neighbours on the right,
-/// and the half `z > 0` of all.
+/// Symmetry reduces the row to the half `x > 0` of the middle rectangle and to its right
+/// neighbours, and all rectangles to their half `z > 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
-    /// Middle rectangle, from its centre to its right edge.
+    /// Cells of the middle rectangle along `x`, from its centre to its right edge.
     pub middle: GradedAxis,
-    /// Neighbours on the right, the nearest first.
+    /// Cells of the neighbours on the right along `x`, the nearest neighbour first.
     pub neighbours: Vec<GradedAxis>,
-    /// Depth of all rectangles, from the centre line to the edge.
+    /// Cells of all rectangles along `z`, from the centre line to the edge.
     pub depth: GradedAxis,
 }
 
 impl Mesh {
-    /// Creates the mesh of a rectangle with `neighbours` rectangles on each side.
+    /// Creates the mesh of a row with `neighbours` rectangles on each side of the middle one.
     ///
-    /// `n` cells span half the middle rectangle, each neighbour, and half the depth.
+    /// Along `x`, half the middle rectangle and each neighbour have `n` cells. Half the depth also
+    /// has `n` cells.
     pub fn row(footprint: &Footprint, neighbours: usize, n: usize) -> Self {
         let (gap, width) = (footprint.gap_over_a(), footprint.width_over_a());
-        // The layer of a free edge extends to the distance of the far edge.
+        // An edge without a neighbour is graded over the smaller side length of the rectangle.
         let free = width.min(2.0);
         let facing = gap.min(free);
         let neighbours = (1..=neighbours).map(|k| {
             let before = (k - 1) as f64 * footprint.pitch_over_a();
-            // The last neighbour has a free edge.
+            // No rectangle faces the outer edge of the last neighbour.
             let outer = if k == neighbours { free } else { facing };
             GradedAxis::graded([1.0 + gap + before, 3.0 + gap + before], [facing, outer], n)
         });
@@ -122,7 +124,7 @@ impl Mesh {
         }
     }
 
-    /// Returns true if the gap and every cell have a positive width after rounding.
+    /// Returns true if all gaps and cells have a positive width after rounding.
     pub fn is_resolved(&self) -> bool {
         let along: Vec<f64> = self.across().flat_map(GradedAxis::edges).copied().collect();
         [along.as_slice(), &self.depth.edges]
@@ -131,10 +133,10 @@ impl Mesh {
     }
 }
 
-/// Map from `0 … 1` to an interval with equal cells in (S4), from both ends.
+/// Map from `0..1` to an interval, linear in `U` of (S4) added from both ends.
 struct Grading {
     ends: [f64; 2],
-    /// `√(length/ε)` at the two ends.
+    /// `√(length/ε)` at the two ends of the interval.
     steepness: [f64; 2],
 }
 
@@ -145,8 +147,8 @@ impl Grading {
 
     /// Returns the point at the fraction `t` of the range of `U`.
     ///
-    /// Newton's method runs in the angle `θ` of `s = length · sin²(θ/2)`, in which `U` is smooth,
-    /// with bisection as a safeguard.
+    /// Solves for the angle `θ` of `s = length · sin²(θ/2)`, because `U` is smooth in `θ`. Uses
+    /// Newton's method with bisection as a safeguard.
     fn at(&self, t: f64) -> f64 {
         if t <= 0.0 || t >= 1.0 {
             return if t <= 0.0 { self.ends[0] } else { self.ends[1] };
@@ -159,8 +161,8 @@ impl Grading {
             let step = angle - (value - target) / slope;
             // Bisect if the step leaves the bracket.
             let next = if step > low && step < high { step } else { f64::midpoint(low, high) };
-            // Relative to the nearer end, from which positions are measured, so that small cells
-            // there keep their digits.
+            // Tolerance relative to the angle from the nearer end: `position` measures from that
+            // end, and the smallest cells lie there.
             let settled = (next - angle).abs() <= 4.0 * f64::EPSILON * angle.min(PI - angle);
             angle = next;
             if settled {
@@ -170,7 +172,7 @@ impl Grading {
         self.position(angle)
     }
 
-    /// Returns `U` and `dU/dθ`.
+    /// Returns `U` and `dU/dθ` at the angle `θ`.
     fn mapped(&self, angle: f64) -> (f64, f64) {
         let (sin, cos) = (0.5 * angle).sin_cos();
         let [lower, upper] = [self.steepness[0] * sin, self.steepness[1] * cos];
@@ -179,9 +181,9 @@ impl Grading {
         (2.0 * (lower.asinh() - upper.asinh()), slope)
     }
 
-    /// Returns the point at an angle, measured from the nearer end.
+    /// Returns the point at an angle `θ`, as the nearer end plus or minus the distance from it.
     ///
-    /// This keeps small cells exact.
+    /// This keeps the relative accuracy of small cells.
     fn position(&self, angle: f64) -> f64 {
         let [low, high] = self.ends;
         let (sin, cos) = (0.5 * angle).sin_cos();
@@ -189,7 +191,7 @@ impl Grading {
     }
 }
 
-/// Approximate number of iterations that bisection alone would need.
+/// Maximum number of iterations, approximately as many as bisection alone would need.
 ///
-/// Newton's method takes four to eight.
+/// Newton's method needs four to eight.
 const MAX_ITERATIONS: usize = 60;

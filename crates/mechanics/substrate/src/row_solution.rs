@@ -1,4 +1,4 @@
-//! Computation of the stiffness of a row: from the table or solved, with the layer added.
+//! Computes the stiffness of a row from the table or by boundary elements, and adds a layer.
 
 use crate::boundary_element::{Unresolved, row_reactions};
 use crate::extrapolation::{CAUTION, extrapolation};
@@ -6,20 +6,20 @@ use crate::table::{self, Differentiated};
 use crate::{Coupling, Footprint, NEIGHBOURS, Neighbour, RowStiffness, Springs, layered};
 
 impl RowStiffness {
-    /// Returns the stiffness of a row, from the table or solved outside it.
+    /// Returns the stiffness of a row, from the table or, outside its range, by boundary elements.
     ///
     /// # Errors
-    /// As [`Self::solve`].
+    /// If the gap or a cell vanishes by rounding.
     pub fn compute(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         let mut row = match table::row(footprint, coupling) {
-            // The table has one error bound and no meshes to estimate from.
+            // The table has one error bound for its whole range.
             Some(row) => Self { error: table::error(coupling), ..Self::from_table(&row, 0) },
             None => Self::solved(footprint, coupling)?,
         };
-        // A layer adds to the half-space, so the table serves both.
+        // The table holds the half-space; the effect of the rigid base below a layer is added.
         if footprint.is_on_layer() {
             let stiffer = layered::addition(footprint, footprint, coupling)?;
-            // The signs of the errors are unknown, so add their magnitudes.
+            // The signs of both errors are unknown, so their magnitudes add.
             let error = row.error + stiffer.error;
             row = Self { error, ..row + stiffer };
         }
@@ -29,7 +29,7 @@ impl RowStiffness {
         Ok(row)
     }
 
-    /// Solves for the stiffness of a row on the half-space with the given coupling.
+    /// Solves for the stiffness of a row on the half-space by boundary elements.
     pub(crate) fn solved(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         match coupling {
             Coupling::Nearest => Ok((&Springs::from(&Self::solve(footprint, 1)?)).into()),
@@ -37,28 +37,28 @@ impl RowStiffness {
         }
     }
 
-    /// Solves for the stiffness of an infinite row on the half-space.
+    /// Solves for the stiffness of a row on the half-space by boundary elements.
     ///
-    /// The middle one of `2 m + 1` rectangles is displaced while the others are fixed, on three
-    /// meshes, extrapolated as in (S7):
+    /// The middle one of `2 m + 1` rectangles is displaced and the others are fixed, with
+    /// `m = neighbours`. The results of three meshes are extrapolated by (S7):
     ///
     /// ```text
     /// K_x, K_y = ∬ q, ∬ p,   K_φ = ∬ p (x − x_k)     on the k-th neighbour
     /// c = ½ (∬ p on the k-th neighbour, u_y = x − x_m  +  ∬ p (x − x_m) on the middle one, u_y = 1 under the k-th)   (S10)
     /// ```
     ///
-    /// The two parts of `c` are equal by Betti's theorem; their difference counts as an error.
+    /// Betti's theorem makes the two parts of `c` equal; their difference counts as an error.
     ///
     /// # Errors
-    /// If the gap vanishes by rounding.
+    /// If the gap or a cell vanishes by rounding.
     pub fn solve(footprint: &Footprint, neighbours: usize) -> Result<Self, Unresolved> {
         let [coarse, medium, fine] = CELLS.map(|n| row_reactions(footprint, neighbours, n));
         let [coarse, medium, fine] = [coarse?.numbers(), medium?.numbers(), fine?.numbers()];
-        // The difference of two extrapolations estimates the error of the better one.
+        // The difference of two extrapolations estimates the error of the better one, `best`.
         let check = extrapolation([CELLS[0], CELLS[1]], [&coarse, &medium]);
         let best = extrapolation([CELLS[1], CELLS[2]], [&medium, &fine]);
         let sizes = sizes(&best);
-        // A row has one error: the largest of all values.
+        // The row states one error: the largest relative error of all its values.
         let mut error = 0.0_f64;
         for (i, size) in sizes.iter().enumerate() {
             let estimate = (best[i] - check[i]).abs() + CAUTION * (best[i] - fine[i]).abs();
@@ -67,8 +67,7 @@ impl RowStiffness {
         let mut row = Self { direct: [best[0], best[1], best[2]], ..Self::default() };
         for n in best[3..].chunks(PER_NEIGHBOUR) {
             error = error.max((n[3] - n[4]).abs() / sizes[6]);
-            // The mean of the two parts, which differ by the mesh error, makes the matrix
-            // symmetric.
+            // Both parts of `c` differ by the mesh error. Their mean keeps the matrix symmetric.
             let cross = f64::midpoint(n[3], n[4]);
             let direct = [n[0], n[1], n[2]];
             row.neighbours.push(Neighbour { direct, cross, ..Neighbour::default() });
@@ -77,13 +76,16 @@ impl RowStiffness {
         Ok(Self { error, truncation, ..row })
     }
 
-    /// Returns the size of the coupling with the last neighbour, over `K_0`.
+    /// Returns the largest ratio of the coupling with the last neighbour to `K_0`, over `x`, `y`,
+    /// `φ`.
     fn last_coupling(&self) -> f64 {
         let last = self.neighbours.last().map_or([0.0; 3], |neighbour| neighbour.direct);
         (0..3).map(|k| (last[k] / self.direct[k]).abs()).fold(0.0, f64::max)
     }
 
-    /// Builds the stiffness from a row of the table, or one of its three derivatives.
+    /// Converts values of the table (`part` 0) or their derivatives.
+    ///
+    /// `part` 1, 2 and 3 are the derivatives with respect to `d/a`, `b/a` and `ν`.
     pub(crate) fn from_table(row: &[Differentiated], part: usize) -> Self {
         let numbers: Vec<f64> = row.iter().map(|number| number.0[part]).collect();
         let (direct, neighbours) = numbers.split_at(3);
@@ -95,19 +97,19 @@ impl RowStiffness {
     }
 }
 
-/// Cells per side of the meshes.
+/// Number of cells per side of the three meshes.
 ///
-/// The coarsest meshes with an error below 0.03 % in the range of the table and around it.
+/// These are the coarsest meshes with an error below 0.03 % in the range of the table and near it.
 const CELLS: [usize; 3] = [4, 6, 8];
 
-/// Number of values per neighbour in `RowReactions::numbers`.
+/// Number of values of each neighbour in `RowReactions::numbers`.
 ///
-/// They are three reactions and two cross terms.
+/// The values are three reactions and two cross terms.
 const PER_NEIGHBOUR: usize = 5;
 
-/// Returns the reference size for the error of each value.
+/// Returns the reference stiffness to which the error of each value is relative.
 ///
-/// `RowReactions::numbers` lists the values.
+/// The argument is the list of values from `RowReactions::numbers`.
 fn sizes(numbers: &[f64]) -> Vec<f64> {
     let [x, y, turn] = [numbers[0], numbers[1], numbers[2]];
     let cross = (y * turn).sqrt();

@@ -1,27 +1,27 @@
-//! Springs: the coefficients of Eq. (1).
+//! Springs that represent the substrate: coefficients of Eq. (1) of Shafiei et al. (2021).
 
 use crate::boundary_element::{Unresolved, row_reactions};
 use crate::extrapolation::extrapolation;
 use crate::{Footprint, Neighbour, RowStiffness};
 
-/// Direct (`α`) and coupling (`β`) stiffness of a row of bases on a half-space.
+/// Dimensionless direct (`α`) and coupling (`β`) stiffness of a row of bases on a half-space.
 ///
-/// Dimensionless (Eq. 1 of Shafiei et al., doi 10.1016/j.jmps.2020.104176).
-///
-/// With `E* = E_s / (1 − ν²)` and the half-width `a` of a base, including neighbour terms,
-/// `F_x = E* a (α_x u_x − β_x Σ u_x)`, likewise in `y`, and `M = E* a³ (α_φ φ − β_φ Σ φ)`.
+/// Defined by Eq. (1) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176). With
+/// `E* = E_s / (1 − ν²)`, the half-width `a` of a base, and sums over both neighbours of a scale,
+/// its forces and moment are `F_x = E* a (α_x u_x − β_x Σ u_x)`, likewise in `y`, and
+/// `M = E* a³ (α_φ φ − β_φ Σ φ)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Springs {
-    /// `α_x`, `α_y`, `α_φ`.
+    /// Direct stiffness `α_x`, `α_y`, `α_φ` of a base.
     pub direct: [f64; 3],
-    /// `β_x`, `β_y` (positive) and `β_φ` (negative).
+    /// Coupling with each neighbour: `β_x`, `β_y` (positive) and `β_φ` (negative).
     pub coupling: [f64; 3],
-    /// Largest estimated error of the six, relative to `α` of the same direction.
+    /// Largest estimated error of the six coefficients, relative to `α` of the same direction.
     pub error: f64,
 }
 
 impl From<&RowStiffness> for Springs {
-    /// Extracts the scale itself and its nearest neighbours from a row.
+    /// Keeps the stiffness of a scale and its coupling with the nearest neighbours.
     fn from(row: &RowStiffness) -> Self {
         let coupling = row.neighbours.first().map_or([0.0; 3], |nearest| nearest.direct);
         Self { direct: row.direct, coupling: coupling.map(|force| -force), error: row.error }
@@ -29,9 +29,9 @@ impl From<&RowStiffness> for Springs {
 }
 
 impl From<&Springs> for RowStiffness {
-    /// Converts the springs of Eq. (1).
+    /// Converts the springs of Eq. (1) to a row with one neighbour on each side.
     ///
-    /// They couple nearest neighbours, without force from rotation.
+    /// Forces do not depend on rotations, and moments do not depend on displacements.
     fn from(springs: &Springs) -> Self {
         let direct = springs.coupling.map(|beta| -beta);
         let nearest = Neighbour { direct, ..Neighbour::default() };
@@ -40,12 +40,12 @@ impl From<&Springs> for RowStiffness {
     }
 }
 
-/// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ` extrapolated (S7) from two meshes.
+/// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ` on a half-space, extrapolated (S7) from two meshes.
 ///
-/// `cells` holds the cells per side of the meshes, the coarser first.
+/// `cells` holds the number of cells per side of the coarse mesh and of the fine mesh.
 ///
 /// # Errors
-/// As [`calibrate`](crate::calibrate).
+/// If the gap or a cell vanishes by rounding.
 pub fn extrapolated(footprint: &Footprint, cells: [usize; 2]) -> Result<[f64; 6], Unresolved> {
     let [coarse, fine] = cells.map(|n| row_reactions(footprint, 1, n));
     let numbers = extrapolation(cells, [&coarse?.numbers(), &fine?.numbers()]);

@@ -1,4 +1,4 @@
-//! Derivatives of the stiffness of a row with respect to its footprint.
+//! Derivatives of the stiffness of a row with respect to the parameters of its footprint.
 
 use std::sync::OnceLock;
 
@@ -7,24 +7,24 @@ use crate::{Bases, Coupling, Footprint, FootprintParameter, RowStiffness, Unreso
 
 /// Stiffness of a row with its derivatives with respect to the parameters of the footprint.
 ///
-/// A derivative is computed when it is first needed, because outside the table and on a layer it
-/// takes several boundary-element solutions.
+/// A derivative is computed when it is first requested, because outside the table and on a layer it
+/// needs several boundary-element solutions.
 #[derive(Clone, Debug)]
 pub struct StiffnessSlopes {
-    /// Stiffness itself, bit-identical to [`RowStiffness::compute`].
+    /// Stiffness of the row, bitwise equal to the result of [`RowStiffness::compute`].
     pub stiffness: RowStiffness,
     footprint: Footprint,
     coupling: Coupling,
-    /// Polynomials of the half-space; `None` outside the table.
+    /// Values on the half-space with their derivatives; `None` outside the range of the table.
     table: Option<Vec<Differentiated>>,
     slopes: [OnceLock<Result<RowStiffness, Unresolved>>; 5],
 }
 
 impl StiffnessSlopes {
-    /// Computes the stiffness of a row, but no derivative yet.
+    /// Computes the stiffness of a row; derivatives are computed later on request.
     ///
     /// # Errors
-    /// As [`RowStiffness::compute`].
+    /// If the gap or a cell vanishes by rounding.
     pub fn compute(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         Ok(Self {
             stiffness: RowStiffness::compute(footprint, coupling)?,
@@ -35,14 +35,15 @@ impl StiffnessSlopes {
         })
     }
 
-    /// Returns the derivative with respect to a parameter; 0 by the thickness of a half-space.
+    /// Returns the derivative of the stiffness with respect to a parameter.
     ///
-    /// Within the range of the table it is the derivative of the polynomials, otherwise a
-    /// difference of solutions. The contribution of a layer is always differentiated by
-    /// differences.
+    /// Within the range of the table the polynomials are differentiated, outside it
+    /// boundary-element solutions by finite differences. The contribution of a layer is always
+    /// differentiated by finite differences. On a half-space the derivative with respect to the
+    /// thickness is 0.
     ///
     /// # Errors
-    /// As [`RowStiffness::compute`].
+    /// If the gap or a cell vanishes by rounding.
     pub fn by(&self, parameter: FootprintParameter) -> Result<&RowStiffness, Unresolved> {
         let slope = &self.slopes[parameter as usize];
         slope.get_or_init(|| self.differentiated(parameter)).as_ref().map_err(|error| *error)
@@ -53,7 +54,7 @@ impl StiffnessSlopes {
         let on_half_space = match (&self.table, parameter) {
             (_, FootprintParameter::Size) => return self.by_size(),
             (_, FootprintParameter::Thickness) => None,
-            // Differentiate polynomials exactly: differences would lose digits.
+            // Derivatives of the polynomials are exact; finite differences would lose digits.
             (Some(row), _) => Some(RowStiffness::from_table(row, 1 + parameter as usize)),
             (None, _) => Some(difference(footprint, *coupling, parameter)?),
         };
@@ -76,14 +77,15 @@ impl StiffnessSlopes {
         Ok(by_size + self.by(Thickness)?.clone() * footprint.thickness_over_a())
     }
 
-    /// Extrapolates the stiffness linearly from bases `from` to nearby bases `to`.
+    /// Extrapolates the stiffness linearly from the bases `from` of this object to nearby bases
+    /// `to`.
     ///
     /// # Errors
-    /// As [`RowStiffness::compute`].
+    /// If the gap or a cell vanishes by rounding.
     pub fn moved(&self, from: &Bases, to: &Bases) -> Result<RowStiffness, Unresolved> {
         use FootprintParameter::{Gap, PoissonRatio, Size, Thickness, Width};
         let a = from.half_width;
-        // Uses lengths instead of ratios: differences of ratios would lose digits for a small step.
+        // Differences of lengths, because differences of ratios lose digits if the change is small.
         let changes = [
             (Gap, (to.gap - from.gap) / a),
             (Width, (to.width - from.width) / a),
@@ -101,22 +103,23 @@ impl StiffnessSlopes {
     }
 }
 
-/// Relative step of the differences.
+/// Step of the finite differences, relative to the parameter (absolute for Poisson's ratio).
 ///
-/// The rounding of a solution, about 1e-13, and the fifth-order terms are balanced; both are below
-/// 1e-9 of the derivative.
+/// Both the rounding of a solution, about 1e-13, and the fifth-order terms of the differences stay
+/// below 1e-9 of the derivative.
 const STEP: f64 = 2e-3;
 
-/// Differentiates boundary-element solutions by gap, width or Poisson's ratio.
+/// Differentiates boundary-element solutions with respect to gap, width or Poisson's ratio.
 ///
-/// Uses `(8 (f₁ − f₋₁) − (f₂ − f₋₂))/12 h`.
+/// Uses the difference formula `(8 (f₁ − f₋₁) − (f₂ − f₋₂))/12 h` with the step `h`.
 fn difference(
     footprint: &Footprint,
     coupling: Coupling,
     parameter: FootprintParameter,
 ) -> Result<RowStiffness, Unresolved> {
     let step = footprint.step(parameter, STEP);
-    // Solve points within the table too: mixing both would difference their errors.
+    // Uses boundary elements for all four points, also within the range of the table, because the
+    // difference of both methods would appear in the derivative.
     let [near, far] = [8.0 / (12.0 * step), -1.0 / (12.0 * step)];
     let terms = [(1.0, near), (-1.0, -near), (2.0, far), (-2.0, -far)];
     let [first, second, third, fourth] = terms.map(|(steps, factor)| {

@@ -1,49 +1,49 @@
-//! Strip of surface between two bases.
+//! Strip of the substrate's surface between two neighbouring bases: its stretch and its law.
 
 /// Response of the surface strip between two neighbouring bases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SubstrateLaw {
-    /// Linear springs, Eq. (1) of the paper.
+    /// Linear springs, Eq. (1) of Shafiei et al. (2021).
     ///
-    /// They do not prevent two bases from passing each other.
+    /// They allow two neighbouring bases to cross, which is physically impossible.
     #[default]
     Linear,
-    /// Incompressible neo-Hookean bars, which cannot be compressed to zero length.
+    /// Incompressible neo-Hookean bars, which no finite force compresses to zero length.
     NeoHookean,
 }
 
 /// Surface strip between the right end of one base and the left end of the next.
 ///
-/// Measured along the row between the corners of the deformed bases:
+/// The width `s` is measured along the row, between the corners of the deformed bases:
 ///
 /// ```text
 ///        BR_i ──── s ──── BL_{i+1}        s = d + e,    e = x' − x + a (2 − cos φ − cos φ')
 /// g = s/d                                 1 at rest; the surface folds over where g ≤ 0           (V1)
 /// ```
 ///
-/// with the poses `(x, y, φ)` and `(x', y', φ')` of the two scales.
+/// where `(x, y, φ)` and `(x', y', φ')` are the poses of the left and of the right scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceStrip {
-    /// Width at rest: the gap `d`.
+    /// Width at rest, equal to the gap `d` between the bases.
     pub width: f64,
     /// Half-width `a` of the bases on both sides.
     pub half_base: f64,
 }
 
 impl SurfaceStrip {
-    /// Computes the stretch `g` of the strip between two poses `(x, y, φ)`.
+    /// Computes the stretch `g` of the strip from the poses `(x, y, φ)` of both scales.
     pub fn stretch(&self, left: [f64; 3], right: [f64; 3]) -> f64 {
         self.stretch_by(right[0] - left[0], shortening(left[2]) + shortening(right[2]))
     }
 
-    /// Computes the stretch `g` from relative displacement and base shortening.
+    /// Computes the stretch `g` from relative displacement and shortening of the bases.
     ///
-    /// The displacement is `x' − x`; `shortened` is `2 − cos φ − cos φ'`, in units of `a`.
+    /// `apart` is `x' − x`; `shortened` is `2 − cos φ − cos φ'`.
     pub fn stretch_by(&self, apart: f64, shortened: f64) -> f64 {
         1.0 + (apart + self.half_base * shortened) / self.width
     }
 
-    /// Differentiates the stretch along two directions `(x, y, φ)`.
+    /// Computes the rate of the stretch from poses and pose rates `(x, y, φ)` of both scales.
     pub fn stretch_rate(
         &self,
         [left, right]: [[f64; 3]; 2],
@@ -54,22 +54,23 @@ impl SurfaceStrip {
     }
 }
 
-/// Computes the shortening `1 − cos φ` of half a base, in units of this half.
+/// Computes the relative shortening `1 − cos φ` of a half-base along the row by its rotation.
 pub fn shortening(rotation: f64) -> f64 {
-    // Without cancellation.
+    // 1 − cos φ = 2 sin²(φ/2), without cancellation.
     2.0 * (0.5 * rotation).sin().powi(2)
 }
 
-/// Returns the neo-Hookean bar energy per `k d²`, and two derivatives with respect to `g`.
+/// Returns the energy of a neo-Hookean bar and its first two derivatives.
 ///
-/// `k` is the stiffness at rest and `g` the stretch:
+/// Derivatives are with respect to the stretch `g`. All values are divided by `k d²`, where `k` is
+/// the stiffness and `d` the length of the bar at rest:
 ///
 /// ```text
 /// w = (g² + 2/g − 3)/6,   w' = (g − g⁻²)/3,   w" = (1 + 2 g⁻³)/3,   w"(1) = 1                    (V3)
 /// ```
 ///
-/// Incompressible, uniaxial. Infinite unless the stretch is positive, so a bar never reaches zero
-/// length.
+/// The bar is incompressible and under uniaxial stress. The values are infinite for `g ≤ 0`, so a
+/// bar never reaches zero length.
 pub fn neo_hookean(stretch: f64) -> [f64; 3] {
     if stretch <= 0.0 {
         return [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY];
@@ -117,7 +118,7 @@ mod tests {
     #[test]
     fn a_strip_is_measured_between_the_corners_of_rotated_bases() {
         let (left, right): ([f64; 3], [f64; 3]) = ([0.3, 0.1, -0.4], [0.1, -0.2, 0.7]);
-        // BL of the right base minus BR of the left one, along the row.
+        // Along the row: BL of the right base minus BR of the left base.
         let corner = 0.5 + 0.2 + 0.5 + right[0] - 0.5 * right[2].cos();
         let length = corner - (left[0] + 0.5 * left[2].cos());
         assert_relative_eq!(STRIP.stretch(left, right), length / 0.2, max_relative = 1e-14);

@@ -1,20 +1,20 @@
-//! Springs from a table of Chebyshev polynomials instead of boundary elements.
+//! Springs from a table of Chebyshev polynomials, which replace boundary-element solutions.
 //!
-//! At every Poisson's ratio the springs are smooth functions of `log(d/a)` and `log(b/a)`. Let `u`,
-//! `v`, `w` be the positions of `d/a`, `b/a` and `1 − ν` in their ranges, on logarithmic scales
-//! from −1 to 1. With Chebyshev polynomials `T`,
+//! The springs are smooth functions of `log(d/a)`, `log(b/a)` and `log(1 − ν)`. Let `u`, `v`, `w`
+//! be these logarithms, mapped linearly from the ranges of `d/a`, `b/a` and `1 − ν` to −1 … 1. With
+//! Chebyshev polynomials `T`,
 //!
 //! ```text
 //! ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ = Σ_ij c_ij T_i(u) T_j(v)
 //! ln α_x, β_x/α_x = Σ_ijk c_ijk T_i(u) T_j(v) T_k(w)                                 (S18)
 //! ```
 //!
-//! A row with coupling to [`NEIGHBOURS`] neighbours has more polynomials of this kind: its
-//! additions to `K_0` and `K_1`, its further `K_k` over `α`, and `c` over `√(α_y α_φ)`. Normal
-//! tractions do not depend on `ν`.
+//! For a row with coupling to [`NEIGHBOURS`] neighbours the table also holds polynomials for the
+//! changes of `K_0` and `K_1`, for `K_k` of farther neighbours over `α`, and for `c` over
+//! `√(α_y α_φ)`. Values for normal tractions do not depend on `ν`.
 //!
-//! `table.bin` holds the coefficients as 4-byte floats in little-endian order, `j` fastest;
-//! `examples/table.rs` generates it.
+//! `table.bin` holds the coefficients as 4-byte floats in little-endian order, with the index `j`
+//! varying fastest. `examples/table.rs` generates this file.
 
 use std::f64::consts::LN_2;
 use std::ops::{Add, Mul};
@@ -27,26 +27,26 @@ pub const GAPS: [f64; 2] = [0.0125, 100.0];
 /// Range of `b/a`.
 pub const WIDTHS: [f64; 2] = [0.25, 80.0];
 
-/// Orders of the polynomials of Eq. (1) in each length.
+/// Number of polynomials in each length for the springs of Eq. (1).
 pub const NEAREST: usize = 24;
 
-/// Orders of the additional polynomials of long rows.
+/// Number of polynomials in each length for the additional values of long rows.
 ///
-/// The additional values are smaller and need fewer orders.
+/// Fewer polynomials suffice because these values are smaller.
 pub const ROW: usize = 16;
 
-/// Orders of the polynomials in `log(1 − ν)`, in which `α_x` is smoother.
+/// Number of polynomials in `log(1 − ν)`, of which `α_x` is a smoother function than of `ν`.
 pub const RATIOS: usize = 5;
 
-/// Error bound of Eq. (1) over `α`; tests check it by solving between the nodes.
+/// Error bound of the springs of Eq. (1) over `α`, checked by tests between the nodes of the table.
 const ERROR: f64 = 1e-5;
 
-/// Error bound of long rows, which stem from coarser meshes.
+/// Error bound of long rows over `α`, larger because their values stem from coarser meshes.
 ///
-/// The neglected coupling is sixty times as large.
+/// The coupling beyond [`NEIGHBOURS`] neighbours, which they neglect, is sixty times as large.
 const ROW_ERROR: f64 = 1e-4;
 
-/// Returns the error bound of a row, over `K_0` of the direction.
+/// Returns the error bound of a row, relative to `K_0` of the same direction.
 pub(crate) fn error(coupling: Coupling) -> f64 {
     match coupling {
         Coupling::Nearest => ERROR,
@@ -54,12 +54,12 @@ pub(crate) fn error(coupling: Coupling) -> f64 {
     }
 }
 
-/// Returns Poisson's ratio at `w`: `log(1 − ν)` ranges from 0 to `log ½`.
+/// Returns Poisson's ratio at `w` in −1 … 1: 0 at −1 and ½ at 1, linear in `log(1 − ν)`.
 pub fn poisson_ratio(w: f64) -> f64 {
     1.0 - (-0.5 - 0.5 * w).exp2()
 }
 
-/// Coefficients of the table.
+/// Coefficients of all polynomials, read in sequence by `row`.
 static TABLE: &[u8] = include_bytes!("table.bin");
 
 /// Value with its derivatives with respect to `d/a`, `b/a` and `ν`.
@@ -67,7 +67,7 @@ static TABLE: &[u8] = include_bytes!("table.bin");
 pub(crate) struct Differentiated(pub(crate) [f64; 4]);
 
 impl Differentiated {
-    /// Applies a function, given by its value and its slope at this number.
+    /// Returns a function of this number by the chain rule, from its value and its slope.
     fn map(self, value: f64, slope: f64) -> Self {
         let [_, by_gap, by_width, by_ratio] = self.0;
         Self([value, by_gap * slope, by_width * slope, by_ratio * slope])
@@ -101,16 +101,17 @@ impl Mul for Differentiated {
     }
 }
 
-/// Returns the values of a row with their derivatives, or `None` outside the table.
+/// Returns the values of a row with their derivatives, or `None` outside the range of the table.
 ///
-/// First come `K_0` in `x`, `y` and `φ`, then `K_x`, `K_y`, `K_φ` and `c` of each neighbour (S9).
+/// The first three values are `K_0` in `x`, `y` and `φ`. For each neighbour follow `K_x`, `K_y`,
+/// `K_φ` and `c` of (S9).
 pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Differentiated>> {
     let mut reader = Reader::at(footprint)?;
-    // Each call reads the next polynomial of the file: the order of these lines is its format.
+    // Each call reads the next polynomial of the file, so these lines follow the file's order.
     let [ln_y, ln_turn, y_ratio, turn_ratio] = [(); 4].map(|()| reader.surface(NEAREST));
     let [ln_x, x_ratio] = [(); 2].map(|()| reader.solid(NEAREST));
     let alpha = [ln_x, ln_y, ln_turn].map(Differentiated::exp);
-    // K_0 and K_1 over α; a long row adds the mutual effect of its scales beyond the third.
+    // K_0 and K_1 over α. A long row adds corrections for the rectangles beyond a row of three.
     let mut ratios = vec![[Differentiated([1.0, 0.0, 0.0, 0.0]); 3]];
     ratios.push([x_ratio, y_ratio, turn_ratio].map(|ratio| ratio.map(-ratio.0[0], -1.0)));
     let mut cross = vec![Differentiated::default()];
@@ -134,9 +135,9 @@ pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Diffe
     Some(middle.into_iter().chain(neighbours).collect())
 }
 
-/// Reader of successive polynomials at one point.
+/// Reader that evaluates the polynomials of the table in sequence at one footprint.
 struct Reader {
-    /// `T_i` and its slope with respect to `d/a`, `b/a` and `ν`.
+    /// Chebyshev polynomials of `u`, `v`, `w`, with their derivatives by `d/a`, `b/a`, `ν`.
     gap: Vec<[f64; 2]>,
     width: Vec<[f64; 2]>,
     ratio: Vec<[f64; 2]>,
@@ -148,12 +149,11 @@ impl Reader {
         let lengths = [(footprint.gap_over_a(), GAPS), (footprint.width_over_a(), WIDTHS)];
         let [gap, width] = lengths.map(|(value, [low, high])| {
             let slope = 2.0 / (high / low).ln();
-            // Rounding may put an end of the range slightly beyond ±1, where polynomials are still
-            // accurate.
+            // Rounding may put a position slightly beyond ±1, where polynomials are still accurate.
             let position = (value / low).ln() * slope - 1.0;
             (low..=high).contains(&value).then(|| chebyshev(position, slope / value, NEAREST))
         });
-        // The ratio always lies in its range, 0 to ½; only the lengths may leave theirs.
+        // Poisson's ratio needs no range check: a footprint has a ratio from 0 to ½.
         let left = 1.0 - footprint.poisson_ratio();
         Some(Self {
             gap: gap?,
@@ -163,7 +163,7 @@ impl Reader {
         })
     }
 
-    /// Evaluates the next polynomial in the two lengths.
+    /// Evaluates the next polynomial in the two lengths `d/a` and `b/a`.
     fn surface(&mut self, orders: usize) -> Differentiated {
         let mut sum = [0.0; 4];
         for [t, t_slope] in &self.gap[..orders] {
@@ -182,7 +182,7 @@ impl Reader {
         Differentiated(sum)
     }
 
-    /// Evaluates the next polynomial in the two lengths and `ν`.
+    /// Evaluates the next polynomial in the two lengths and Poisson's ratio.
     fn solid(&mut self, orders: usize) -> Differentiated {
         let parts: Vec<_> = (0..RATIOS).map(|_| self.surface(orders)).collect();
         let terms = self.ratio.iter().zip(parts);
@@ -192,9 +192,9 @@ impl Reader {
     }
 }
 
-/// Returns the first Chebyshev polynomials at `x` and their slopes.
+/// Returns the first `count` Chebyshev polynomials at `x` with their slopes.
 ///
-/// `slope` is the derivative of `x` with respect to the variable of the slopes.
+/// `slope` is the derivative of `x` with respect to the variable of the returned slopes.
 fn chebyshev(x: f64, slope: f64, count: usize) -> Vec<[f64; 2]> {
     let mut polynomials = vec![[1.0, 0.0], [x, slope]];
     for k in 2..count {

@@ -1,38 +1,38 @@
-//! Far field with coupling to several neighbours.
+//! Far field of free scales that couple with several neighbours, or forces with rotations.
 
 use nalgebra::DMatrix;
 
 use super::Relief;
 use crate::RowStiffness;
 
-/// Number of blocks after which a row without convergence counts as non-decaying.
+/// Maximum number of iterations; without convergence the displacements do not decay.
 const BLOCKS: usize = 400;
 
-/// Relative change of the reduction per block below which the row is infinite.
+/// Convergence tolerance for the reduction `R`, relative to the largest stiffness of a scale.
 const SETTLED: f64 = 1e-15;
 
-/// Infinite row of free scales coupled with `m` neighbours per side.
+/// Infinite row of free scales, each coupled with `m` neighbours on each side.
 ///
-/// Its blocks have `m` scales. Each block has the stiffness `D` for itself and `U` for the next
-/// block. A block followed by `n` more has the stiffness `D − R_n`,
+/// The row is divided into blocks of `m` scales. A block has the stiffness `D`, and `U` couples it
+/// with the next block. If `n` more blocks follow it, its stiffness is `D − R_n`, with
 ///
 /// ```text
 /// R_0 = 0,   R_{n+1} = U (D − R_n)⁻¹ Uᵀ  →  R,      X_{j+1} = −(D − R)⁻¹ Uᵀ X_j         (S17)
 /// ```
 ///
-/// with the displacements `X_j` of block `j`.
+/// where `X_j` are the displacements of block `j`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CoupledRow {
     /// Number `m` of scales per block.
     scales: usize,
-    /// `−(D − R)⁻¹ Uᵀ`, with the scales ordered from left to right.
+    /// `−(D − R)⁻¹ Uᵀ`, which maps the displacements of a block to the next; scales left to right.
     transfer: DMatrix<f64>,
 }
 
 impl CoupledRow {
-    /// Solves for the row and its reduction of the stiffness of the block before it.
+    /// Computes the row and its reductions of the stiffness of the last block before it.
     ///
-    /// `None` if nothing decays.
+    /// Returns `None` if displacements do not decay along the row.
     pub(super) fn endless(stiffness: &RowStiffness) -> Option<(Self, Vec<Relief>)> {
         let scales = stiffness.neighbours.len();
         let diagonal = block(stiffness, 0);
@@ -53,15 +53,15 @@ impl CoupledRow {
         None
     }
 
-    /// Computes the displacements of the first `count` free scales.
+    /// Computes the displacements `(x, y, φ)` of the first `count` free scales.
     ///
-    /// `end` counts the scales at the end from there.
+    /// `end(i)` returns the displacements of the solved scale `i`, counted from the end inwards.
     pub(super) fn displacements(
         &self,
         end: impl Fn(usize) -> [f64; 3],
         count: usize,
     ) -> Vec<[f64; 3]> {
-        // The end counts its scales inwards, a block from left to right.
+        // `end` counts scales from right to left; a block stores them from left to right.
         let mut block: Vec<f64> = (0..self.scales).rev().flat_map(end).collect();
         let mut displacements = Vec::with_capacity(count + self.scales);
         while displacements.len() < count {
@@ -72,7 +72,7 @@ impl CoupledRow {
         displacements
     }
 
-    /// Computes the displacements of the next block.
+    /// Computes the displacements of the block that follows `block`.
     fn next(&self, block: &[f64]) -> Vec<f64> {
         let mut next = vec![0.0; block.len()];
         for (column, u) in self.transfer.column_iter().zip(block) {
@@ -84,15 +84,15 @@ impl CoupledRow {
     }
 }
 
-/// Returns the stiffness of a block for the block `farther` scales to the right.
+/// Returns the stiffness that couples a block with the block `farther` scales to its right.
 ///
-/// It is `D` for 0.
+/// For `farther = 0` it is `D`, for the number of scales of a block it is `U`.
 fn block(stiffness: &RowStiffness, farther: usize) -> DMatrix<f64> {
     let size = 3 * stiffness.neighbours.len();
     DMatrix::from_fn(size, size, |row, column| {
         let (force, displaced) = (row / 3, column / 3 + farther);
         let (k, l) = (row % 3, column % 3);
-        // Seen from the right, force and displacement are exchanged.
+        // `on_left` holds forces on the left scale; for forces on the right scale it is transposed.
         let (k, l) = if force <= displaced { (k, l) } else { (l, k) };
         match force.abs_diff(displaced) {
             0 if k == l => stiffness.direct[k],
@@ -103,7 +103,7 @@ fn block(stiffness: &RowStiffness, farther: usize) -> DMatrix<f64> {
     })
 }
 
-/// Splits a reduction by scales from the end, and symmetrises it.
+/// Splits the reduction of a block into symmetric parts for pairs of scales, counted from the end.
 fn parts(relief: &DMatrix<f64>, scales: usize) -> Vec<Relief> {
     let pairs = (0..scales).flat_map(|force| (0..scales).map(move |displaced| (force, displaced)));
     let parts = pairs.map(|(force, displacement)| {

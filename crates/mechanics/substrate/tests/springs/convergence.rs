@@ -1,4 +1,4 @@
-//! Discretisation: order, reciprocity, and reliability of the estimated error.
+//! Convergence of the boundary elements: order, reciprocity and reliability of the error estimate.
 
 use std::sync::LazyLock;
 
@@ -8,7 +8,7 @@ use substrate::{Footprint, RowStiffness, Springs, calibrate};
 /// Largest acceptable relative error of the springs.
 const REQUIRED: f64 = 3e-3;
 
-/// Row of `tests/reference.csv`, which `examples/reference.rs` writes.
+/// Line of `reference.csv`, a file that `examples/reference.rs` generates.
 struct Reference {
     footprint: Footprint,
     coefficients: [f64; 6],
@@ -26,7 +26,7 @@ impl Reference {
         }
     }
 
-    /// Returns the actual errors over the `α` of the direction.
+    /// Returns the errors of the six coefficients, divided by the `α` of the same direction.
     fn errors(&self, found: &Springs) -> [f64; 6] {
         let exact = &self.coefficients;
         std::array::from_fn(|i| {
@@ -35,13 +35,13 @@ impl Reference {
         })
     }
 
-    /// Solves by boundary elements, without the table.
+    /// Solves for the springs by boundary elements, also within the range of the table.
     fn solved(&self) -> Springs {
         (&RowStiffness::solve(&self.footprint, 1).unwrap()).into()
     }
 }
 
-/// Both sweeps of the paper and a grid over `b/a` 0.25 … 80, `d/a` 0.017 … 80.
+/// References for both sweeps of the paper and for a grid over `b/a` 0.25 … 80, `d/a` 0.017 … 80.
 static REFERENCES: LazyLock<Vec<Reference>> =
     LazyLock::new(|| include_str!("reference.csv").lines().skip(1).map(Reference::parse).collect());
 
@@ -59,17 +59,21 @@ fn every_design_of_the_paper_has_a_reference() {
 }
 
 #[test]
-fn springs_are_converged() {
+fn solved_springs_agree_with_the_references() {
     for row in REFERENCES.iter() {
         let actual = row.errors(&row.solved());
         for (i, error) in actual.into_iter().enumerate() {
-            assert!(error < REQUIRED / 10.0, "{i} is off by {error:.1e} for {:?}", row.footprint);
-            // A coupling is also compared relative to itself, unless it is below a thousandth of
-            // the direct one.
+            assert!(
+                error < REQUIRED / 10.0,
+                "coefficient {i} is off by {error:.1e} for {:?}",
+                row.footprint
+            );
+            // A coupling is also compared relative to itself if it is at least a thousandth of the
+            // direct stiffness in the same direction.
             let ratio = row.coefficients[i].abs() / row.coefficients[i % 3];
             assert!(
                 ratio < 1e-3 || error < REQUIRED * ratio,
-                "{i} is off by {:.1e} of itself for {:?}",
+                "coefficient {i} is off by {:.1e} of its own value for {:?}",
                 error / ratio,
                 row.footprint
             );
@@ -77,7 +81,7 @@ fn springs_are_converged() {
     }
 }
 
-/// The references use 16 and 24 cells per side; their own error is 6e-6 at most.
+/// The tolerance includes the error of the references themselves, at most 6e-6.
 #[test]
 fn the_table_agrees_with_the_references() {
     for row in REFERENCES.iter() {
@@ -104,7 +108,7 @@ fn the_estimated_error_bounds_the_actual_error() {
     assert!(median < 8.0, "the estimate is {median:.1} times the error");
 }
 
-/// The order that the extrapolation assumes, between 4, 8 and 16 cells.
+/// Compares 4, 8 and 16 cells per side. The extrapolation (S7) assumes the third order.
 #[test]
 fn reactions_converge_with_third_order() {
     for (gap, width) in [(1e3, 2.0), (2.0, 2.0), (0.05, 2.0), (0.05, 80.0), (2.0, 0.25)] {
@@ -116,17 +120,15 @@ fn reactions_converge_with_third_order() {
     }
 }
 
-/// Returns the relative difference of the two cross terms.
-///
-/// They are equal by Betti's theorem.
+/// Returns the relative difference of the two cross terms, which is 0 by Betti's theorem.
 fn reciprocity_defect(found: &RowReactions) -> f64 {
     let CrossTerms { force, moment } = found.cross[0];
     (force - moment).abs() / force.abs().max(moment.abs())
 }
 
-/// Collocation does not enforce Betti's theorem, so the defect measures the error.
+/// The difference of the cross terms decreases at least with the square of the number of cells.
 ///
-/// It decreases at least with the second power of the number of cells, mostly with the third.
+/// Collocation does not satisfy Betti's theorem exactly, so this difference measures its error.
 #[test]
 fn cross_terms_converge_to_bettis_theorem() {
     for (gap, width) in [(0.05, 0.25), (0.2, 2.0), (2.0, 2.0), (0.05, 80.0), (4.0, 80.0)] {
@@ -138,9 +140,7 @@ fn cross_terms_converge_to_bettis_theorem() {
     }
 }
 
-/// Far outside the range the values remain usable.
-///
-/// The estimate states their accuracy.
+/// The error estimate remains reliable far outside the range of the table.
 #[test]
 fn extreme_footprints_have_larger_error_estimates() {
     for (gap, width) in [(1e-3, 2.0), (1e-6, 2.0), (1.0, 1e-2), (1.0, 1e4), (1e-3, 100.0)] {

@@ -1,4 +1,4 @@
-//! Far field against rows that are solved as a whole.
+//! The far field of free scales agrees with rows of which all scales are solved.
 
 use nalgebra::{DMatrix, DVector};
 use substrate::{Coupling, FarField, Footprint, Neighbour, RowStiffness, Springs};
@@ -10,10 +10,10 @@ fn springs(alpha: f64, ratio: f64) -> RowStiffness {
     RowStiffness::from(&Springs { direct, coupling, error: 0.0 })
 }
 
-/// Solves a row of free scales with its first scale displaced by 1 along `k`.
+/// Solves a row of `scales` free scales with its first scale displaced by 1 along `k`.
 ///
-/// Returns the displacements and the force on the first scale, by Thomas's algorithm from the far
-/// end.
+/// Uses Thomas's algorithm from the far end. Returns the displacements of all scales and the force
+/// on the first scale.
 fn finite_row(stiffness: &RowStiffness, k: usize, scales: usize) -> (Vec<f64>, f64) {
     let (alpha, beta) = (stiffness.direct[k], -stiffness.neighbours[0].direct[k]);
     let mut ratios = Vec::new();
@@ -29,14 +29,14 @@ fn finite_row(stiffness: &RowStiffness, k: usize, scales: usize) -> (Vec<f64>, f
     (displacements, own)
 }
 
-/// Returns the stiffness of a scale in one direction, reduced by the far field.
+/// Returns the stiffness of the last solved scale in direction `k`, reduced by the far field.
 fn held(stiffness: &RowStiffness, far: &FarField, k: usize) -> f64 {
     let relief = far.relief.iter().find(|r| [r.force, r.displacement] == [0, 0]);
     stiffness.direct[k] - relief.unwrap().by[k][k]
 }
 
 #[test]
-fn a_long_row_behaves_like_an_endless_one() {
+fn the_far_field_of_an_infinite_row_agrees_with_400_scales() {
     for ratio in [-0.98, -0.3, 0.0, 0.2, 0.7, 0.98] {
         let stiffness = springs(3.0, ratio);
         let far = stiffness.far_field(None).unwrap();
@@ -55,7 +55,7 @@ fn a_long_row_behaves_like_an_endless_one() {
 }
 
 #[test]
-fn the_far_field_of_a_finite_row_agrees_with_a_whole_solution() {
+fn the_far_field_of_a_finite_row_agrees_with_a_solution_of_all_scales() {
     for ratio in [-0.98, 0.0, 0.2, 0.98] {
         let stiffness = springs(3.0, ratio);
         for beyond in [1, 2, 3, 10, 60] {
@@ -74,13 +74,13 @@ fn the_far_field_of_a_finite_row_agrees_with_a_whole_solution() {
 }
 
 #[test]
-fn rows_of_bases_on_a_half_space_decay() {
+fn displacements_decay_along_rows_on_a_half_space() {
     for [gap, width] in [[0.2, 2.0], [0.0125, 0.25], [40.0, 80.0], [0.2, 20.0]] {
         let footprint = Footprint::new(gap, width, 0.5).unwrap();
         let stiffness = RowStiffness::compute(&footprint, Coupling::Nearest).unwrap();
         let far = stiffness.far_field(None).unwrap();
         let [x, y, rotation] = far.displacement(|_| [1.0; 3], 1);
-        // Shear and depth keep their sign, rotations alternate.
+        // Displacements along x and y keep their sign from scale to scale, rotations alternate.
         assert!(0.0 < x && x < 1.0 && 0.0 < y && y < 1.0, "{x} {y}");
         assert!(-1.0 < rotation && rotation < 0.0, "{rotation}");
         for k in 0..3 {
@@ -90,7 +90,7 @@ fn rows_of_bases_on_a_half_space_decay() {
     }
 }
 
-/// Assembles the dense stiffness of a row with the couplings of (S9).
+/// Assembles the dense stiffness of a row with the couplings of (S9) and (S21).
 fn dense(stiffness: &RowStiffness, scales: usize) -> DMatrix<f64> {
     let mut matrix = DMatrix::zeros(3 * scales, 3 * scales);
     for i in 0..scales {
@@ -119,11 +119,9 @@ fn dense(stiffness: &RowStiffness, scales: usize) -> DMatrix<f64> {
     matrix
 }
 
-/// With `m` couplings, the last `m` scales of an infinite row act as its last.
-///
-/// Compared with the static condensation of 400 scales.
+/// The far field with `m` coupled neighbours equals the static condensation of 400 free scales.
 #[test]
-fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
+fn a_row_with_several_neighbours_is_condensed_to_its_last_scales() {
     let rows = [([0.2, 2.0], 8), ([0.0125, 0.25], 3), ([8.0, 80.0], 1)];
     let rows = rows.map(|([gap, width], neighbours)| {
         RowStiffness::solve(&Footprint::new(gap, width, 0.5).unwrap(), neighbours).unwrap()
@@ -163,7 +161,7 @@ fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
     }
 }
 
-/// Arbitrary displacements of the scales at the end.
+/// Returns arbitrary displacements for the last solved scales.
 fn end(scale: usize) -> [f64; 3] {
     let k = scale as f64;
     [0.3 + k, k.cos(), (3.0 * k).sin()]

@@ -1,22 +1,22 @@
-//! Corner functions against numerical quadrature.
+//! Displacements of the half-space under a loaded cell agree with numerical quadrature.
 
 use std::f64::consts::TAU;
 
 use substrate::half_space::{CornerLine, Influence};
 
-/// Returns the corner functions (S3) at the offset `(x, z)`; both vanish with their factor.
+/// Returns the corner functions `A` and `B` of (S3) at the offset `(x, z)`.
 fn corner(x: f64, z: f64) -> Influence {
     let [across, along] = [(x, z), (z, x)]
         .map(|(s, t): (f64, f64)| if s == 0.0 { 0.0 } else { s * (t / s.abs()).asinh() });
     Influence { across, along }
 }
 
-/// Returns the influence of the cell `x[0] < x < x[1]`, `z[0] < z < z[1]` at `(0, 0)` (S3).
+/// Returns the integrals (S3) over the cell `x[0]..x[1]`, `z[0]..z[1]`, seen from the origin.
 fn cell(x: [f64; 2], z: [f64; 2]) -> Influence {
     corner(x[1], z[1]) - corner(x[0], z[1]) - corner(x[1], z[0]) + corner(x[0], z[0])
 }
 
-/// Integrates by Simpson's rule on `2 half` intervals.
+/// Integrates `f` by Simpson's rule on `2 half` intervals.
 fn simpson(ends: [f64; 2], half: u32, f: impl Fn(f64) -> f64) -> f64 {
     let step = (ends[1] - ends[0]) / f64::from(2 * half);
     let mut sum = 0.0;
@@ -44,9 +44,9 @@ fn cells_away_from_the_field_point_agree_with_quadrature() {
     }
 }
 
-/// In polar coordinates about an inner field point the integrand is regular.
+/// Uses polar coordinates about the field point, in which the integrand is regular.
 ///
-/// `∬ x²/r³ = ∫ R(θ) cos²θ dθ` with the distance `R` to the boundary.
+/// `∬ x²/r³ = ∫ R(θ) cos²θ dθ` with the distance `R(θ)` from the field point to the boundary.
 #[test]
 fn cells_around_the_field_point_agree_with_quadrature() {
     for (x, z) in [([-0.5_f64, 0.5_f64], [-0.5_f64, 0.5_f64]), ([-0.1, 0.7], [-0.02, 0.05])] {
@@ -70,20 +70,20 @@ fn cells_around_the_field_point_agree_with_quadrature() {
 }
 
 #[test]
-fn corner_functions_vanish_with_their_factor() {
+fn corner_functions_are_zero_if_an_offset_is_zero() {
     assert_eq!(corner(0.0, 1.0), Influence::default());
     assert_eq!(corner(-2.0, 0.0), Influence::default());
     assert_eq!(corner(0.0, 0.0), Influence::default());
 }
 
-/// The centre of a uniformly loaded square of side 2 settles by `8 asinh(1)/π`.
+/// The centre of a square of side 2 under unit pressure settles by `8 asinh(1)/π`.
 #[test]
 fn a_uniformly_loaded_square_settles_as_in_closed_form() {
     let square = cell([-1.0, 1.0], [-1.0, 1.0]);
     let exact = analytical::half_space::loaded_square_centre();
     assert!((square.normal() - exact).abs() < 1e-15);
     assert!((square.tangential(0.0) - exact).abs() < 1e-15);
-    // Incompressible: larger by half, by symmetry of the square.
+    // For ν = 0.5 the displacement is 1.5 times as large, because both integrals are equal.
     assert!((square.tangential(0.5) - 1.5 * exact).abs() < 1e-14);
 }
 

@@ -1,4 +1,4 @@
-//! Layers on a rigid base (S19)–(S22).
+//! Substrates that are layers on a rigid base, (S19)–(S22).
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use substrate::FootprintParameter::{Gap, PoissonRatio, Size, Thickness, Width};
 use substrate::layer::{Layer, beside_half_space};
 use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, StiffnessSlopes};
 
-/// Returns the stiffness of three squares at a gap of `0.2 a`.
+/// Returns the stiffness of a row of square bases at the gap `0.2 a` on a layer.
 fn squares(thickness: f64) -> RowStiffness {
     on(0.2, thickness, Coupling::Nearest)
 }
@@ -18,7 +18,7 @@ fn on(gap: f64, thickness: f64, coupling: Coupling) -> RowStiffness {
     RowStiffness::compute(&footprint, coupling).unwrap()
 }
 
-/// Returns all values of a stiffness.
+/// Returns all coefficients of a stiffness.
 fn numbers(row: &RowStiffness) -> Vec<f64> {
     let neighbours = row.neighbours.iter();
     let of_neighbour =
@@ -26,15 +26,15 @@ fn numbers(row: &RowStiffness) -> Vec<f64> {
     row.direct.into_iter().chain([row.roll]).chain(of_neighbour).collect()
 }
 
-/// Solves directly for a layer with `h = G = 1` under waves `e^(ikx)` in the plane.
+/// Solves the plane equations of a layer with `h = G = 1` under a traction wave `e^(ikx)`.
 ///
-/// The displacements are `(i U, V)` of four fields, two gradients of harmonic functions and two
-/// Papkovich–Neuber fields (`κ ψ e_y − y ∇ψ`). Together they vanish at `y = −1` and carry a wave of
-/// traction at `y = 0`. Returns `U` and `V` at the surface, times `k`, for a normal traction 1 and
-/// for a traction `i` along `x`.
+/// The displacements `(i U, V)` are the sum of four fields: two gradients of harmonic functions and
+/// two Papkovich–Neuber fields (`κ ψ e_y − y ∇ψ`). They vanish at `y = −1` and have the imposed
+/// traction at `y = 0`. Returns `k U` and `k V` at the surface for a normal traction 1, then for a
+/// traction `i` along `x`.
 fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
     let kappa = 3.0 - 4.0 * ratio;
-    // For each field at the bottom and at the top: U, V, shear traction divided by i, normal traction.
+    // For each field at bottom and top: U, V, shear traction divided by i, normal traction.
     let [bottom, top] = [-1.0, 0.0].map(|y: f64| {
         let fields = [1.0, -1.0].map(|s: f64| {
             let e = (s * k * y).exp();
@@ -58,7 +58,7 @@ fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
     })
 }
 
-/// Checks also the sign of the coupling between normal and shear tractions.
+/// Compares (S19) with a direct solution, including the sign of the normal–shear coupling.
 #[test]
 fn compliances_agree_with_a_directly_solved_layer() {
     for ratio in [0.5, 0.3, 0.0] {
@@ -75,13 +75,13 @@ fn compliances_agree_with_a_directly_solved_layer() {
     }
 }
 
-/// Returns a Bessel function `J` of integer order by its own integral.
+/// Returns the Bessel function `J` of an integer order by Bessel's integral.
 fn bessel(order: f64, z: f64) -> f64 {
     let angles = (0..400).map(|k| PI * (f64::from(k) + 0.5) / 400.0);
     angles.map(|t| (order * t - z * t.sin()).cos()).sum::<f64>() / 400.0
 }
 
-/// Integrates a compliance times a Bessel function by the trapezoidal rule.
+/// Integrates a compliance of (S19) times a Bessel function by the trapezoidal rule.
 fn hankel_transform(ratio: f64, part: usize, order: f64, rho: f64) -> f64 {
     let step = 0.01;
     let mut values = (0..1600).map(|k| step * f64::from(k)).map(|x| {
@@ -89,12 +89,13 @@ fn hankel_transform(ratio: f64, part: usize, order: f64, rho: f64) -> f64 {
         weight * beside_half_space(ratio, x)[part] * bessel(order, x * rho)
     });
     let (first, second) = (values.next().unwrap(), values.next().unwrap());
-    // Truncated at the other end; at this end the slope cancels the remainder of the rule.
+    // The integrand vanishes at the upper limit. At x = 0 the Euler–Maclaurin correction with the
+    // slope of the integrand reduces the error of the rule.
     let slope = (second - 2.0 * first) / step;
     (first + second + values.sum::<f64>()) * step + step * step / 12.0 * slope
 }
 
-/// Compares the tabulated point loads of (S20) with the trapezoidal rule.
+/// Compares the tabulated displacements (S20) due to point loads with the trapezoidal rule.
 #[test]
 fn point_loads_are_hankel_transforms() {
     for ratio in [0.5, 0.2] {
@@ -113,9 +114,7 @@ fn point_loads_are_hankel_transforms() {
     }
 }
 
-/// The contribution of a layer decreases with its thickness `h`.
-///
-/// In the normal direction it decreases as `1/h`.
+/// The contribution of the rigid base decreases with the thickness, for normal loads as `1/h`.
 #[test]
 fn thick_layers_approach_the_half_space() {
     for coupling in [Coupling::Nearest, Coupling::Full] {
@@ -132,10 +131,10 @@ fn thick_layers_approach_the_half_space() {
     }
 }
 
-/// Values of an independent program on coarse meshes, printed to two digits.
+/// Compares with two-digit values of an independent program on coarse meshes.
 ///
-/// They are an isolated square relative to the half-space, and the additional couplings of three
-/// squares.
+/// First the stiffness of an isolated square over its value on the half-space, then `K_0` along the
+/// row, `r_0` and `l` of three squares.
 #[test]
 fn layers_agree_with_an_independent_program() {
     let alone = RowStiffness::compute(&Footprint::new(100.0, 2.0, 0.5).unwrap(), Coupling::Nearest);
@@ -158,11 +157,10 @@ fn layers_agree_with_an_independent_program() {
     }
 }
 
-/// The estimated error bounds the changes due to other quadratures and footprints.
-///
-/// Excessively thin layers are rejected.
+/// The estimated error stays below a bound for each thickness; layers thinner than `a/4` are
+/// refused.
 #[test]
-fn the_error_is_bounded_and_thin_layers_are_refused() {
+fn the_estimated_error_is_small_and_thin_layers_are_refused() {
     for (thickness, bound) in [(10.0, 1e-4), (2.0, 3e-4), (1.0, 5e-4), (0.5, 2e-3)] {
         let error = squares(thickness).error;
         assert!(error < bound, "{thickness} {error:e}");
@@ -171,9 +169,8 @@ fn the_error_is_bounded_and_thin_layers_are_refused() {
     assert!(refused.to_string().contains("a quarter of the half-width"), "{refused}");
 }
 
-/// Waves along an infinite row have positive eigenvalues, as in (S12).
-///
-/// The matrix is Hermitian with nine entries.
+/// The 3 × 3 stiffness of an infinite row for waves `exp(i q k)`, as in (S12), is positive
+/// definite.
 #[test]
 fn the_stiffness_is_positive_definite() {
     for thickness in [0.5, 1.0, 2.0, 5.0, 20.0] {
@@ -189,7 +186,7 @@ fn the_stiffness_is_positive_definite() {
                     roll += 2.0 * cos * n.roll;
                     (lift, cross) = (lift + 2.0 * sin * n.lift, cross + 2.0 * sin * n.cross);
                 }
-                // Shifting y by a quarter wave makes the matrix real.
+                // The Hermitian matrix becomes real if y is shifted by a quarter wave.
                 let matrix = Matrix3::from_fn(|i, j| match (i.min(j), i.max(j)) {
                     (0, 1) => lift,
                     (0, 2) => roll,
@@ -203,9 +200,9 @@ fn the_stiffness_is_positive_definite() {
     }
 }
 
-/// Derivatives agree with differences of whole stiffnesses.
+/// Derivatives agree with finite differences of the stiffness.
 ///
-/// With respect to all four parameters, and to all lengths together.
+/// The parameters are gap, width, Poisson's ratio, thickness, and a common factor of all lengths.
 #[test]
 fn derivatives_agree_with_differences() {
     for (coupling, [gap, width, ratio, thickness]) in [
@@ -215,7 +212,8 @@ fn derivatives_agree_with_differences() {
     ] {
         let center = [gap, width, ratio, thickness];
         let found = StiffnessSlopes::compute(&layer(center), coupling).unwrap();
-        // Differences for gap, width, Poisson's ratio and thickness, with two step lengths.
+        // Finite differences with respect to gap, width, ratio and thickness, with two step
+        // lengths.
         let by: [Vec<f64>; 4] = std::array::from_fn(|k| {
             let step = 1e-3;
             if k == 2 && ratio == 0.5 {
@@ -230,7 +228,7 @@ fn derivatives_agree_with_differences() {
             four.map(|((a, b), (c, d))| (8.0 * (a - b) - (c - d)) / (12.0 * step)).collect()
         });
         let [by_gap, by_width, by_ratio, by_thickness] = by;
-        // A size scales all lengths.
+        // The parameter `Size` scales gap, width and thickness.
         let lengths = by_gap.iter().zip(&by_width).zip(&by_thickness);
         let by_size = lengths
             .map(|((by_gap, by_width), by)| gap * by_gap + width * by_width + thickness * by);

@@ -1,4 +1,4 @@
-//! Half-space, boundary elements, and the equivalent springs.
+//! Tests of the half-space, the boundary elements, the layer and the springs.
 
 mod convergence;
 mod far_field;

@@ -1,4 +1,4 @@
-//! Graded axes.
+//! Tests of cells that are graded towards the edges of a rectangle.
 
 use substrate::Footprint;
 use substrate::mesh::{GradedAxis, Mesh};
@@ -12,7 +12,7 @@ fn assert_graded(axis: &GradedAxis) {
 }
 
 #[test]
-fn points_lie_in_their_cells_for_any_layer() {
+fn collocation_points_lie_inside_their_cells() {
     for layer in [1e-9, 1e-3, 0.1, 2.0, 1e3] {
         let axis = GradedAxis::graded([-1.0, 1.0], [layer, 2.0], 9);
         assert_graded(&axis);
@@ -21,7 +21,7 @@ fn points_lie_in_their_cells_for_any_layer() {
     }
 }
 
-/// (S4): from both ends, `U` grows by the same amount across every cell.
+/// The mapped coordinate `U` of (S4), added from both ends, grows equally across every cell.
 #[test]
 fn cells_are_equal_in_the_mapped_coordinate() {
     let (layers, length) = ([0.05, 0.7], 2.0);
@@ -37,7 +37,7 @@ fn cells_are_equal_in_the_mapped_coordinate() {
 }
 
 #[test]
-fn an_upper_half_is_half_of_the_whole() {
+fn an_upper_half_with_its_mirror_image_is_the_whole_axis() {
     let whole = GradedAxis::graded([-3.0, 3.0], [0.2, 0.2], 10);
     let half = GradedAxis::upper_half(3.0, 0.2, 5);
     for (a, b) in half.mirrored_edges().zip(whole.edges()) {
@@ -45,9 +45,10 @@ fn an_upper_half_is_half_of_the_whole() {
     }
 }
 
-/// Two meshes that face each other across a gap are mirror images close to it.
+/// Cells on both sides of a gap of `1e-3 a` have similar widths; a gap of `1e-17 a` is not
+/// resolved.
 #[test]
-fn facing_edges_are_graded_alike() {
+fn cells_on_both_sides_of_a_gap_have_similar_widths() {
     let mesh = Mesh::row(&Footprint::new(1e-3, 2.0, 0.5).unwrap(), 1, 32);
     let here = 1.0 - mesh.middle.edges()[31];
     let there = mesh.neighbours[0].edges()[1] - 1.001;

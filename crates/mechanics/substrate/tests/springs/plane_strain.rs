@@ -1,23 +1,23 @@
-//! Long rectangles against the plane problem of [`analytical::strips`].
+//! Long rectangles agree with the plane problem of rigid strips, [`analytical::strips`].
 //!
-//! Each unit of length adds the rotational stiffness of the plane problem, solved by an independent
-//! method.
+//! The rotational stiffness of a long rectangle grows by the stiffness of the plane problem for
+//! each unit of length. An independent method solves the plane problem.
 
 use analytical::strips;
 use substrate::{Footprint, extrapolated};
 
-/// Returns `α_φ` and `β_φ` per length from rectangles.
+/// Returns `α_φ` and `β_φ` of rectangles per unit length.
 ///
-/// The difference of two lengths eliminates end effects.
+/// The difference of the values for two lengths eliminates the effect of the ends.
 fn slope(gap: f64) -> [f64; 2] {
     let [short, long] = [40.0, 80.0]
         .map(|width| extrapolated(&Footprint::new(gap, width, 0.5).unwrap(), [8, 12]).unwrap());
     [2, 5].map(|i| (long[i] - short[i]) / 40.0)
 }
 
-/// An isolated rigid strip resists a rotation with `M = (π/4) E* a² φ` per length.
+/// A rigid strip without neighbours resists a rotation with `M = (π/4) E* a² φ` per unit length.
 #[test]
-fn a_long_rectangle_alone_agrees_with_a_strip() {
+fn an_isolated_long_rectangle_agrees_with_a_strip() {
     let found = slope(1e4)[0];
     assert!((found - strips::ALONE).abs() < 2e-4 * found, "{found}");
 }

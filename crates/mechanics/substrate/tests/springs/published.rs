@@ -1,28 +1,28 @@
-//! Published and independent values, and closed forms.
+//! Springs agree with published and independent values and with closed forms.
 //!
-//! The tolerance is half a unit of the last printed digit plus `Springs::error`.
+//! For printed values the tolerance is half a unit of the last digit plus `Springs::error`.
 
 use analytical::half_space;
 use substrate::{Footprint, Springs, calibrate, extrapolated};
 
-/// Gap at which the coupling is below the last digit.
+/// Gap at which the coupling is too small to change the last printed digit.
 const ALONE: f64 = 1e5;
 
 fn springs(gap: f64, width: f64, poisson_ratio: f64) -> Springs {
     calibrate(&Footprint::new(gap, width, poisson_ratio).unwrap()).unwrap()
 }
 
-/// Compares with `printed`, rounded to `digits` decimals.
+/// Asserts that `found` equals `printed`, a value rounded to `digits` decimals.
 ///
-/// The error estimate refers to `direct`.
+/// `estimate` is the absolute estimated error of `found`.
 fn assert_printed(found: f64, printed: f64, digits: i32, estimate: f64) {
     let allowed = 0.5 * 10_f64.powi(-digits) + estimate;
     assert!((found - printed).abs() <= allowed, "{found} is not {printed} within {allowed:.1e}");
 }
 
-/// Borodachev (1976): a rigid square punch needs `P = 1.1523 E* s δ`.
+/// A rigid square punch of side `s` needs the force `P = 1.1523 E* s δ` (Borodachev 1976).
 ///
-/// Its side is `s`; here `s = 2a`.
+/// The springs refer to the half-width `a = s/2`.
 #[test]
 fn a_rigid_square_punch_agrees_with_borodachev() {
     for poisson_ratio in [0.0, 0.3, 0.5] {
@@ -33,7 +33,7 @@ fn a_rigid_square_punch_agrees_with_borodachev() {
     }
 }
 
-/// Isolated square under shear and rotation at `ν = 0.5`.
+/// Compares the stiffness of a single square for shear and rotation at `ν = 0.5`.
 #[test]
 fn an_isolated_square_agrees_with_converged_values() {
     let square = springs(ALONE, 2.0, 0.5);
@@ -42,10 +42,10 @@ fn an_isolated_square_agrees_with_converged_values() {
     assert_printed(square.direct[2], known.rocking, 4, square.error * square.direct[2]);
 }
 
-/// Three squares with gaps of a tenth of their side at `ν = 0.5`.
+/// Compares three squares with gaps of a tenth of their side at `ν = 0.5`.
 ///
-/// The values are known to three decimals. They are compared as truncated after the third:
-/// `β_x = 0.9936`, known as 0.993, would round to 0.994; the other five agree either way.
+/// The known values are printed with three decimals and truncated, not rounded: the computed value
+/// `β_x = 0.9936` is printed as 0.993.
 #[test]
 fn three_squares_agree_with_converged_values() {
     let row = springs(0.2, 2.0, 0.5);
@@ -54,15 +54,19 @@ fn three_squares_agree_with_converged_values() {
     for (i, (direct, coupling)) in direct.into_iter().zip(coupling).enumerate() {
         let slack = row.error * row.direct[i];
         for (found, cut) in [(row.direct[i], direct), (row.coupling[i].abs(), coupling)] {
-            assert!(found > cut - slack && found < cut + 1e-3 + slack, "{found} is not {cut}…");
+            assert!(
+                found > cut - slack && found < cut + 1e-3 + slack,
+                "{found} is not {cut} when truncated"
+            );
         }
     }
     assert!(row.coupling[2] < 0.0);
 }
 
-/// A distant neighbour responds as to a point load.
+/// A distant neighbour is loaded like the surface under a point load.
 ///
-/// Its reaction is `α u` with `u = α/(π p)`, and for shear `u = α/(π p (1 − ν))`.
+/// The displaced scale exerts the force `α`, which displaces the surface at the pitch `p` by
+/// `u = α/(π p)`, and for shear by `u = α/(π p (1 − ν))`. The reaction of the neighbour is `α u`.
 #[test]
 fn distant_neighbours_respond_as_to_a_point_load() {
     let poisson_ratio = 0.3;
@@ -71,7 +75,7 @@ fn distant_neighbours_respond_as_to_a_point_load() {
         let pitch = gap + 2.0;
         let normal = row.direct[1].powi(2) * half_space::point_load(pitch);
         let shear = row.direct[0].powi(2) * half_space::tangential_point_load(pitch, poisson_ratio);
-        // The two neighbours also load each other: next order in a/p.
+        // The two neighbours also load each other, an effect of the relative size a/p.
         assert!(
             (row.coupling[1] / normal - 1.0).abs() < 1.0 / pitch,
             "{}",
@@ -92,9 +96,9 @@ fn coupling_vanishes_with_distance() {
     assert!(last[0] < 4e-3 && last[1] < 4e-3 && last[2] < 1e-6, "{last:?}");
 }
 
-/// The effect of the gap `d` decreases as `(a/p)²`.
+/// The effect of the neighbours on `α` decreases with the pitch `p` as `(a/p)²`.
 #[test]
-fn springs_tend_to_the_values_of_an_isolated_rectangle() {
+fn the_effect_of_neighbours_decreases_with_the_square_of_the_pitch() {
     let alone = extrapolated(&Footprint::new(ALONE, 2.0, 0.5).unwrap(), [16, 24]).unwrap();
     let [near, far] = [40.0, 82.0].map(|gap| springs(gap, 2.0, 0.5).direct);
     for i in [0, 1] {
@@ -104,9 +108,9 @@ fn springs_tend_to_the_values_of_an_isolated_rectangle() {
     assert!((near[2] - alone[2]).abs() < 1e-4 * alone[2]);
 }
 
-/// Normal problems over `E*` do not depend on `ν`.
+/// Springs for normal loads, divided by `E*`, do not depend on Poisson's ratio.
 ///
-/// Shear does, and at `ν = 0` it equals the normal problem.
+/// Springs for shear depend on it, and at `ν = 0` they equal the springs for normal loads.
 #[test]
 fn only_shear_depends_on_poissons_ratio() {
     let [zero, some, half] = [0.0, 0.25, 0.5].map(|ratio| springs(0.3, 1.5, ratio));
@@ -117,7 +121,7 @@ fn only_shear_depends_on_poissons_ratio() {
     assert!((zero.direct[0] - zero.direct[1]).abs() < 2.0 * error, "{zero:?}");
     assert!((zero.coupling[0] - zero.coupling[1]).abs() < 2.0 * error, "{zero:?}");
     assert!(zero.direct[0] > some.direct[0] && some.direct[0] > half.direct[0]);
-    // x²/r³ lies between 0 and 1/r, so α_x lies between α_y (1 − ν) and α_y.
+    // The kernel x²/r³ of shear lies between 0 and 1/r, so α_x lies between α_y (1 − ν) and α_y.
     assert!(half.direct[0] > 0.5 * half.direct[1]);
 }
 

@@ -1,4 +1,4 @@
-//! Stiffness of whole rows, Eqs. (S9)–(S12).
+//! Stiffness of rows with several coupled neighbours, Eqs. (S9)–(S12).
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use analytical::half_space;
 use substrate::{Calibrations, Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
 
-/// From long narrow bases close together to square ones far apart.
+/// `d/a` and `b/a` of the rows, from narrow to long bases and from small to large gaps.
 const FOOTPRINTS: [[f64; 2]; 6] =
     [[0.2, 2.0], [0.2, 20.0], [8.0, 80.0], [4.0, 2.0], [0.05, 0.5], [0.1, 1.0]];
 
@@ -19,9 +19,9 @@ fn row(numbers: [f64; 2], neighbours: usize) -> RowStiffness {
 }
 
 #[test]
-fn one_neighbour_without_rotation_is_equation_1() {
+fn a_row_with_one_neighbour_has_the_springs_of_equation_1() {
     for [gap, width] in FOOTPRINTS {
-        // Outside the table, where both are solved.
+        // This gap lies outside the table, so both functions solve boundary elements.
         let beyond = [1e-3 * gap, width];
         let (springs, row) = (calibrate(&footprint(beyond)).unwrap(), row(beyond, 1));
         let mut eq1 = RowStiffness::from(&springs);
@@ -32,10 +32,9 @@ fn one_neighbour_without_rotation_is_equation_1() {
     }
 }
 
-/// The stiffness of an infinite row is positive definite for every wave (S12).
+/// The stiffness of an infinite row for displacements `exp(i q k)` is positive definite (S12).
 ///
-/// Displacements vary along the row as `exp(i q k)`. If the stiffness is positive for every `q`,
-/// every finite row is positive definite, too.
+/// If it is positive definite for every `q`, so is the stiffness of every finite row.
 #[test]
 fn the_stiffness_is_positive_definite() {
     for numbers in FOOTPRINTS {
@@ -58,9 +57,9 @@ fn the_stiffness_is_positive_definite() {
     }
 }
 
-/// A distant scale responds as to a point load and a couple.
+/// A distant scale is loaded like the surface under a point load or a couple.
 ///
-/// It is compared with `u = α_y/(π r)` and with `u = α_φ/(π r²)`.
+/// The displacements of the surface at the distance `r` are `u = α_y/(π r)` and `u = α_φ/(π r²)`.
 #[test]
 fn distant_scales_respond_as_to_point_loads_and_couples() {
     let row = row([200.0, 2.0], 3);
@@ -70,14 +69,14 @@ fn distant_scales_respond_as_to_point_loads_and_couples() {
         let force = -alone * alone * half_space::point_load(r);
         let couple = -alone * turned * half_space::point_couple(r);
         assert!((neighbour.direct[1] / force - 1.0).abs() < 0.02, "{k} {}", neighbour.direct[1]);
-        // The scale between carries a part.
+        // Scales between both carry a part of the load.
         assert!((neighbour.cross / couple - 1.0).abs() < 0.03, "{k} {}", neighbour.cross);
     }
 }
 
-/// The error includes the difference of the cross terms, equal by Betti's theorem.
+/// The error includes the difference of the cross terms, which is 0 by Betti's theorem.
 #[test]
-fn rows_are_as_accurate_as_equation_1() {
+fn rows_with_eight_neighbours_have_small_estimated_errors() {
     for numbers in FOOTPRINTS {
         let row = row(numbers, NEIGHBOURS);
         assert!(row.error < 1e-3, "{numbers:?} {:e}", row.error);
@@ -86,13 +85,11 @@ fn rows_are_as_accurate_as_equation_1() {
     }
 }
 
-/// (S11): doubling the number of neighbours changes values little.
-///
-/// No value changes by more than the truncation error.
+/// Doubling the number of neighbours changes no value by more than `truncation` (S11).
 #[test]
 fn the_truncation_error_bounds_the_effect_of_more_neighbours() {
     for (k, numbers) in FOOTPRINTS.into_iter().enumerate() {
-        // The largest row takes most of the time.
+        // Rows of 33 rectangles take most of the time, so only half of the footprints use them.
         let counts = if k % 2 == 0 { vec![2, 4, 8, 16] } else { vec![2, 4, 8] };
         let rows: Vec<_> = counts.into_iter().map(|count| row(numbers, count)).collect();
         for pair in rows.windows(2) {
@@ -105,9 +102,7 @@ fn the_truncation_error_bounds_the_effect_of_more_neighbours() {
     }
 }
 
-/// Returns the largest difference of the common stiffnesses of two rows.
-///
-/// It is relative to `K_0`.
+/// Returns the largest difference of the stiffness values that both rows have, relative to `K_0`.
 fn largest_change(short: &RowStiffness, long: &RowStiffness) -> f64 {
     let pairs = short.neighbours.iter().zip(&long.neighbours).map(|(a, b)| (a.direct, b.direct));
     let changes = pairs
@@ -116,7 +111,7 @@ fn largest_change(short: &RowStiffness, long: &RowStiffness) -> f64 {
     changes.fold(0.0, f64::max)
 }
 
-/// Rotations affect only the nearest neighbours, displacements also distant ones.
+/// A rotation loads hardly more than the nearest neighbours, a displacement also distant ones.
 #[test]
 fn couplings_of_rotations_decay_faster_than_couplings_of_displacements() {
     for numbers in FOOTPRINTS {
@@ -129,7 +124,7 @@ fn couplings_of_rotations_decay_faster_than_couplings_of_displacements() {
 }
 
 #[test]
-fn rows_with_either_coupling_are_shared() {
+fn rows_with_both_couplings_are_cached() {
     let shared = Calibrations::default();
     let print = footprint([0.2, 2.0]);
     let full = shared.row(&print, Coupling::Full).unwrap();

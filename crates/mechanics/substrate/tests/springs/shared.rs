@@ -1,4 +1,4 @@
-//! Footprints as keys, and calibrations shared between threads.
+//! Tests of footprints as keys of a cache, and of springs shared by threads.
 
 use std::thread;
 
@@ -10,7 +10,7 @@ fn footprints(count: u32) -> Vec<Footprint> {
 
 #[test]
 fn all_threads_get_the_springs_of_their_footprint() {
-    // A cache small enough to drop footprints in between.
+    // A small cache, which drops footprints during the test.
     let (shared, asked) = (Calibrations::with_capacity(4), footprints(5));
     thread::scope(|scope| {
         for start in 0..8 {
@@ -25,7 +25,7 @@ fn all_threads_get_the_springs_of_their_footprint() {
 }
 
 #[test]
-fn a_gap_lost_in_rounding_is_an_error_each_time() {
+fn a_gap_that_vanishes_by_rounding_is_an_error_at_each_request() {
     let lost = Footprint::new(1e-17, 2.0, 0.5).unwrap();
     let shared = Calibrations::default();
     let error = shared.get(&lost).unwrap_err();
@@ -38,7 +38,7 @@ fn a_gap_lost_in_rounding_is_an_error_each_time() {
 }
 
 #[test]
-fn numbers_out_of_range_are_refused() {
+fn footprints_out_of_range_are_refused() {
     for (gap, width, ratio, message) in [
         (0.0, 2.0, 0.5, "gap over a is 0, expected a positive length"),
         (f64::NAN, 2.0, 0.5, "gap over a is NaN, expected a positive length"),
@@ -52,6 +52,6 @@ fn numbers_out_of_range_are_refused() {
 }
 
 #[test]
-fn a_negative_zero_is_the_same_key() {
+fn poissons_ratios_of_zero_and_negative_zero_are_equal() {
     assert_eq!(Footprint::new(1.0, 2.0, -0.0), Footprint::new(1.0, 2.0, 0.0));
 }

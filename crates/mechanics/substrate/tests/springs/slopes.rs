@@ -1,6 +1,7 @@
-//! Derivatives of the springs, against differences and known values.
+//! Derivatives of the springs with respect to the footprint.
 //!
-//! The differences are taken within the table, the known values apply outside it.
+//! Within the range of the table they are compared with finite differences, outside it with known
+//! values.
 
 use substrate::FootprintParameter::{Gap, PoissonRatio, Size, Width};
 use substrate::{Coupling, Footprint, RowStiffness, StiffnessSlopes};
@@ -18,7 +19,7 @@ fn slopes(gap: f64, width: f64, poisson_ratio: f64, coupling: Coupling) -> Stiff
     slopes
 }
 
-/// Compares each value relative to itself, and small ones relative to the largest.
+/// Asserts that values agree relative to themselves, small values relative to the largest one.
 fn assert_close(ours: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     let largest = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
     for (ours, expected) in ours.iter().zip(expected) {
@@ -59,10 +60,11 @@ fn derivatives_agree_with_differences_of_the_table() {
     }
 }
 
-/// Footprints outside the table, with the derivatives of seven values.
+/// Known derivatives of seven stiffness values for footprints outside the table.
 ///
-/// A footprint is gap, width and Poisson's ratio. The derivatives with respect to each of the
-/// three follow from differentiating the matrices and the mesh.
+/// A line holds gap, width, Poisson's ratio, and the derivatives of `K_0` and `K_1` in `x`, `y`,
+/// `φ` and of `c`. The three lines of a footprint are derivatives with respect to gap, width and
+/// Poisson's ratio. They were computed by differentiating the matrices and the mesh.
 const BEYOND: &str = "
 0.005 1.7 0.3 -107.7784891 -107.7603129 -104.7822641 54.0507774 54.09815128 -53.07484983 0.0
 0.005 1.7 0.3 2.339886676 2.366220771 2.042487522 -1.090018983 -1.086563414 0.7467053108 0.0
@@ -78,9 +80,9 @@ const BEYOND: &str = "
 0.3 0.1 0.3 -0.7062879061 0.0 0.0 0.06926553856 0.0 0.0 0.0
 ";
 
-/// Outside the table, boundary elements are solved.
+/// Outside the range of the table the program differentiates boundary-element solutions.
 #[test]
-fn differences_outside_the_table_agree_with_exact_derivatives() {
+fn derivatives_outside_the_table_agree_with_exact_derivatives() {
     let rows: Vec<Vec<f64>> = BEYOND
         .trim()
         .lines()

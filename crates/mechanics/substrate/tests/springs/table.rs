@@ -1,22 +1,22 @@
-//! Table against boundary elements at points between the nodes of the polynomials.
+//! The table agrees with boundary elements at points between the nodes of its polynomials.
 
 use substrate::boundary_element::row_reactions;
 use substrate::table::{GAPS, WIDTHS};
 use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
 
-/// Generates footprints over the whole range, by multiples of three irrationals.
+/// Returns footprints scattered over the range, from fractional parts of multiples of square roots.
 fn footprints(count: usize) -> impl Iterator<Item = Footprint> {
     (1..=count).map(|k| {
         let [gap, width, ratio] = [5.0, 2.0, 3.0].map(|step| (k as f64 * f64::sqrt(step)).fract());
         let [gap, width] =
             [(GAPS, gap), (WIDTHS, width)].map(|([low, high], part)| low * (high / low).powf(part));
-        // Every other row is incompressible.
+        // Every second footprint has an incompressible substrate.
         let ratio = if k % 2 == 0 { 0.5 } else { 0.5 * ratio };
         Footprint::new(gap, width, ratio).unwrap()
     })
 }
 
-/// Solves a row on three meshes, extrapolated twice.
+/// Solves a row on three meshes and extrapolates the results twice.
 fn solved(footprint: &Footprint, neighbours: usize, cells: [usize; 3]) -> Vec<f64> {
     let [coarse, medium, fine] =
         cells.map(|n| row_reactions(footprint, neighbours, n).unwrap().numbers());
@@ -32,7 +32,7 @@ fn limit([coarse, fine]: [&[f64]; 2], finer: f64, order: i32) -> Vec<f64> {
 }
 
 #[test]
-fn springs_agree_with_fine_meshes() {
+fn tabulated_springs_agree_with_fine_meshes() {
     for footprint in footprints(12) {
         let springs = calibrate(&footprint).unwrap();
         let exact = solved(&footprint, 1, [10, 14, 20]);
@@ -45,7 +45,7 @@ fn springs_agree_with_fine_meshes() {
     }
 }
 
-/// The coupling that long rows neglect is sixty times as large as their error.
+/// The stated error also is far below the coupling that rows with eight neighbours neglect.
 #[test]
 fn long_rows_agree_with_boundary_elements() {
     for footprint in footprints(2) {
@@ -63,7 +63,7 @@ fn long_rows_agree_with_boundary_elements() {
     }
 }
 
-/// Outside the table, boundary elements are solved and report a larger error.
+/// At the limits of the range the table and boundary elements, which state a larger error, agree.
 #[test]
 fn table_and_boundary_elements_agree_at_the_range_limits() {
     for [gap, width] in [[0.0125, 0.25], [0.0125, 80.0], [100.0, 0.25], [100.0, 80.0]] {
