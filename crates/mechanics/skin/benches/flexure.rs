@@ -1,7 +1,8 @@
-//! Run time of bending: unit cells of the reference study on all cores, and chains.
+//! Measures the run time of bending.
 //!
-//! Chains of 100 to 800 gaps follow their whole path. Their cost should grow linearly with the
-//! length.
+//! - Unit cells: the 720 designs of the reference study, in parallel on all cores.
+//! - Chains of 100 to 800 gaps, bent to the end of the path. The run time should grow linearly with
+//!   the number of gaps.
 
 #[path = "../tests/samples/mod.rs"]
 mod samples;
@@ -29,7 +30,7 @@ fn reference_study(c: &mut Criterion) {
 }
 
 fn chain_length(c: &mut Criterion) {
-    // This design touches early and then slides.
+    // The scales of this design touch early on the path, and their contacts then slide.
     let design = samples::design(0.1, 0.1, 75.0, Base::L);
     let pitch = design.row().expect("a row").pitch();
     let mut group = c.benchmark_group("chain");

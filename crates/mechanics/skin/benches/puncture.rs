@@ -1,7 +1,9 @@
-//! Run time of punctures: reference study with calibration, rows of any length.
+//! Measures the run time of punctures.
 //!
-//! The study runs on all cores, one design on rows of 41 to 4001 scales. The cost of a row should
-//! grow at most linearly with its length.
+//! - The 720 designs of the reference study, including the computation of their substrate springs,
+//!   in parallel on all cores.
+//! - One design on rows of 41 to 4001 scales. The run time should grow at most linearly with the
+//!   number of scales.
 
 #[path = "../tests/samples/mod.rs"]
 mod samples;

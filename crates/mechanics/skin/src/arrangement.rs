@@ -1,9 +1,9 @@
-//! The scales of a row at rest.
+//! Arrangement of a row at rest: scales, gaps and pitches.
 
 use contact::Pair;
 use geometry::{Body, Frame, OutOfRange, Parallelogram, Row, UnevenRow, clearance};
 
-/// Equal scales at a constant gap, or scales with individual slants and gaps.
+/// Row of equal scales at a constant gap, or of scales with individual slants and gaps.
 #[derive(Clone, Debug)]
 pub(crate) enum Arrangement {
     Even(Row),
@@ -34,10 +34,10 @@ impl Arrangement {
         }
     }
 
-    /// Extracts scales `i` and `i + 1` as a row of two.
+    /// Returns a row that consists of scales `i` and `i + 1` only.
     ///
     /// # Errors
-    /// None in practice: the two scales do not overlap in the full row.
+    /// If both scales overlap, which a valid arrangement excludes.
     pub(crate) fn pair(&self, i: usize) -> Result<Self, OutOfRange> {
         let scales = vec![self.scale(i), self.scale(i + 1)];
         UnevenRow::new(scales, vec![self.gap(i)]).map(Self::Uneven)
@@ -51,14 +51,17 @@ impl Arrangement {
         }
     }
 
-    /// Bounds the distance between scales `i` and `i + 1` on a body from below.
+    /// Returns a lower bound of the distance between the faces of scales `i` and `i + 1` at rest.
+    ///
+    /// On a curved body it is the exact distance.
     pub(crate) fn clearance(&self, i: usize, body: Body) -> f64 {
         let [left, right] = [self.scale(i), self.scale(i + 1)];
         if !body.is_flat() {
             return body.distance(&left, &right, self.pitch(i));
         }
-        // The distance along the row times the cosine of a side is the distance across it; the
-        // steeper side gives the lower bound. Single scales may lean to the left.
+        // The horizontal distance times the cosine of a slant is the distance perpendicular to that
+        // side. The larger slant gives the lower bound. Use its magnitude, because single scales
+        // may lean to the left.
         let steepest = left.slant().abs().max(right.slant().abs());
         clearance(&left, &right, self.gap(i)) * steepest.cos()
     }
@@ -71,9 +74,9 @@ impl Arrangement {
         }
     }
 
-    /// Returns the fraction of the length in gaps, `Σd/Σp`.
+    /// Returns the sum of the gaps divided by the sum of the pitches, `Σd/Σp`.
     ///
-    /// This is the compliance of a strip without contact.
+    /// It equals the compliance `κ*/M*` of a bent strip before contact.
     pub(crate) fn gap_fraction(&self) -> f64 {
         match self {
             Self::Even(row) => row.gap() / row.pitch(),
@@ -81,10 +84,11 @@ impl Arrangement {
         }
     }
 
-    /// Lists the pairs of scales up to `reach` pitches apart, on a body.
+    /// Lists the pairs of scales that are up to `reach` pitches apart on `body`.
     ///
-    /// Pairs are ordered by left scale, then by distance. An even row has one entry per distance.
-    /// Each comes with the tangent frame of the right scale in the frame of the left one.
+    /// Each entry holds a pair and the tangent frame of its right scale, relative to the frame of
+    /// its left scale. Entries are ordered by left scale, then by distance. An even row has one
+    /// entry for each distance, because all its pairs at one distance are equal.
     pub(crate) fn pairs(&self, reach: usize, body: Body) -> Vec<(Pair, Frame)> {
         match self {
             Self::Even(row) => (1..=reach)
@@ -95,8 +99,8 @@ impl Arrangement {
                 let pairs =
                     (0..last).flat_map(|left| (1..=reach).map(move |pitches| (left, pitches)));
                 let pairs = pairs.map(|(left, pitches)| {
-                    // Pairs that reach beyond the end get the last scale as a placeholder. They are
-                    // never evaluated.
+                    // A pair that would reach beyond the end of the row gets the last scale as a
+                    // placeholder. Such a pair is never evaluated.
                     let right = last.min(left + pitches);
                     let distance = (left..right).map(|i| row.pitch(i)).sum();
                     pair_on(body, [row.scales()[left], row.scales()[right]], distance)
@@ -107,7 +111,9 @@ impl Arrangement {
     }
 }
 
-/// Creates a pair of scales on a body, with the frame of the right one in the frame of the left.
+/// Creates a pair of scales at the arc length `distance` from each other on a body.
+///
+/// Also returns the tangent frame of the right scale, relative to the frame of the left scale.
 fn pair_on(body: Body, scales: [Parallelogram; 2], distance: f64) -> (Pair, Frame) {
     let frame = body.frame(distance);
     (Pair::between(scales, frame.origin), frame)

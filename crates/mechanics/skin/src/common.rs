@@ -12,29 +12,31 @@ pub struct Common {
     pub friction: f64,
     /// Step sizes and tolerances of path following.
     pub solver: Settings,
-    /// Extent of the record of a puncture path.
+    /// Which measures and point data of a puncture path are computed.
     pub detail: PathDetail,
 }
 
-/// Extent of the record of a puncture path. The path itself does not depend on it.
+/// Which measures and point data of a puncture path are computed.
+///
+/// The equilibria of the path do not depend on this choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PathDetail {
-    /// The measures of the critical state, of the first fold and of failure.
+    /// Only the measures of the critical state, of the first fold and of failure.
     ///
-    /// Measures of other points have no value: the largest load and stiffness, first contact,
-    /// the stiffness at rest, stability and snaps.
+    /// All other measures have no value: largest load and stiffness, first contact, stiffness at
+    /// rest, stability and snaps.
     Critical,
-    /// All measures.
+    /// All measures, without the point data of [`Self::Whole`].
     Measures,
-    /// Everything that path tables and drawings show.
+    /// All measures, and the gap stretches, energies and folds at every point of the path.
     ///
-    /// In addition to all measures: gap stretches and energies at every point, and all folds.
+    /// Path tables and drawings need this data.
     #[default]
     Whole,
 }
 
 impl Default for Common {
-    /// Uses the contact law as printed by Shafiei et al. (2021).
+    /// Returns settings without friction, with the contact law printed by Shafiei et al. (2021).
     fn default() -> Self {
         Self {
             law: Law::PRINTED,
@@ -45,7 +47,9 @@ impl Default for Common {
     }
 }
 
-/// Returns true if all fields are empty; such a group of measures is not written.
+/// Returns true if a group of measures has its default value.
+///
+/// Groups without values are left out of files.
 pub(crate) fn is_default<T: Default + PartialEq>(part: &T) -> bool {
     *part == T::default()
 }

@@ -1,4 +1,4 @@
-//! Assembly of the contacts of a row of scales.
+//! Contacts of a row or a strip of scales: unknowns, conditions and transitions.
 
 mod assembly;
 mod audit;
@@ -30,66 +30,70 @@ use solver::Change;
 
 use crate::arrangement::Arrangement;
 
-/// The two levels of a pair, with one contact each.
+/// The two levels at which a pair of scales can touch; each level has one contact.
 const LEVELS: [Level; 2] = [Level::Upper, Level::Lower];
 
-/// Counts the constraints per pair of scales: normal forces and friction.
+/// Counts the constraints of one pair of scales: normal forces and friction of both contacts.
 pub(crate) fn pair_constraints(law: &ContactLaw) -> usize {
     LEVELS.len() * slots(law)
 }
 
-/// Counts the constraints per contact.
+/// Counts the constraints of one contact: three normal forces, and two for friction if any.
 fn slots(law: &ContactLaw) -> usize {
     if law.friction() > 0.0 { FORCES + 2 } else { FORCES }
 }
 
-/// Value of a condition that does not exist or cannot become active next.
+/// Value of a condition that does not exist, or that cannot become active in the current state.
 ///
-/// Any positive number serves: the condition is never violated, and never solved for.
+/// Any positive value works: the condition then counts as satisfied, and no event is sought for it.
 pub(crate) const HOLDS: f64 = 1.0;
 
-/// State of a skin.
+/// State of a row or a strip: unknowns, active set and mode.
 pub(crate) type SkinState = solver::State<SkinMode>;
 
-/// Equilibrium point on the path of a skin.
+/// Equilibrium on the path of a row or a strip.
 pub(crate) type SkinPoint = solver::Equilibrium<SkinMode>;
 
 /// The contacts of a row of scales, and the layout of their unknowns.
 ///
 /// Contact `2 k` is the upper and `2 k + 1` the lower contact of pair `k`. With reach 1, pair `k`
-/// joins scales `k` and `k + 1`. With a larger reach, each scale contributes one pair for each
-/// scale on its right within reach. Contact forces are the constraints of the system: number `3 j`
-/// is the force `λ` of contact `j`, `3 j + 1` its partner force `λ'` and `3 j + 2` its flush force
-/// `λ''`. With friction each contact has two more: its stick multiplier and its slip distance.
+/// consists of scales `k` and `k + 1`. With a larger reach, each scale forms one pair with each
+/// scale on its right within reach.
+///
+/// Contact forces are the constraints of the system. Contact `j` has three: constraint `3 j` is its
+/// force `λ`, `3 j + 1` its partner force `λ'` and `3 j + 2` its flush force `λ''`. With friction
+/// each contact has five constraints: the fourth is its stick multiplier, the fifth its slip
+/// distance.
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     pub(crate) arrangement: Arrangement,
-    /// Body under the row; displacements are in the tangent frame of each scale.
+    /// Body under the row. Displacements of a scale are in the tangent frame at its node.
     pub(crate) body: Body,
-    /// One shape per pair, or one per distance if all scales are equal.
+    /// Undeformed pairs: one for each pair, or one for each distance if all scales are equal.
     ///
-    /// Each comes with the tangent frame of the right scale in the frame of the left one.
+    /// Each entry also holds the tangent frame of the right scale, relative to the frame of the
+    /// left scale.
     pair_shapes: Vec<(Pair, Frame)>,
-    /// Number of right-hand neighbours that a scale may touch.
+    /// Largest distance, in pitches, of two scales that may touch.
     ///
-    /// The reach is 1 unless scales of the row touch beyond their nearest neighbours.
+    /// It is 1 unless scales of the row touch beyond their nearest neighbours.
     pub(crate) reach: usize,
     law: ContactLaw,
-    /// First of the three unknowns of each scale; `None` for the fixed scale.
+    /// Index of the first of the three unknowns of each scale; `None` for a fixed scale.
     pub(crate) scales: Vec<Option<usize>>,
-    /// True if each scale is placed in the frame of its left neighbour.
+    /// True if the displacement of each scale is relative to its left neighbour.
     ///
-    /// Rotations are always counted from the first scale.
+    /// Rotations are relative to the first scale in both cases.
     relative: bool,
-    /// Constraints per contact.
+    /// Number of constraints of one contact.
     slots: usize,
     /// Index of the unknown of each constraint.
     pub(crate) forces: Vec<usize>,
-    /// Constraint numbers of the slip distances, which only grow.
+    /// Constraint numbers of the slip distances, which are unknowns that only grow.
     pub(crate) slip_distances: Vec<usize>,
-    /// Contacts with an anchor that differs from the mode's, and the difference.
+    /// Contacts with an anchor other than the one in the mode, and the difference.
     ///
-    /// Set on perturbed neighbours of a row only.
+    /// Used only in rows with a perturbed parameter, for derivatives.
     anchor_shifts: Vec<(usize, f64)>,
 }
 
@@ -104,7 +108,7 @@ impl Contacts {
     ) -> Self {
         let slots = slots(&law);
         let neighbours = pair_constraints(&law) * scales.len().saturating_sub(1);
-        // A single scale has no pairs to divide by, and its reach does not matter.
+        // A single scale has no pairs: avoid a division by zero; its reach is not used.
         let reach = forces.len().checked_div(neighbours).unwrap_or(1);
         debug_assert_eq!(forces.len(), reach * neighbours);
         let pair_shapes = arrangement.pairs(reach, body);
@@ -125,7 +129,7 @@ impl Contacts {
         }
     }
 
-    /// Returns the mode at rest, with all contacts open.
+    /// Returns the mode at rest, in which all contacts are open.
     pub(crate) fn open(&self) -> SkinMode {
         let contacts = vec![CornerContact::Open; self.forces.len() / self.slots];
         let friction_states = if self.has_friction() {
@@ -141,10 +145,10 @@ impl Contacts {
         (constraint / self.slots, constraint % self.slots)
     }
 
-    /// Returns the constraints that may change together with a constraint.
+    /// Returns the range of constraints that may change at the same event as `constraint`.
     ///
-    /// With friction these are all constraints of its pair: any of them may start to slip at the
-    /// same event.
+    /// With friction these are all constraints of its pair, because both contacts of the pair may
+    /// begin to slip there.
     pub(crate) fn coupled(&self, constraint: usize) -> std::ops::Range<usize> {
         if !self.has_friction() {
             return constraint..constraint + 1;
@@ -154,22 +158,24 @@ impl Contacts {
         first..first + pair
     }
 
-    /// Returns the left and the right scale of the pair of a constraint.
+    /// Returns the left and the right scale of the pair to which a constraint belongs.
     pub(crate) fn scales_of(&self, constraint: usize) -> [usize; 2] {
         self.ends(Self::pair_of(constraint / self.slots))
     }
 
-    /// Returns the corner and edge of a constraint; `None` if its contact is open.
+    /// Returns the corner and edge on which the force of a constraint acts.
+    ///
+    /// `None` if its contact is open.
     pub(crate) fn corner_edge(&self, mode: &SkinMode, constraint: usize) -> Option<CornerEdge> {
         let (contact, slot) = self.contact_of(constraint);
         let edge = mode.contacts[contact].edge()?;
         if slot == Force::Flush as usize { edge.flush() } else { Some(edge) }
     }
 
-    /// Returns the pose of a scale in the frame in which it is placed.
+    /// Returns the pose of a scale, relative to its left neighbour if poses are relative.
     pub(crate) fn pose(&self, z: &[f64], scale: usize) -> Pose {
-        // Relative positions are expressed in the frame of the left neighbour, rotations from the
-        // first scale, so the rotation of the frame is subtracted.
+        // With relative poses the pose is expressed in the frame of the left neighbour. The unknown
+        // rotation counts from the first scale, so the rotation of the neighbour is subtracted.
         let frame = self.frame(scale).map_or(0.0, |rotation| z[rotation]);
         match self.scales[scale] {
             Some(at) => Pose::new(z[at], z[at + 1], z[at + 2] - frame),
@@ -177,20 +183,22 @@ impl Contacts {
         }
     }
 
-    /// Returns the poses of all scales, each in the frame in which it is placed.
+    /// Returns the poses of all scales, as [`Self::pose`].
     ///
-    /// On a curved body all are in the tangent frame of the first scale.
+    /// On a curved body all poses are in the tangent frame of the first scale.
     pub(crate) fn poses(&self, z: &[f64]) -> Vec<Pose> {
         let scales = 0..self.scales.len();
         scales.map(|scale| self.seen(self.pose(z, scale), || self.frame_at(scale))).collect()
     }
 
-    /// Returns the tangent frame of a scale in the frame of the first scale.
+    /// Returns the tangent frame of a scale, relative to the frame of the first scale.
     pub(crate) fn frame_at(&self, scale: usize) -> Frame {
         self.body.frame(self.arrangement.position(scale))
     }
 
-    /// Transforms a pose to the frame in which `frame` is given; no change on a flat body.
+    /// Transforms a pose from the tangent frame `frame` to the frame to which `frame` is relative.
+    ///
+    /// Does nothing on a flat body.
     fn seen(&self, pose: Pose, frame: impl FnOnce() -> Frame) -> Pose {
         if self.body.is_flat() {
             return pose;
@@ -200,18 +208,20 @@ impl Contacts {
         Pose::new(displacement.x, displacement.y, pose.rotation - frame.angle)
     }
 
-    /// Returns the rotation unknown of a scale's frame; `None` if the frame is fixed.
+    /// Returns the unknown rotation of the frame in which the pose of a scale is expressed.
+    ///
+    /// This is the rotation of its left neighbour; `None` if the frame is fixed.
     fn frame(&self, scale: usize) -> Option<usize> {
         let neighbour = scale.checked_sub(1).filter(|_| self.relative)?;
         Some(self.scales[neighbour]? + 2)
     }
 
-    /// Counts the closed contacts; a flush side counts twice.
+    /// Counts the closed contacts; a contact between flush edges counts twice.
     pub(crate) fn closed(state: &SkinState) -> usize {
         state.mode.contacts.iter().flat_map(|contact| contact.carrying()).flatten().count()
     }
 
-    /// Counts the scales that touch another scale.
+    /// Counts the scales that have at least one closed contact.
     pub(crate) fn engaged(&self, state: &SkinState) -> usize {
         let mut touch = vec![false; self.scales.len()];
         for scale in Self::touching(&state.mode).flat_map(|pair| self.ends(pair)) {
@@ -220,7 +230,7 @@ impl Contacts {
         touch.into_iter().filter(|&touches| touches).count()
     }
 
-    /// Iterates over the touching pairs, from the left.
+    /// Iterates over the indices of the pairs with a closed contact, from left to right.
     fn touching(mode: &SkinMode) -> impl Iterator<Item = usize> {
         let pairs = mode.contacts.chunks_exact(LEVELS.len()).enumerate();
         pairs
@@ -228,7 +238,7 @@ impl Contacts {
             .map(|(pair, _)| pair)
     }
 
-    /// Returns whether the first and the last scale touch another scale.
+    /// Returns two flags: whether the first and whether the last scale has a closed contact.
     pub(crate) fn touching_at_ends(&self, state: &SkinState) -> [bool; 2] {
         let last = self.scales.len() - 1;
         let pairs = Self::touching(&state.mode).map(|pair| self.ends(pair));
@@ -237,12 +247,14 @@ impl Contacts {
         })
     }
 
-    /// Returns true if any contact is flush.
+    /// Returns true if the edges of any contact lie flush (C7).
     pub(crate) fn flush(state: &SkinState) -> bool {
         state.mode.contacts.iter().any(|contact| matches!(contact, CornerContact::Flush(_)))
     }
 
-    /// Fills `values` with the conditions of all inactive forces.
+    /// Replaces `values` by the values of the conditions of all inactive constraints.
+    ///
+    /// A constraint without a condition gets [`HOLDS`].
     pub(crate) fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         values.clear();
         values.resize(self.forces.len(), HOLDS);
@@ -250,7 +262,7 @@ impl Contacts {
             let values = &mut values[self.slots * contact..][..FORCES];
             match state.mode.contacts[contact] {
                 CornerContact::Open => {
-                    // Most contacts are open and need only the gap, without derivatives.
+                    // Fast path without derivatives: most contacts are open and need only the gap.
                     values[0] = corners.facing().map_or(HOLDS, |(_, gap)| gap);
                 }
                 closed => {
@@ -265,9 +277,7 @@ impl Contacts {
         self.friction_conditions(state, &state.z, HOLDS, values);
     }
 
-    /// Fills `values` like [`Self::conditions`], and `slopes` with derivatives.
-    ///
-    /// The derivatives are directional.
+    /// Replaces `values` like [`Self::conditions`], and `slopes` by derivatives along `direction`.
     pub(crate) fn condition_slopes(
         &self,
         state: &SkinState,
@@ -292,14 +302,14 @@ impl Contacts {
         self.friction_conditions(state, direction, 0.0, slopes);
     }
 
-    /// Evaluates the condition of an inactive force.
+    /// Evaluates the condition of an inactive constraint; [`HOLDS`] if it has none.
     pub(crate) fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
         let (contact, slot) = self.contact_of(constraint);
         if slot >= FORCES {
             let value = self.slot_condition(state, &state.z, contact, slot);
             return value.unwrap_or(HOLDS);
         }
-        // Pairs beyond the end of the row have unknowns but never touch.
+        // A pair with its right scale beyond the end of the row has unknowns but no contact.
         if !self.is_whole(Self::pair_of(contact)) {
             return HOLDS;
         }
@@ -309,7 +319,9 @@ impl Contacts {
         conditions[slot].map_or(HOLDS, |condition| condition.value)
     }
 
-    /// Evaluates the directional derivative of a condition; zero if it does not exist.
+    /// Evaluates the derivative of the condition of a constraint along `direction`.
+    ///
+    /// Zero if the constraint has no condition.
     pub(crate) fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
         let (contact, slot) = self.contact_of(constraint);
         if !self.is_whole(Self::pair_of(contact)) {
@@ -326,17 +338,17 @@ impl Contacts {
         condition.map_or(0.0, |condition| self.along(contact, &condition, direction))
     }
 
-    /// Evaluates the directional derivative of a contact equation.
+    /// Evaluates the derivative of the equation `condition` of a contact along `direction`.
     fn along(&self, contact: usize, condition: &Equation, direction: &[f64]) -> f64 {
         let by_parts = self.pair_unknowns(contact).sum(&condition.by_coordinate, direction);
         let unknowns = self.unknowns_of(contact).into_iter().zip(condition.by_force);
         by_parts + unknowns.map(|(unknown, slope)| slope * direction[unknown]).sum::<f64>()
     }
 
-    /// Moves a contact to its next state after one of its forces changed sides.
+    /// Moves a contact to its next state after one of its constraints changed sides.
     ///
-    /// Returns the constraint that must hold on the outgoing branch, or `None` if the
-    /// contact has no such transition.
+    /// Returns the constraint with the condition that the outgoing branch must satisfy, or `None`
+    /// if the contact has no such transition.
     pub(crate) fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {
         let (contact, slot) = self.contact_of(change.constraint);
         let first = self.slots * contact;
@@ -350,21 +362,21 @@ impl Contacts {
             &self.corners(contact, &poses),
             self.forces_of(&state.z, contact),
         )?;
-        // Only friction needs the previous state; without friction the copy is skipped.
+        // Only the update of friction needs a copy of the previous state.
         let before = self.has_friction().then(|| state.clone());
         state.mode.contacts[contact] = next.contact;
         for (unknown, force) in self.unknowns_of(contact).into_iter().zip(next.forces) {
             state.z[unknown] = force;
         }
         state.active[first..first + FORCES].copy_from_slice(&next.contact.acting());
-        // Update the normal forces first, because the friction of the new state depends on them.
+        // Update friction after the normal forces, because it depends on them.
         if let Some(before) = before {
             self.update_friction(state, &before, contact, force == Force::Partner);
         }
         Some(first + next.valid as usize)
     }
 
-    /// Calls `show` for each contact and its corners, from the left.
+    /// Calls `show` with the index and the corners of each contact, from left to right.
     fn for_each(&self, state: &SkinState, mut show: impl FnMut(usize, &Corners)) {
         for (pair, poses) in self.pairs(&state.z) {
             for contact in Self::contacts_of(pair) {
@@ -373,17 +385,17 @@ impl Contacts {
         }
     }
 
-    /// Returns the contacts of a pair.
+    /// Returns the range of the two contacts of a pair.
     fn contacts_of(pair: usize) -> std::ops::Range<usize> {
         LEVELS.len() * pair..LEVELS.len() * (pair + 1)
     }
 
-    /// Counts the contacts with a left scale among the first `left` scales.
+    /// Counts the contacts of all pairs with one of the first `left` scales as left scale.
     pub(crate) fn contacts_before(&self, left: usize) -> usize {
         LEVELS.len() * self.reach * left
     }
 
-    /// Returns the pair of a contact.
+    /// Returns the index of the pair to which a contact belongs.
     fn pair_of(contact: usize) -> usize {
         contact / LEVELS.len()
     }
@@ -391,7 +403,8 @@ impl Contacts {
     /// Returns the left and the right scale of a pair.
     fn ends(&self, pair: usize) -> [usize; 2] {
         if self.reach == 1 {
-            // Fast path: called in inner loops, and nearly every row has reach 1.
+            // Fast path without division: inner loops call this function, and nearly every row has
+            // reach 1.
             return [pair, pair + 1];
         }
         let left = pair / self.reach;
@@ -402,37 +415,38 @@ impl Contacts {
         &self.pair_and_frame(pair).0
     }
 
-    /// Returns the shape of a pair, and the frame of its right scale in the frame of the left one.
+    /// Returns an undeformed pair and the tangent frame of its right scale.
+    ///
+    /// The frame is relative to the frame of the left scale.
     fn pair_and_frame(&self, pair: usize) -> &(Pair, Frame) {
         match self.pair_shapes.as_slice() {
-            // An uneven row of two scales has as many shapes as an even row. Both index rules give
-            // the same shape there.
+            // One shape belongs to an even row of reach 1 or to an uneven row of two scales.
             [pair] => pair,
             shapes if shapes.len() == self.reach => &shapes[pair % self.reach],
             shapes => &shapes[pair],
         }
     }
 
-    /// Returns the two corners of a contact.
+    /// Returns the corners of the left and the right scale that can touch at a contact.
     fn corners<'a>(&'a self, contact: usize, poses: &'a [Pose; 2]) -> Corners<'a> {
         let level = LEVELS[contact % LEVELS.len()];
         Corners::new(level, self.pair(Self::pair_of(contact)), poses.each_ref())
     }
 
-    /// Returns the unknowns of the forces of a contact.
+    /// Returns the indices of the unknowns of the three forces of a contact.
     fn unknowns_of(&self, contact: usize) -> [usize; FORCES] {
         std::array::from_fn(|k| self.forces[self.slots * contact + k])
     }
 
-    /// Returns the values of the forces of a contact.
+    /// Returns the values of the three forces of a contact.
     fn forces_of(&self, z: &[f64], contact: usize) -> [f64; FORCES] {
         self.unknowns_of(contact).map(|unknown| z[unknown])
     }
 
-    /// Returns the poses of the two scales of a contact.
+    /// Returns the poses of the left and the right scale of a contact.
     ///
-    /// Both are in the frame of the left scale if poses are relative or the body is curved, else in
-    /// the frame of the row.
+    /// Both poses are in the frame of the left scale if poses are relative or the body is curved,
+    /// otherwise in the frame of the row.
     fn pair_poses(&self, z: &[f64], contact: usize) -> [Pose; 2] {
         self.poses_of(z, Self::pair_of(contact), &mut None)
     }
@@ -441,18 +455,18 @@ impl Contacts {
         if self.relative { Pose::new(0.0, 0.0, 0.0) } else { self.pose(z, scale) }
     }
 
-    /// Iterates over all pairs in order, with the poses of their scales.
+    /// Iterates over all pairs from left to right, with the poses of their two scales.
     fn pairs<'a>(&'a self, z: &'a [f64]) -> impl Iterator<Item = (usize, [Pose; 2])> + 'a {
         let mut turned = None;
         self.whole_pairs().map(move |pair| (pair, self.poses_of(z, pair, &mut turned)))
     }
 
-    /// Iterates over the pairs with both scales inside the row.
+    /// Iterates over the indices of the pairs with both scales inside the row.
     fn whole_pairs(&self) -> impl Iterator<Item = usize> {
         (0..self.count_pairs()).filter(|&pair| self.is_whole(pair))
     }
 
-    /// Counts the pairs, including those with a right scale beyond the row.
+    /// Counts the pairs, including pairs with their right scale beyond the end of the row.
     fn count_pairs(&self) -> usize {
         self.reach * (self.scales.len() - 1)
     }
@@ -461,14 +475,14 @@ impl Contacts {
         self.reach == 1 || self.ends(pair)[1] < self.scales.len()
     }
 
-    /// Returns the poses of a pair.
+    /// Returns the poses of the left and the right scale of a pair.
     ///
-    /// Caches the right pose in `turned`, so that a scale shared by consecutive pairs is rotated
-    /// once.
+    /// `turned` caches the scale number and the pose of the right scale. The next pair has this
+    /// scale on its left and need not compute the sine and cosine of its rotation again.
     fn poses_of(&self, z: &[f64], pair: usize, turned: &mut Option<(usize, Pose)>) -> [Pose; 2] {
         let [left, right] = self.ends(pair);
         let of_left = match turned {
-            // With relative poses the right scale is in another frame, so the cache does not apply.
+            // With relative poses the cached pose is in another frame and cannot be used.
             Some((scale, pose)) if *scale == left && !self.relative => *pose,
             _ => self.left_pose(z, left),
         };

@@ -1,9 +1,9 @@
-//! The parameters of one design.
+//! Geometry of one design: gap, aspect ratio, slant, base and width.
 
 use geometry::{OutOfRange, Parallelogram, Row};
 use substrate::Footprint;
 
-/// Meaning of `L` in `L/t`: the base of a scale, or half of it.
+/// Meaning of `L` in `L/t`: the length of the base of a scale, or half this length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
     /// The base is `L` long (`a = L/2`).
@@ -12,7 +12,7 @@ pub enum Base {
     TwoL,
 }
 
-/// The geometry of one design, lengths over the scale thickness `t`.
+/// The geometry of one design; lengths are divided by the scale thickness `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Design {
     /// Gap `d/t` between neighbouring bases.
@@ -28,7 +28,7 @@ pub struct Design {
 }
 
 impl Design {
-    /// Half-width `a/t` of a base.
+    /// Returns the half-width `a/t` of a base.
     pub fn half_base(&self) -> f64 {
         match self.base {
             Base::L => self.length / 2.0,
@@ -36,7 +36,9 @@ impl Design {
         }
     }
 
-    /// Interpolates linearly to another design with the same meaning of `L`.
+    /// Returns the design at `fraction` (0 to 1) between this design and the design `to`.
+    ///
+    /// Gap, length, slant and width are interpolated linearly; both designs share their `base`.
     pub(crate) fn towards(&self, to: &Self, fraction: f64) -> Self {
         Self {
             gap: self.gap + fraction * (to.gap - self.gap),
@@ -47,7 +49,7 @@ impl Design {
         }
     }
 
-    /// Returns the undeformed row.
+    /// Returns the undeformed row; its scales stand upright or lean to the right.
     ///
     /// # Errors
     /// If a length is not positive or the slant is outside `[0°, 90°)`.
@@ -55,9 +57,9 @@ impl Design {
         Row::new(Parallelogram::new(self.half_base(), self.slant_deg)?, self.gap)
     }
 
-    /// Returns the undeformed row, also for a negative slant.
+    /// Returns the undeformed row; its scales may also lean to the left.
     ///
-    /// Perturbing an upright design gives negative slants.
+    /// The slant is negative if a derivative perturbs an upright design.
     ///
     /// # Errors
     /// If a length is not positive or the slant is outside `(−90°, 90°)`.
@@ -70,7 +72,7 @@ impl Design {
     /// # Errors
     /// If a length is not positive or Poisson's ratio is outside `[0, 0.5]`.
     pub fn footprint(&self, poisson_ratio: f64) -> Result<Footprint, OutOfRange> {
-        // Footprint lengths are over the half-width of a base, design lengths over `t`.
+        // Convert lengths from units of `t` to units of the half-width `a` of a base.
         let a = self.half_base();
         Footprint::new(self.gap / a, self.width / a, poisson_ratio)
     }

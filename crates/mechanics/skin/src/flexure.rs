@@ -1,4 +1,4 @@
-//! Pure bending of a membrane that carries scales.
+//! Pure bending of a strip: a membrane that carries scales.
 
 mod accuracy;
 mod first_contact;
@@ -33,47 +33,47 @@ pub use point::FlexurePoint;
 pub use sensitivity::{FlexureInput, differentiate, moment_curve, unloading_curve};
 pub use snapshot::{StripSnapshot, snapshots};
 
-/// Gaps of a strip that are solved for.
+/// Selects the gaps of a strip that are solved together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// One gap: in pure bending equal gaps deform alike.
+    /// A single gap. In pure bending equal gaps have equal deformations.
     ///
-    /// Gaps that differ are solved separately, under the moment that all share.
+    /// Unequal gaps are solved separately, because all gaps carry the same moment.
     UnitCell,
-    /// All gaps of the strip, assembled.
+    /// All gaps of the strip in one system of equations.
     Chain,
 }
 
 /// Parameters of bending other than the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlexureParameters {
-    /// `E_ct / E_m`.
+    /// Modulus of the contact law divided by the modulus of the membrane, `E_ct/E_m`.
     pub contact_modulus_over_membrane: f64,
-    /// Unit cell or chain.
+    /// Gaps that are solved together: unit cell or chain.
     pub method: Method,
-    /// Length `L_whole/t` of the strip, unless the number of gaps is given.
+    /// Length `L_whole/t` of the strip; not used if the number of gaps is given.
     pub membrane_length: f64,
-    /// Number of gaps of the strip; `None` for as many as its length holds.
+    /// Number of gaps of the strip; `None` to derive it from the length.
     pub gaps: Option<usize>,
     /// Thickness `h/t` of the membrane.
     pub membrane_thickness: f64,
-    /// Depth of the membrane axis below the bases of the scales, over `t`.
+    /// Depth of the membrane axis below the bases of the scales, in units of `t`.
     pub membrane_axis_offset: f64,
-    /// Discretisation of the membrane in a gap.
+    /// Discretisation of the membrane in each gap.
     pub elements_per_gap: MembraneMesh,
-    /// Rotation of each end at which bending ends, degrees.
+    /// Rotation of each end at which bending stops, degrees.
     ///
-    /// Negative if the strip bends in the opposite direction, with the scales on the outside.
+    /// Positive with the scales on the inside of the bend, negative with the scales on the outside.
     pub max_end_rotation_deg: f64,
-    /// True to remove the moment again at the end.
+    /// True to follow also the unloading path, from the end of the loading path to zero moment.
     pub unload: bool,
 }
 
 impl Default for FlexureParameters {
-    /// The values of Shafiei et al. (2021).
+    /// Returns the parameters of Shafiei et al. (2021).
     ///
-    /// The scales have `E_ct = 3 GPa` and are 8 mm thick. The membrane has `E_m = 4.5 MPa` and is 1
-    /// mm thick.
+    /// Their scales have `E_ct = 3 GPa` and are 8 mm thick. Their membrane has `E_m = 4.5 MPa` and
+    /// is 1 mm thick.
     fn default() -> Self {
         Self {
             contact_modulus_over_membrane: 667.0,
@@ -89,24 +89,24 @@ impl Default for FlexureParameters {
     }
 }
 
-/// A strip after bending.
+/// Result of bending a strip.
 #[derive(Clone, Debug)]
 pub struct Flexure {
-    /// How the path ended, and whether its end is valid.
+    /// Outcome of the path, including the audit of its end.
     pub status: Status,
-    /// The measures of the bending.
+    /// The measures of bending.
     pub measures: FlexureMeasures,
-    /// Every equilibrium of the path, from rest.
+    /// Every equilibrium of the path, from rest to its end.
     pub path: Vec<FlexurePoint>,
-    /// Every contact event, in order.
+    /// Every contact event, in the order of the path.
     pub events: Vec<ContactEvent<FlexurePoint>>,
-    /// Every Newton iteration.
+    /// Every Newton iteration, in the order of the path.
     pub history: Vec<Iteration>,
     /// The unloading path, if requested and if the loading path was completed.
     pub unloading: Option<Unloading<FlexurePoint>>,
-    /// Number of gaps of the strip, rounded.
+    /// Number of gaps of the strip, rounded to an integer.
     pub gaps: usize,
-    /// Relative poses of the solved gaps at every point of the path.
+    /// Relative poses of neighbouring scales in the solved gaps, at every point of the path.
     steps: Vec<Vec<Step>>,
     row: Arrangement,
 }
@@ -117,43 +117,43 @@ impl Flexure {
         self.path.iter().any(|point| point.friction_work.is_some())
     }
 
-    /// Returns the range of `κ*` over which the gaps close.
+    /// Returns the width of the range of curvatures `κ*` in which the gaps close.
     ///
-    /// It extends from the first contact in any gap to the first contact in the gap that closes
-    /// last. 0 in a perfect strip, `None` without contact.
+    /// The range extends from the first contact in any gap to the first contact in the gap that
+    /// closes last. Its width is 0 for a perfect strip; `None` without contact.
     pub fn closing_range(&self) -> Option<f64> {
         let mut closed = HashSet::new();
         let closings = self.events.iter().filter(|event| event.change == ContactChange::Closed);
-        // A gap may close at both levels, and again after opening: keep its first closing.
+        // A gap may close at two levels, and again after opening: keep only its first closing.
         let first = closings.filter(|event| closed.insert(event.left_scale));
         let mut curvatures = first.map(|event| event.point.curvature);
         let start = curvatures.next()?;
         Some(curvatures.last().unwrap_or(start) - start)
     }
 
-    /// Returns the displacement (over `t`) and rotation of every scale.
+    /// Returns displacements `x`, `y` and rotation of every scale at point number `point`.
     ///
-    /// Rotations are counter-clockwise, in radians. The first scale is at rest. `None` if the path
-    /// has no such point.
+    /// Displacements are in units of `t`, rotations are counter-clockwise in radians. The first
+    /// scale is fixed. `None` if the path has fewer points.
     pub fn shape(&self, point: usize) -> Option<Vec<[f64; 3]>> {
         let frames = frames(self.steps.get(point)?, self.gaps, &self.row);
         Some(displacements(&frames, &self.row))
     }
 }
 
-/// Returns the number of gaps of a strip, at least 1.
+/// Returns the number of gaps `n` of a strip, at least 1.
 ///
-/// It is `n = L_whole/p` unless a number is given. In pure bending every gap turns by the same
-/// angle, so the unit cell does not need an integer: the angle between its scales is `2 Φ/n`.
-/// Chains and imperfect strips have [`whole_gaps`].
+/// It is `n = L_whole/p` unless the parameters give a number. The unit cell does not need an
+/// integer `n`: in pure bending the angle between neighbouring scales is `Φ/n`, with the relative
+/// rotation `Φ` of both ends. Chains and imperfect strips have [`whole_gaps`].
 pub fn gaps(row: &Row, parameters: &FlexureParameters) -> f64 {
     let by_length = parameters.membrane_length / row.pitch();
     parameters.gaps.map_or(by_length, |gaps| gaps as f64).max(1.0)
 }
 
-/// Returns the number of gaps of a chain: [`gaps`], rounded.
+/// Returns the number of gaps of a chain: the number of [`gaps`], rounded.
 pub fn whole_gaps(row: &Row, parameters: &FlexureParameters) -> usize {
-    // The cast saturates, which does not matter for strips that fit in memory.
+    // The cast saturates only for strips that would not fit in memory.
     gaps(row, parameters).round() as usize
 }
 
@@ -171,13 +171,13 @@ pub fn solve(
 
 /// Bends an imperfect strip with the gaps and slants of `sample`.
 ///
-/// It has as many gaps as the chain of the design, and curvature is measured over its actual
-/// length. With [`Method::UnitCell`] each gap is solved separately; where that fails, because
-/// moments decrease along the path or unloading is requested, the assembled chain is solved
-/// instead.
+/// The strip has as many gaps as the chain of the design. Its curvature is the relative rotation of
+/// its ends divided by its actual length. With [`Method::UnitCell`] each gap is solved separately.
+/// If this fails, for example because a moment decreases along the path, or if unloading is
+/// requested, the assembled chain is solved instead.
 ///
 /// # Errors
-/// As [`solve`], or if no sample without overlapping scales is found.
+/// As [`solve`], or if a scale of the sample overlaps its neighbour in every draw.
 pub fn bend_sample(
     design: &Design,
     common: &Common,

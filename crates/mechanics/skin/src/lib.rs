@@ -20,19 +20,19 @@
 //! | [`puncture::PerturbedScale`] | one scale of a row with a changed gap or slant |
 //! | [`puncture::Snap`], [`puncture::Instability`] | snap-through and loss of stability along the path |
 //! | [`puncture::TiltMeasures`] | measures at one of several critical tilts |
-//! | [`puncture::LoadPosition`], [`puncture::Weakest`] | other load positions, and the weakest one |
-//! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | path, events, scales and measures |
+//! | [`puncture::LoadPosition`], [`puncture::Weakest`] | puncture at one of several load positions; the weakest position |
+//! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | path, events, scales and measures of a puncture |
 //! | [`puncture::Fold`], [`puncture::GapStretch`] | folds of the substrate surface; stretch of the gaps |
-//! | [`puncture::PunctureEnd`] | the end of a path, from which similar designs are solved |
+//! | [`puncture::PunctureEnd`] | the end of a path, from which the ends of similar designs are solved |
 //! | [`puncture::snapshots`] | the row at chosen points of the path |
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
 //! | [`flexure::FlexureParameters`] | moduli, strip, resolution of the membrane, largest rotation |
 //! | [`flexure::Flexure`], [`flexure::FlexureMeasures`] | path, events and measures of a bent strip |
 //! | [`flexure::contact_curvature`] | curvature of first contact, in closed form |
 //! | [`puncture::differentiate`], [`flexure::differentiate`] | derivatives of all measures |
-//! | [`puncture::PunctureInput`], [`flexure::FlexureInput`] | complete input of a path |
-//! | [`Neighbours`], [`Derivative`] | inputs with one parameter perturbed; the resulting derivative |
-//! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row drawn from them |
+//! | [`puncture::PunctureInput`], [`flexure::FlexureInput`] | complete input of a solution, for derivatives |
+//! | [`Neighbours`], [`Derivative`] | inputs with one parameter decreased and increased; the resulting derivative |
+//! | [`Imperfection`], [`Sample`] | random scatter of gaps and slants; one row drawn with this scatter |
 //! | [`puncture::solve_sample`], [`flexure::bend_sample`] | puncture and bending of an imperfect row |
 //! | [`Status`], [`Iteration`] | outcome of a path; one Newton iteration |
 //! | [`ContactEvent`], [`ContactChange`], [`Contact`] | a change of a contact along the path; a closed contact in a state |

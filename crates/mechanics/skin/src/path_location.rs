@@ -1,16 +1,16 @@
-//! Locates equilibria at given values of a quantity, between the points of a path.
+//! Locates the equilibria of a path at which a quantity has a given value.
 
 use solver::{Bracket, Continuation, Equilibrium, State, System};
 
-/// Tolerance within which a quantity has reached its value.
+/// Largest accepted difference between a quantity and its required value.
 ///
-/// It is relative to one plus the magnitude.
+/// It is relative to one plus the magnitude of the required value.
 const CLOSE: f64 = 1e-12;
 
-/// Evaluations after which a bracket is as narrow as an `f64` allows.
+/// Maximum number of evaluations of the root search; a bracket then has the resolution of `f64`.
 const EVALUATIONS: usize = 100;
 
-/// Point of a path at which a quantity first takes a value.
+/// Location on a path: the point at which a quantity first has a given value.
 pub(crate) struct PathLocation<S: System> {
     /// The quantity as a function of system and state.
     pub(crate) quantity: fn(&S, &State<S::Mode>) -> f64,
@@ -27,9 +27,9 @@ impl<S: System> PathLocation<S> {
         self.off(system, state).abs() <= CLOSE * (1.0 + self.value.abs())
     }
 
-    /// Solves for the equilibrium at which a quantity has its value.
+    /// Solves for the equilibrium between two neighbouring points where the quantity is `value`.
     ///
-    /// It lies between two neighbouring points.
+    /// Returns `None` if the quantity does not pass the value there, or if the solver fails.
     pub(crate) fn between(
         &self,
         path: &mut Continuation<S>,
@@ -38,12 +38,12 @@ impl<S: System> PathLocation<S> {
     ) -> Option<Equilibrium<S::Mode>> {
         let low = (0.0, self.off(path.system(), &from.state));
         let high = (1.0, self.off(path.system(), &to.state));
-        // Check the end before the signs, because at the end round-off may give the difference
-        // either sign.
+        // Check the end point before comparing signs: if the quantity has its value there,
+        // round-off may give the difference either sign.
         if self.is_at(path.system(), &to.state) {
             return Some(to.clone());
         }
-        // A value passed twice within one segment is not detected.
+        // A value that is passed twice between the two points is not detected.
         if low.1.signum() == high.1.signum() {
             return None;
         }
@@ -51,7 +51,7 @@ impl<S: System> PathLocation<S> {
         for _ in 0..EVALUATIONS {
             let fraction = bracket.secant();
             let point = path.between(from, to, fraction)?;
-            // A bracket that cannot shrink further locates the value to within round-off.
+            // A bracket that cannot shrink further has located the point up to round-off.
             if self.is_at(path.system(), &point.state) || bracket.width() < f64::EPSILON {
                 return Some(point);
             }
@@ -61,22 +61,22 @@ impl<S: System> PathLocation<S> {
     }
 }
 
-/// Locates the first equilibria at several locations while a path is followed.
+/// Finds the first point of a path at each of several locations while the path is followed.
 pub(crate) struct PointLocator<S: System> {
     locations: Vec<PathLocation<S>>,
-    /// One point per location; `None` while the path has not reached it.
+    /// One point for each location; `None` while the path has not reached the location.
     pub(crate) points: Vec<Option<Equilibrium<S::Mode>>>,
 }
 
 impl<S: System> PointLocator<S> {
-    /// Starts at the first point of a path.
+    /// Creates a locator at the current point of a path.
     pub(crate) fn new(
         path: &Continuation<S>,
         locations: impl IntoIterator<Item = PathLocation<S>>,
     ) -> Self {
         let locations: Vec<_> = locations.into_iter().collect();
         let start = path.point();
-        // A location at the very start, such as zero load, has no segment before it.
+        // A location at the start of the path, such as zero load, has no segment before it.
         let points = locations
             .iter()
             .map(|location| location.is_at(path.system(), &start.state).then(|| start.clone()))
@@ -84,7 +84,7 @@ impl<S: System> PointLocator<S> {
         Self { locations, points }
     }
 
-    /// Searches for the remaining locations between two points of the path.
+    /// Searches the segment between two points of the path for the locations not yet found.
     pub(crate) fn follow(
         &mut self,
         path: &mut Continuation<S>,
@@ -92,7 +92,7 @@ impl<S: System> PointLocator<S> {
         to: &Equilibrium<S::Mode>,
     ) {
         for (location, found) in self.locations.iter().zip(&mut self.points) {
-            // A reversing path passes a value again: keep the first point.
+            // A path that turns back passes a value again: keep the first point.
             if found.is_none() {
                 *found = location.between(path, from, to);
             }

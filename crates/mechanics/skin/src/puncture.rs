@@ -1,4 +1,4 @@
-//! Puncture of a row of scales on an elastic half-space.
+//! Puncture of a row of scales on an elastic substrate.
 
 mod adaptive_row;
 mod beam;
@@ -55,49 +55,49 @@ pub use stability::Instability;
 pub use surface_fold::{Fold, GapStretch};
 pub use tilt_measures::TiltMeasures;
 
-/// Quantity of the error for a round tip that reaches over too many scales.
+/// Quantity named by the error that a round tip reaches over too many scales.
 pub const TIP_REACH: &str = "radius of the needle over the pitch of the row";
 
-/// Quantity of the error for a row with displacements that do not decay.
+/// Quantity named by the error that displacements do not decay along a row.
 pub const DIRECT_STIFFNESS: &str = "direct stiffness of the substrate";
 
-/// Longest row of [`RowLength::Auto`].
+/// Largest number of scales of a row with [`RowLength::Auto`].
 pub const LONGEST_ROW: usize = 4001;
 
 /// Result of a puncture.
 #[derive(Clone, Debug)]
 pub struct Puncture {
-    /// How the path ended, and whether its end is valid.
+    /// Outcome of the path, including the audit of its end.
     pub status: Status,
     /// The measures of the puncture.
     pub measures: PunctureMeasures,
-    /// Measures at each of [`PunctureParameters::tilts_deg()`].
+    /// Measures at each of the [`PunctureParameters::tilts_deg()`].
     ///
     /// `None` if the path did not reach the tilt.
     pub at_tilts: Vec<Option<TiltMeasures>>,
-    /// Every equilibrium of the path, from rest.
+    /// Every equilibrium of the path, from rest to its end.
     pub path: Vec<PuncturePoint>,
     /// Instability at every point of the path.
     ///
-    /// It is evaluated with the contacts of the outgoing branch.
+    /// At a contact event it is evaluated with the contacts after the event.
     pub instability: Vec<Instability>,
     /// Forces of a round tip at every point of the path; empty for other needles.
     pub tip_forces: Vec<TipForces>,
-    /// Every contact event, in order.
+    /// Every contact event, in the order of the path.
     pub events: Vec<ContactEvent<PuncturePoint>>,
-    /// Every snap of a row under a monotonically descending needle, in order.
+    /// Every snap-through under prescribed, increasing depth, in the order of the path.
     pub snaps: Vec<Snap>,
-    /// Every folding or unfolding of the surface in a gap, in order.
+    /// Every folding or unfolding of the surface in a gap, in the order of the path.
     pub folds: Vec<Fold>,
-    /// Every scale at the end of the path.
+    /// State of every scale at the end of the path.
     pub scales: Vec<ScaleState>,
-    /// Every Newton iteration.
+    /// Every Newton iteration, in the order of the path.
     pub history: Vec<Iteration>,
     /// The unloading path, if requested and if the loading path was completed.
     pub unloading: Option<Unloading<PuncturePoint>>,
-    /// The puncture at each of the [`PunctureParameters::places`] load positions.
+    /// Results at each of the [`PunctureParameters::places`] load positions.
     pub places: Vec<LoadPosition>,
-    /// The end of the path, if punctures of similar designs can start from it.
+    /// The end of the path, if the ends of similar designs can be solved from it.
     pub end: Option<PunctureEnd>,
 }
 
@@ -108,10 +108,10 @@ impl Puncture {
     }
 }
 
-/// Solves the puncture of the middle scale from rest to the critical tilt.
+/// Solves the puncture of the middle scale of a row from rest to the critical tilt.
 ///
-/// The `substrate` is given by its [`Springs`](substrate::Springs) or by the stiffness of a whole
-/// row.
+/// The `substrate` is given by its [`Springs`](substrate::Springs), or by the stiffness of a row
+/// with full coupling.
 ///
 /// # Errors
 /// If a length, a modulus or a constant of the contact law is not positive, or another parameter
@@ -127,10 +127,10 @@ pub fn solve(
 
 /// Solves the puncture of an imperfect row with the gaps and slants of `sample`.
 ///
-/// The substrate is computed for the design without scatter.
+/// The substrate has the stiffness of the design without scatter.
 ///
 /// # Errors
-/// As [`solve`], or if no sample without overlapping scales is found.
+/// As [`solve`], or if a scale of the sample overlaps its neighbour in every draw.
 pub fn solve_sample(
     design: &Design,
     substrate: impl Into<RowStiffness>,
@@ -155,9 +155,10 @@ pub fn overlaps_at_rest(design: &Design, body: Body) -> Result<bool, OutOfRange>
     Ok(!overlaps(|i| (*row.scale(), frames[i].origin), &poses).is_empty())
 }
 
-/// Computes the curvature of a concave body on which neighbours touch at rest.
+/// Computes the curvature `t/R` of the concave body on which neighbours just touch at rest.
 ///
-/// By bisection to `1e-9`; `None` if they do not touch down to a radius of `t`.
+/// It is negative, and found by bisection to `1e-9`. `None` if neighbours do not overlap on a body
+/// of radius `t`.
 ///
 /// # Errors
 /// If a length of the design is not positive, or its slant is out of range.

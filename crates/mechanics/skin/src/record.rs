@@ -1,4 +1,4 @@
-//! Record of the path of a row or a strip.
+//! Record of the path of a row or a strip: points, events, iterations, dissipation and maxima.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -8,58 +8,61 @@ use solver::{Change, Continuation, Peak, Summit, System};
 
 use crate::contacts::{ContactChange, Contacts, Dissipation, SkinMode, SkinPoint, SkinState};
 
-/// Contact state change: it opens, closes, passes a corner, sticks or slips.
+/// Change of a contact: it opens, closes, passes a corner, begins to stick or begins to slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactEvent<P> {
     /// Path point of the event.
     pub point: P,
-    /// Left scale of the pair; `None` if all pairs behave alike.
+    /// Number of the left scale of the pair; `None` if all pairs behave alike.
     ///
-    /// Numbered to the right from the punctured scale or from the first scale of a strip.
+    /// Numbers increase to the right. Number 0 is the punctured scale or the first scale of a
+    /// strip.
     pub left_scale: Option<i64>,
-    /// Right scale of the pair: nearly always the neighbour.
+    /// Number of the right scale of the pair, nearly always the neighbour of the left scale.
     pub right_scale: Option<i64>,
-    /// Corner and edge that touch.
+    /// Corner and edge in contact.
     pub corner_edge: CornerEdge,
-    /// Change of the contact.
+    /// New state of the contact.
     pub change: ContactChange,
 }
 
 /// One Newton iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
-    /// Index of the path point to which the iteration led, from 1.
+    /// Index of the path point for which the iteration was done; the first solved point has 1.
     pub step: usize,
-    /// Iteration within the step, from 0.
+    /// Number of the iteration within the step, from 0.
     pub iteration: usize,
-    /// Largest scaled residual.
+    /// Largest residual divided by the size of its equation (N2).
     pub residual: f64,
-    /// Control parameter at the point, degrees.
+    /// Control parameter at the path point, degrees.
     ///
-    /// Tilt of the punctured scale, or rotation of each end of a strip.
+    /// This is the tilt of the punctured scale, or the rotation of each end of a strip.
     pub angle_deg: f64,
 }
 
-/// A row or a strip of scales with a recorded path.
+/// A punctured row or a bent strip of scales, the path of which is recorded.
 pub(crate) trait Skin: System<Mode = SkinMode> {
-    /// Numbers recorded per equilibrium.
+    /// Values recorded for each equilibrium.
     type PathPoint: Copy;
 
     /// Returns the contacts of the scales.
     fn contacts(&self) -> &Contacts;
 
-    /// Computes the numbers to record for an equilibrium.
+    /// Computes the values to record for an equilibrium.
     fn path_point(&self, point: &SkinPoint) -> Self::PathPoint;
 
-    /// Stores the accumulated dissipation between neighbours in a recorded point.
+    /// Stores in a recorded point the frictional dissipation between scales since rest.
     fn note_friction(&self, point: &mut Self::PathPoint, work: f64);
 
-    /// Returns true if friction acts anywhere.
+    /// Returns true if friction acts between scales or at the needle.
     fn has_friction(&self) -> bool {
         self.contacts().has_friction()
     }
 
-    /// Computes the needle-tip dissipation, like [`Contacts::friction_work`].
+    /// Computes the frictional dissipation at the needle tip between two points.
+    ///
+    /// Its arguments have the same meaning as in [`Contacts::friction_work`].
     fn tip_work(&self, _from: &SkinPoint, _to: &SkinPoint, _spans: [f64; 2]) -> Dissipation {
         Dissipation::default()
     }
@@ -67,7 +70,10 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     /// Computes the elastic energy of the whole system.
     fn stored(&self, state: &SkinState) -> f64;
 
-    /// Returns the number of copies of the solved part in the whole system.
+    /// Returns how often the solved part is repeated in the whole row or strip.
+    ///
+    /// In a strip of equal gaps one gap is solved, and this is the number of gaps; otherwise it is
+    /// 1.
     fn repeats(&self) -> f64 {
         1.0
     }
@@ -75,43 +81,43 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     /// Returns the control parameter, degrees.
     fn angle_deg(&self, state: &SkinState) -> f64;
 
-    /// Computes the derivative of the load by its displacement, along a path direction.
+    /// Computes the derivative of the load with respect to its displacement, along `direction`.
     fn stiffness(&self, state: &SkinState, direction: &[f64]) -> f64;
 
     /// Returns the number of a scale in reports; `None` if all pairs behave alike.
     fn number(&self, scale: usize) -> Option<i64>;
 
-    /// Returns true if scales that may touch overlap beyond their contact approach.
+    /// Returns true if two scales overlap by more than the approach of their contacts.
     fn interpenetrates(&self, state: &SkinState) -> bool;
 
-    /// Returns true if a contact is about to pass an end of its edge.
+    /// Returns true if a contact lies beyond an end of its edge or is about to pass this end.
     ///
-    /// The model has no contact beyond that end.
+    /// The contact model does not cover positions beyond the end.
     fn passes_an_end(&self, at: &SkinPoint) -> bool {
         self.contacts().off_edge(&at.state) || self.contacts().passes_an_end(at)
     }
 }
 
-/// Frictional dissipation along a path, per solved part.
+/// Frictional dissipation of the solved part, from rest to the current point of a path.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Work {
-    /// Between scales.
+    /// Dissipation between scales.
     between_scales: f64,
-    /// At the tip of a needle.
+    /// Dissipation at the tip of a needle.
     at_tip: f64,
 }
 
-/// Largest difference between cubics and the trapezoidal rule within one segment.
+/// Largest accepted difference between two integration rules for the dissipation of a segment.
 ///
-/// It is relative to the dissipation so far. For 4400 random designs the error of `loop_work` is
-/// then below 0.2 %.
+/// The rules are cubics and the trapezoidal rule. The difference is relative to the dissipation
+/// since rest. With this limit the error of `loop_work` is below 0.2 % for 4400 random designs.
 const BEND: f64 = 0.005;
 
-/// Maximum number of bisections of a segment.
+/// Maximum number of successive bisections of a segment.
 const BISECTIONS: usize = 8;
 
 impl Work {
-    /// Adds the dissipation between two neighbouring points.
+    /// Adds the dissipation between two neighbouring points of a path.
     pub(crate) fn add<S: Skin>(
         &mut self,
         path: &mut Continuation<S>,
@@ -123,7 +129,9 @@ impl Work {
         }
     }
 
-    /// Adds the dissipation along a segment, and bisects it where the dissipation is not smooth.
+    /// Adds the dissipation of the segment between two points.
+    ///
+    /// Bisects the segment if the two integration rules differ by more than [`BEND`].
     fn add_segment<S: Skin>(
         &mut self,
         path: &mut Continuation<S>,
@@ -151,20 +159,20 @@ impl Work {
         self.at_tip += at_tip.value;
     }
 
-    /// Stores the dissipation between scales in a recorded point.
+    /// Stores the dissipation between scales of the whole row or strip in a recorded point.
     pub(crate) fn note<S: Skin>(&self, skin: &S, point: &mut S::PathPoint) {
         if skin.contacts().has_friction() {
             skin.note_friction(point, skin.repeats() * self.between_scales);
         }
     }
 
-    /// Returns the dissipation between scales and at the needle tip.
+    /// Returns the sum of the dissipation between scales and at the needle tip.
     pub(crate) fn total(&self) -> f64 {
         self.between_scales + self.at_tip
     }
 }
 
-/// A function of skin, equilibrium and path direction.
+/// A function of skin, state and path direction.
 pub(crate) type PathFunction<S> = fn(&S, &SkinState, &[f64]) -> f64;
 
 /// Points, events and iterations of a path, and maxima of functions along it.
@@ -172,24 +180,24 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) path: Vec<S::PathPoint>,
     pub(crate) events: Vec<ContactEvent<S::PathPoint>>,
     pub(crate) history: Vec<Iteration>,
-    /// Dissipation so far.
+    /// Dissipation from rest to the last point.
     pub(crate) work: Work,
     /// Stiffness at the start of the path.
     pub(crate) initial_stiffness: f64,
     /// Largest stiffness at the recorded points.
     pub(crate) stiffness: Peak<SkinMode>,
-    /// Largest stiffness at and between the recorded points; empty until it is searched.
+    /// Cached result of the search for the largest stiffness at and between the recorded points.
     stiffness_summit: OnceCell<Option<Summit<SkinMode>>>,
-    /// Further functions with a tracked maximum.
+    /// Further functions, each with its tracked maximum.
     followed: Vec<(PathFunction<S>, Peak<SkinMode>)>,
     /// Equilibrium at which the first contact closes.
     pub(crate) touching: Option<SkinPoint>,
-    /// The equilibrium of the first contact, in the form stored in the path.
+    /// Recorded values of the equilibrium `touching`.
     first_contact: Option<S::PathPoint>,
 }
 
 impl<S: Skin> Record<S> {
-    /// Starts the record of a path, and tracks the maxima of some `functions`.
+    /// Starts the record at the current point of `path`, and tracks the maxima of `functions`.
     pub(crate) fn new(path: &Continuation<S>, functions: &[PathFunction<S>]) -> Self {
         let (skin, start) = (path.system(), path.point());
         let mut record = Self {
@@ -197,7 +205,7 @@ impl<S: Skin> Record<S> {
             events: Vec::new(),
             history: Vec::new(),
             work: Work::default(),
-            // At rest load and displacement vanish, so only the direction gives their ratio.
+            // At rest load and displacement vanish, so the stiffness follows from the direction.
             initial_stiffness: skin.stiffness(&start.state, &start.leaving),
             stiffness: Peak::default(),
             stiffness_summit: OnceCell::new(),
@@ -209,7 +217,7 @@ impl<S: Skin> Record<S> {
         record
     }
 
-    /// Records a new `point`, with `from` as its predecessor.
+    /// Records the current `point` of `path`; `from` is the point before it.
     pub(crate) fn visit(
         &mut self,
         path: &mut Continuation<S>,
@@ -218,7 +226,7 @@ impl<S: Skin> Record<S> {
     ) {
         let residuals = path.take_history();
         let (mut here, step) = (path.system().path_point(point), self.path.len());
-        // Add the segment first: the recorded point includes its dissipation.
+        // Add the dissipation of the segment before storing it in the recorded point.
         self.work.add(path, from, point);
         let skin = path.system();
         self.work.note(skin, &mut here);
@@ -235,9 +243,10 @@ impl<S: Skin> Record<S> {
             let event =
                 |&change: &Change| Self::event(skin, [&from.state, &point.state], here, change);
             let events: Vec<_> = changes.iter().filter_map(event).collect();
-            // With friction, corners that meet may stick or be handed over without a closing event.
+            // Count closed contacts instead of looking for a closing event: with friction, two
+            // corners that meet may stick without one.
             if self.touching.is_none() && Contacts::closed(&point.state) > 0 {
-                // Keep the whole equilibrium, because derivatives are taken at it.
+                // Derivatives at first contact need the whole equilibrium.
                 self.touching = Some(point.clone());
                 self.first_contact = Some(here);
             }
@@ -248,7 +257,7 @@ impl<S: Skin> Record<S> {
     }
 
     fn visit_peaks(&mut self, path: &Continuation<S>, from: Option<&Arc<SkinPoint>>) {
-        // The path has grown, so a cached maximum may be outdated.
+        // The new point may exceed the cached maximum.
         self.stiffness_summit.take();
         self.stiffness.visit(path, from, S::stiffness);
         for (f, peak) in &mut self.followed {
@@ -256,17 +265,21 @@ impl<S: Skin> Record<S> {
         }
     }
 
-    /// Extends the points kept for maxima to a longer row.
+    /// Replaces the points stored for maxima by points of a longer row.
+    ///
+    /// `new` converts a point of the shorter row.
     pub(crate) fn replace_points(&mut self, new: impl Fn(&SkinPoint) -> SkinPoint) {
         for (_, peak) in &mut self.followed {
             peak.replace_points(&new);
         }
-        // A cached maximum has its points on the shorter row.
+        // The cached maximum refers to points of the shorter row.
         self.stiffness_summit.take();
         self.stiffness.replace_points(new);
     }
 
-    /// Describes the event of a changed force between two states.
+    /// Describes the change of one contact force between the states before and after an event.
+    ///
+    /// `None` if the constraint belongs to the needle.
     fn event(
         skin: &S,
         [before, after]: [&SkinState; 2],
@@ -275,10 +288,10 @@ impl<S: Skin> Record<S> {
     ) -> Option<ContactEvent<S::PathPoint>> {
         let contacts = skin.contacts();
         if change.constraint >= contacts.forces.len() {
-            // Needle events are not contact events.
+            // Constraints behind the contact forces belong to the needle.
             return None;
         }
-        // An opened contact has its corner and edge only in the previous state.
+        // If the contact opened, only the state before the event has its corner and edge.
         let corner_edge = [after, before]
             .into_iter()
             .find_map(|state| contacts.corner_edge(&state.mode, change.constraint))?;
@@ -292,25 +305,29 @@ impl<S: Skin> Record<S> {
         })
     }
 
-    /// Returns the point of first contact.
+    /// Returns the recorded point of first contact; `None` without contact.
     pub(crate) fn first_contact(&self) -> Option<&S::PathPoint> {
         self.first_contact.as_ref()
     }
 
-    /// Returns the largest stiffness and its location.
+    /// Returns the largest stiffness on the path and its point.
     pub(crate) fn stiffness_summit(&self, path: &mut Continuation<S>) -> Option<&Summit<S::Mode>> {
-        // The search solves for equilibria, so share its result between measure and derivatives.
+        // The search solves for equilibria. Cache its result, which the measure and its derivatives
+        // share.
         self.stiffness_summit.get_or_init(|| self.stiffness.summit(path, S::stiffness)).as_ref()
     }
 
-    /// Returns the largest value of a tracked function at recorded points, and where.
+    /// Returns the largest value of a tracked function at the recorded points, and its point.
     ///
-    /// Extrema of the load are recorded points, so this suffices for the load.
+    /// `followed` is the index of the function. This suffices for the load, because its extrema
+    /// are recorded points.
     pub(crate) fn highest_point(&self, followed: usize) -> Option<Summit<S::Mode>> {
         self.followed.get(followed)?.1.at_points()
     }
 
-    /// Returns the largest value of a tracked function, and its location.
+    /// Returns the largest value of a tracked function on the whole path, and its point.
+    ///
+    /// Also searches between the recorded points. `followed` is the index of the function.
     pub(crate) fn summit(
         &self,
         path: &mut Continuation<S>,

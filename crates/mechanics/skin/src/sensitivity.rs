@@ -1,10 +1,10 @@
 //! Derivatives of the measures of a path with respect to parameters.
 //!
-//! A measure is a function of the equilibrium at one point of the path: the end, the first contact,
-//! a maximum. That point moves with a parameter by (D2) at a fixed active set, and the measure with
-//! it; only explicit functions are differenced. If a contact changes or another scale becomes the
-//! extreme one within the difference step, the measure has a kink: both sides are then solved
-//! separately, each with its own active set.
+//! A measure is a function of the equilibrium at one point of the path, such as the end, the first
+//! contact or a maximum. If a parameter changes, this point moves by (D2) at a fixed active set.
+//! The derivative of the measure is a difference of explicit functions at the moved points. If
+//! within the difference step a contact changes, or another scale attains the extreme value, the
+//! measure has a kink. Then each side is computed separately, with its own active set or scale.
 
 mod curve;
 mod measured_points;
@@ -28,21 +28,22 @@ pub struct Derivative {
     pub parameter: usize,
     /// Value of the measure.
     pub value: f64,
-    /// Derivative for a decreasing parameter; `None` if it does not exist.
+    /// One-sided derivative towards smaller parameters; `None` if it does not exist.
     pub left: Option<f64>,
-    /// Derivative for an increasing parameter.
+    /// One-sided derivative towards larger parameters; `None` if it does not exist.
     ///
-    /// It differs from the left one only at a kink.
+    /// It differs from `left` only at a kink.
     pub right: Option<f64>,
     /// Cause of a kink; `None` where the measure is smooth.
     pub kink: Option<String>,
 }
 
 impl Derivative {
-    /// Combines the one-sided derivatives of a measure with this `value`.
+    /// Combines the one-sided derivatives of a measure.
     ///
-    /// They are differences over twice the `step`. Sides that agree up to round-off become one
-    /// derivative.
+    /// `value` is the value of the measure, and `step` half the difference of the parameter in the
+    /// difference quotients. If both sides agree up to round-off, the measure is smooth and both
+    /// fields get the left derivative.
     pub(crate) fn sided(
         (measure, parameter): (&'static str, usize),
         [left, right]: [Option<f64>; 2],
@@ -60,7 +61,7 @@ impl Derivative {
     }
 }
 
-/// A quantity of an equilibrium; optionally the extreme one of several values.
+/// A quantity of an equilibrium: a single value, or the extreme value over all scales.
 pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) measure: &'static str,
     pub(crate) value: ValueOf<S>,
@@ -70,7 +71,10 @@ pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) turns: bool,
 }
 
-/// Value from system, state, path direction, and index among several values.
+/// Function that evaluates a quantity.
+///
+/// Its arguments are the system, the state, the path direction, and the index of the scale if the
+/// quantity is an extreme value over all scales.
 pub(crate) type ValueOf<S> = fn(&S, &SkinState, &[f64], usize) -> f64;
 
 /// Defines a single-valued quantity that does not depend on the path direction.
@@ -94,23 +98,24 @@ impl<S: Skin> MeasuredPoint<S> {
     }
 }
 
-/// Relative difference of one-sided derivatives below which a measure is smooth.
+/// Relative difference of the one-sided derivatives below which a measure counts as smooth.
 const SMOOTH: f64 = 1e-9;
 
-/// Relative distance to the extreme value at which other values may become extreme.
+/// Relative distance to the extreme value within which another scale may attain it.
 ///
-/// Beyond it they cannot within a difference step of a few millionths.
+/// Scales at a larger distance cannot attain it within a difference step of a few millionths.
 const NEAR: f64 = 1e-3;
 
 /// Relative round-off of a measure.
 const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
-/// Maximum number of successive contact changes within a difference step.
+/// Maximum number of contact changes within one difference step.
 const MOST_CHANGES: usize = 8;
 
 /// Differentiates all quantities with respect to the parameter of each variation.
 ///
-/// `settings` are the solver settings of the path. Quantities at unknown points get no derivatives.
+/// `settings` are the solver settings of the path. Quantities at unknown points, and at points with
+/// a singular tangent, get no entry.
 pub(crate) fn derivatives<S: Skin>(
     system: &S,
     spots: Vec<MeasuredPoint<S>>,
@@ -121,11 +126,11 @@ pub(crate) fn derivatives<S: Skin>(
     // One factorisation serves all quantities at a point.
     for MeasuredPoint { point, quantities } in merged(spots) {
         let here = point.and_then(|point| Linearisation::new(system, point).ok());
-        // A singular tangent has no unique direction, so there are no derivatives here.
+        // A singular tangent does not determine the direction of the path, so no derivative exists.
         let Some(here) = here else { continue };
         let turns = quantities.iter().any(|quantity| quantity.turns);
         let mut linearised = Linearised { system, settings, here, turns };
-        // Compute the motion of the point once per parameter for all quantities.
+        // Compute the motion of the point once for each parameter; all quantities share it.
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
             let (value, contenders) = quantity.value_at(system, linearised.here.point());
@@ -143,13 +148,13 @@ pub(crate) fn derivatives<S: Skin>(
     derivatives
 }
 
-/// Merges measured points at the same location.
+/// Merges measured points with equal state and anchor, so that they share one factorisation.
 fn merged<S: Skin>(spots: Vec<MeasuredPoint<S>>) -> Vec<MeasuredPoint<S>> {
     let mut merged: Vec<MeasuredPoint<S>> = Vec::new();
     for spot in spots {
         match merged.iter_mut().find(|other| {
             match (&other.point, &spot.point) {
-                // The same state moves differently under another anchor.
+                // A point moves differently with another anchor, so both must agree.
                 (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
                 _ => false,
             }
@@ -169,28 +174,28 @@ struct Linearised<'a, S: Skin> {
     turns: bool,
 }
 
-/// Motion of a point on both sides of a parameter value.
+/// Motion of a point for a decreasing (`left`) and an increasing (`right`) parameter.
 struct Sides<M> {
     left: SideMotion<M>,
-    /// `None` if both sides have the same motion.
+    /// `None` if the motion is the same on both sides.
     right: Option<SideMotion<M>>,
 }
 
 impl<M> Sides<M> {
-    /// Returns the contact change on either side, if any.
+    /// Returns the name of the contact change on the right, otherwise on the left side, if any.
     fn change(&self) -> Option<&str> {
         let right = self.right.as_ref().and_then(|right| right.change.as_deref());
         right.or(self.left.change.as_deref())
     }
 }
 
-/// Motion of a point on one side of a parameter value.
+/// Motion of a point with the active set of one side of a parameter value.
 struct SideMotion<M> {
-    /// The point for the smaller and the larger parameter.
+    /// Predicted points for the smaller and for the larger parameter.
     ///
-    /// `None` if this side has no equilibrium.
+    /// `None` if no equilibrium exists on this side.
     moved: Option<[MovedPoint<M>; 2]>,
-    /// The contact change on this side.
+    /// Name of the first contact change on this side; `None` without a change.
     change: Option<String>,
 }
 
@@ -200,7 +205,7 @@ impl<S: Skin> Linearised<'_, S> {
         let moved = self.here.moved(self.system, neighbours, self.turns);
         let on_left = self.here.violated(&neighbours.below, &moved[0]);
         let on_right = self.here.violated(&neighbours.above, &moved[1]);
-        // Nothing changes within the step, so one motion serves both sides.
+        // No contact changes within the step, so both sides have the same motion.
         if (on_left, on_right) == (None, None) {
             return Sides { left: SideMotion { moved: Some(moved), change: None }, right: None };
         }
@@ -208,7 +213,10 @@ impl<S: Skin> Linearised<'_, S> {
         Sides { left: self.side(neighbours, 0, moved, on_left), right }
     }
 
-    /// Computes the motion on one side; `violated` is the first contact to change.
+    /// Computes the motion on one side: 0 for a decreasing, 1 for an increasing parameter.
+    ///
+    /// `moved` are the points predicted with the active set of the measured point, and `violated`
+    /// is the constraint that changes first on this side.
     fn side(
         &self,
         neighbours: &Neighbours<S>,
@@ -224,7 +232,7 @@ impl<S: Skin> Linearised<'_, S> {
             };
             let next = here.beyond(self.system, change, self.settings);
             let after = next.as_ref().map_or(&here.point().state, |next| &next.point().state);
-            // The first change names the kink; later ones follow from it.
+            // Name the kink after the first change; later changes are consequences of it.
             name.get_or_insert_with(|| self.name(&here.point().state, after, change));
             let Some(next) = next else { break };
             here = next;
@@ -235,7 +243,7 @@ impl<S: Skin> Linearised<'_, S> {
         SideMotion { moved: None, change: name }
     }
 
-    /// Describes the change of a contact.
+    /// Names the change of a contact, e.g. for the table of derivatives.
     fn name(&self, before: &SkinState, after: &SkinState, change: Change) -> String {
         if change.constraint >= self.system.contacts().forces.len() {
             return "the contact of the needle changes".to_owned();
@@ -247,7 +255,8 @@ impl<S: Skin> Linearised<'_, S> {
             .map_or("contact", |edge| edge.name());
         let [left_index, right_index] = contacts.scales_of(change.constraint);
         let scales = match (self.system.number(left_index), self.system.number(right_index)) {
-            // Neighbours are named by the left scale; distant scales need both numbers.
+            // A contact between neighbours is identified by the left scale, a contact between
+            // distant scales by both scales.
             (Some(left), _) if right_index == left_index + 1 => format!(" right of scale {left}"),
             (Some(left), Some(right)) => format!(" of scales {left} and {right}"),
             _ => String::new(),
@@ -256,9 +265,9 @@ impl<S: Skin> Linearised<'_, S> {
     }
 }
 
-/// Lists unknown derivatives.
+/// Lists the quantities at `spots` for all parameters with unknown derivatives.
 ///
-/// They depend on a history variable with an unknown dependence on the parameter.
+/// They depend on a stick position, the dependence of which on the parameters is unknown.
 pub(crate) fn missing<S: Skin>(
     skin: &S,
     spots: &[MeasuredPoint<S>],
@@ -288,48 +297,54 @@ impl<S: Skin> MeasuredQuantity<S> {
         self.value_at(system, point).0
     }
 
-    /// Evaluates the quantity, and lists the indices that may become extreme nearby.
+    /// Evaluates the quantity, and lists the scales that may attain the extreme value nearby.
+    ///
+    /// A quantity with a single value has the list `[0]`.
     fn value_at(&self, system: &S, point: &AnchoredPoint<S::Mode>) -> (f64, Vec<usize>) {
         let count = self.extreme.map_or(1, |_| system.contacts().scales.len());
         let values: Vec<f64> = (0..count)
             .map(|number| (self.value)(system, &point.state, &point.direction, number))
             .collect();
         let extreme = values.iter().copied().reduce(|one, other| self.outer(one, other));
-        // The extreme of no values is NaN, and non-finite derivatives are dropped.
+        // Without any scale the value is NaN; derivatives that are not finite are dropped later.
         let extreme = extreme.unwrap_or(f64::NAN);
         let size = values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
-        // Only contenders are evaluated again; the other values are too far from the extreme one.
+        // Derivatives are computed only for scales with a value near the extreme value.
         (
             extreme,
             (0..count).filter(|number| (values[*number] - extreme).abs() <= NEAR * size).collect(),
         )
     }
 
-    /// Selects the extreme of two values; ignores NaN if the other is a number.
+    /// Returns the extreme of two values; ignores NaN if the other value is a number.
     fn outer(&self, one: f64, other: f64) -> f64 {
         self.extreme.map_or(one, |outer| outer(one, other))
     }
 
-    /// Computes the derivatives on both sides as far as they exist.
+    /// Computes the left and right derivatives; `None` for a side without a derivative.
+    ///
+    /// `contenders` lists the scales that may attain the extreme value.
     fn rates(
         &self,
         neighbours: &Neighbours<S>,
         sides: &Sides<S::Mode>,
         contenders: &[usize],
     ) -> [Option<f64>; 2] {
-        // A value that depends on the path direction jumps where a contact changes, and so does the
-        // location of a maximum.
+        // Where a contact changes, the path direction jumps. Values that depend on this direction
+        // jump with it and have no derivative.
         let jumps = self.turns && sides.change().is_some();
         let left = self.rate(neighbours, &sides.left, 0, contenders);
         let right = match &sides.right {
-            // With a single contender and motion both sides have the same rate.
+            // Both sides have the same motion and the same scale, hence the same rate.
             None if contenders.len() == 1 => left,
             right => self.rate(neighbours, right.as_ref().unwrap_or(&sides.left), 1, contenders),
         };
         [left, right].map(|rate| rate.filter(|rate| rate.is_finite() && !jumps))
     }
 
-    /// Computes the derivative on one side for the contender that is extreme there.
+    /// Computes the derivative on one side: 0 for a decreasing, 1 for an increasing parameter.
+    ///
+    /// Of the `contenders` it uses the scale that attains the extreme value on this side.
     fn rate(
         &self,
         neighbours: &Neighbours<S>,
@@ -344,12 +359,12 @@ impl<S: Skin> MeasuredQuantity<S> {
             .iter()
             .map(|&number| (number, (self.value)(system, state, direction, number)));
         let (number, here) = on_side.reduce(|one, other| {
-            // `min` and `max` ignore NaN, so a contender with NaN never counts.
+            // `outer` ignores NaN, so a contender with the value NaN is never selected.
             let counts = self.outer(one.1, other.1).total_cmp(&other.1).is_eq();
             if counts { other } else { one }
         })?;
-        // Use the same contender on both sides: another one may be extreme there, and the
-        // difference of the two would be the derivative of neither.
+        // Difference the value of one and the same contender, even if another contender attains
+        // the extreme value on the other side.
         let (system, MovedPoint { state, direction }) = sides[1 - side];
         let there = (self.value)(system, state, direction, number);
         let rise = if side == 1 { here - there } else { there - here };

@@ -1,58 +1,60 @@
-//! Outcome of a path and its audit.
+//! Outcome of a puncture or bending path, including the audit of its end state.
 
 use solver::{Continuation, Termination};
 
 use crate::contacts::SkinState;
 use crate::record::Skin;
 
-/// Outcome of a puncture or of bending.
+/// Outcome of the path of a puncture or of bending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The path reached its end and passed the audit.
+    /// The path reached its target, and the state there passed the audit.
     ///
-    /// In a puncture the row was long enough.
+    /// In a puncture the row was also long enough.
     Complete,
-    /// The path stopped before its end.
+    /// The path stopped before its target, for the given reason.
     Stopped(Termination),
-    /// Load, depth and tilt have all turned back, and none recovered its maximum.
+    /// The path was lost while load, depth and tilt were all below their maxima.
     ///
-    /// In bending: the moment of several gaps in series has reached its maximum.
+    /// In bending of several equal gaps: the path reached the largest moment.
     LimitPoint,
     /// A row of automatic length would need more scales than allowed.
     ///
     /// See [`RowLength::Auto`](crate::puncture::RowLength::Auto).
     RowLimit,
-    /// A guided needle pushed a scale straight down without a critical tilt.
+    /// A guided needle pushed a scale down without reaching the critical tilt.
     ///
-    /// The path ended at a bifurcation or at twice the thickness.
+    /// The path ended at a bifurcation or at a depth of twice the thickness.
     Untilted,
-    /// The tip of an elastic scale turned so far that linear bending ends.
+    /// The tip of an elastic scale turned by 5° relative to its base.
+    ///
+    /// Linear bending is not valid beyond this rotation.
     Bent,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
     /// The scales of a strip lock: the moment grows while the rotation hardly changes.
     Locked,
-    /// A contact slid off the end of its edge.
+    /// A contact lies beyond an end of its edge, which the contact model does not cover.
     ///
-    /// Or a corner passed that end, or a corner met a guided needle from the side.
+    /// Also: a corner met a guided needle from the side.
     OffEdge,
 }
 
 impl Status {
-    /// Determines the status of a path from its stop reason.
+    /// Determines the status of a path from the reason why the solver stopped, and from its end.
     pub(crate) fn of<S: Skin>(path: &Continuation<S>, stop: Termination) -> Self {
         let (skin, end) = (path.system(), &path.point().state);
         match stop {
             Termination::Reached => Self::audited(skin, end),
-            // Newton's method also fails where the model itself ends: prefer a mechanical reason
-            // visible in the state.
+            // Newton's method also fails where the contact model ceases to be valid. Report the
+            // mechanical reason if the last state shows one.
             stop if stop.is_numerical() && skin.interpenetrates(end) => Self::Interpenetration,
             stop if stop.is_numerical() && skin.passes_an_end(path.point()) => Self::OffEdge,
             stop => Self::Stopped(stop),
         }
     }
 
-    /// Audits an equilibrium at which a path may end.
+    /// Checks an end state for overlapping scales and for contacts beyond the end of their edge.
     pub(crate) fn audited<S: Skin>(skin: &S, end: &SkinState) -> Self {
         if skin.interpenetrates(end) {
             Self::Interpenetration

@@ -10,17 +10,17 @@ use crate::path_location::{PathLocation, PointLocator};
 use crate::record::{Skin, Work};
 use crate::sensitivity::{Curve, CurvePoint, curve_point};
 
-/// The unloading path from the end of a loading path.
+/// The path from the end of a loading path back to zero load.
 #[derive(Clone, Debug)]
 pub struct Unloading<P> {
     /// Equilibria of the path, starting with the end of the loading path.
     pub path: Vec<P>,
     /// Reason why the path stopped: [`Termination::Unloaded`] at zero load.
     pub stop: Termination,
-    /// Work of the load that is not recovered, i.e. the area of the load loop.
+    /// Work of the load that unloading does not return, i.e. the area of the load loop.
     ///
-    /// It is over `E* t³`, or for a whole strip over `E_m t³`, and is dissipated by friction or
-    /// remains stored.
+    /// This work is dissipated by friction or remains stored. Its unit is `E* t³` for a row and
+    /// `E_m t³` for a whole strip. `None` if the load does not return to zero.
     pub loop_work: Option<f64>,
 }
 
@@ -34,13 +34,15 @@ pub struct Remains {
 }
 
 impl<P> Unloading<P> {
-    /// Reverses a path at its current point, after the dissipation `work`.
+    /// Follows the unloading path from the current point of `path`.
+    ///
+    /// `work` is the dissipation on the loading path.
     pub(crate) fn follow<S: Skin<PathPoint = P>>(
         path: &mut Continuation<S>,
         mut work: Work,
     ) -> Self {
         if path.point().state.z[path.system().load()] == 0.0 {
-            // A needle that is through at rest carries no load.
+            // A needle that fits between two scales is through at rest, without a load.
             let point = Self::noted(path.system(), path.point(), &work);
             let loop_work = path.system().repeats() * work.total();
             return Self {
@@ -60,9 +62,10 @@ impl<P> Unloading<P> {
         }
         let stop = path.termination().unwrap_or(Termination::Reached);
         let (skin, end) = (path.system(), path.point());
-        // At a nonzero load the loop is not closed, and its area is meaningless.
+        // If the path stops at a nonzero load, the loop is not closed and has no area.
         let loop_work = (stop == Termination::Unloaded).then(|| {
-            // The stored energy covers the whole strip, the dissipation only the solved gaps.
+            // `stored` is the energy of the whole strip, `work` the dissipation of the solved gaps
+            // only.
             skin.stored(&end.state) + skin.repeats() * work.total()
         });
         Self { path: points, stop, loop_work }
@@ -74,16 +77,17 @@ impl<P> Unloading<P> {
         here
     }
 
-    /// Evaluates the residual state, with `displacement` read from a recorded point.
+    /// Returns the residual state; `displacement` reads the displacement of a recorded point.
     pub(crate) fn remains(&self, displacement: impl Fn(&P) -> f64) -> Remains {
         let end = self.path.last().filter(|_| self.stop == Termination::Unloaded);
         Remains { loop_work: self.loop_work, displacement: end.map(displacement) }
     }
 }
 
-/// Evaluates a curve at `locations` on the unloading path from `turn`, without derivatives.
+/// Follows the unloading path from the equilibrium `turn`, and evaluates a curve at `locations`.
 ///
-/// Points that unloading does not reach are `None`.
+/// The result has one entry for each location, without derivatives with respect to parameters;
+/// `None` if the unloading path does not reach the location.
 pub(crate) fn unloaded<S: Skin + Clone>(
     path: &mut Continuation<S>,
     turn: Option<SkinPoint>,

@@ -1,4 +1,4 @@
-//! Rows and strips with random gaps and slants.
+//! Tests of rows and strips with random gaps and slants.
 
 use approx::assert_relative_eq;
 use skin::flexure::{self, Flexure, MembraneMesh, Method};
@@ -32,14 +32,14 @@ fn bent(sample: &Sample) -> Flexure {
     flexure
 }
 
-/// Draws the gaps of a long row.
+/// Returns the gaps of an imperfect row of 20,001 scales.
 fn gaps(gap_cv: f64, slant_sd_deg: f64) -> Vec<f64> {
     sample(gap_cv, slant_sd_deg, 1, 1).row(10_000, 10_000).unwrap().gaps().to_vec()
 }
 
 #[test]
 fn gaps_and_slants_have_the_requested_scatter() {
-    // With gaps this wide no scale is rejected.
+    // The gaps are so wide that no draw is rejected.
     let wide = Design { gap: 3.0, slant_deg: 30.0, ..STEEP };
     let imperfection = Imperfection { gap_cv: 0.1, slant_sd_deg: 2.0 };
     let row = imperfection.sample(&wide, 3, 5).unwrap().row(10_000, 10_000).unwrap();
@@ -50,7 +50,8 @@ fn gaps_and_slants_have_the_requested_scatter() {
         let variance = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count;
         (mean, variance.sqrt())
     });
-    // Four standard errors: 0.1/√20000 and 0.1/√40000 relative.
+    // Tolerances are four standard errors: for 20,000 gaps the relative standard error is
+    // 0.1/√20000 for the mean and 1/√40000 for the deviation.
     assert_relative_eq!(gaps.0, 3.0, max_relative = 0.003);
     assert_relative_eq!(gaps.1 / gaps.0, 0.1, max_relative = 0.025);
     assert_relative_eq!(mean, 30.0, epsilon = 0.057);
@@ -58,7 +59,7 @@ fn gaps_and_slants_have_the_requested_scatter() {
 }
 
 #[test]
-fn a_longer_row_has_the_same_scales_in_its_middle() {
+fn a_longer_row_contains_the_scales_of_a_shorter_row_in_its_middle() {
     let sample = sample(0.2, 2.0, 7, 3);
     let (short, long) = (sample.row(3, 4).unwrap(), sample.row(9, 20).unwrap());
     assert_eq!(short.scales(), &long.scales()[6..14]);
@@ -67,9 +68,9 @@ fn a_longer_row_has_the_same_scales_in_its_middle() {
 
 #[test]
 fn scales_never_overlap_at_rest() {
-    // At 60° one degree moves the top by 0.07, so a gap of 0.1 closes easily.
+    // At a slant of 60° one degree moves the top by 0.07, so many draws overlap at a gap of 0.1.
     let sample = sample(0.3, 1.5, 1, 1);
-    // `UnevenRow` rejects overlapping scales.
+    // `row` fails if scales overlap, because `UnevenRow` rejects them.
     let row = sample.row(500, 500).unwrap();
     assert_eq!(row.scales().len(), 1001);
     let crowd = Imperfection { gap_cv: 0.0, slant_sd_deg: 30.0 };
@@ -82,7 +83,7 @@ fn scales_never_overlap_at_rest() {
 }
 
 #[test]
-fn samples_are_reproducible_and_differ() {
+fn samples_are_reproducible_and_depend_on_number_seed_and_design() {
     let [first, repeated, other_number, other_seed] = [(1, 1), (1, 1), (1, 2), (2, 1)]
         .map(|(seed, number)| bent(&sample(0.1, 0.5, seed, number)).measures.compliance);
     assert!(first == repeated && first != other_number && first != other_seed);
@@ -93,9 +94,9 @@ fn samples_are_reproducible_and_differ() {
     assert_ne!(wide, narrow);
 }
 
-/// Inverts (I1): the normal deviates of a sample do not depend on the scatter.
+/// Recovers the normal deviates of a sample by inverting (I1).
 #[test]
-fn scatter_scales_the_same_deviates() {
+fn normal_deviates_do_not_depend_on_the_amount_of_scatter() {
     let [some, more] = [0.05_f64, 0.1].map(|cv| {
         let s = (cv * cv).ln_1p().sqrt();
         let z = gaps(cv, 0.0).into_iter().map(move |gap| ((gap / 0.1).ln() + 0.5 * s * s) / s);
@@ -107,7 +108,7 @@ fn scatter_scales_the_same_deviates() {
 }
 
 #[test]
-fn without_scatter_a_row_is_perfect() {
+fn a_sample_without_scatter_has_the_measures_of_the_perfect_row() {
     let sample = sample(0.0, 0.0, 1, 1);
     let common = Common::default();
     let springs = calibrate(&STEEP.footprint(0.5).unwrap()).unwrap();
@@ -129,16 +130,14 @@ fn without_scatter_a_row_is_perfect() {
     }
 }
 
-/// Mean range of curvatures over which the gaps of five strips close.
+/// Computes the width of the range of curvatures in which gaps close, averaged over five strips.
 fn closing_range(gap_cv: f64, slant_sd_deg: f64) -> f64 {
     let strips = (1..=5).map(|number| bent(&sample(gap_cv, slant_sd_deg, 1, number)));
     strips.map(|strip| strip.closing_range().unwrap()).sum::<f64>() / 5.0
 }
 
-/// The gaps of an imperfect strip close one by one (Fig. 10b).
-///
-/// All gaps of a perfect strip close at one curvature. The range of curvatures grows with the
-/// scatter.
+/// All gaps of a perfect strip close at the same curvature. The gaps of an imperfect strip close in
+/// a range of curvatures, and the range grows with the scatter (Fig. 10b).
 #[test]
 fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
     let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();
@@ -150,7 +149,7 @@ fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
         assert!(range > 1.5 * last, "{range} {last}");
         last = range;
     }
-    // First contact depends on the moment, which the gaps hardly affect.
+    // Unequal gaps have little effect: neighbours touch at a moment that hardly depends on the gap.
     assert!(last < 0.02 * first, "{last} {first}");
     for slant_sd_deg in [0.05, 0.1, 0.2, 0.4] {
         let range = closing_range(0.0, slant_sd_deg);
@@ -165,14 +164,13 @@ fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
     assert!(closed.len() >= strip.gaps, "{} of {}", closed.len(), strip.gaps);
 }
 
-/// The slope of a perfect strip jumps at first contact.
-///
-/// The slope of an imperfect strip grows with every closing gap.
+/// The stiffness of a perfect strip jumps at first contact; the stiffness of an imperfect strip
+/// grows with every gap that closes.
 #[test]
-fn a_perfect_strip_stiffens_abruptly_and_an_imperfect_one_gradually() {
+fn a_perfect_strip_stiffens_abruptly_and_an_imperfect_strip_gradually() {
     let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();
     let imperfect = bent(&sample(0.05, 0.4, 1, 1));
-    // Range of curvatures between twice and ten times the initial slope.
+    // Width of the range of curvatures with two to ten times the initial stiffness.
     let [of_perfect, of_imperfect] = [&perfect, &imperfect].map(|strip| {
         let [low, high] = [2.0, 10.0].map(|factor| {
             let limit = factor * strip.path[0].stiffness;
@@ -185,7 +183,7 @@ fn a_perfect_strip_stiffens_abruptly_and_an_imperfect_one_gradually() {
 }
 
 #[test]
-fn common_samples_have_the_same_random_numbers_in_all_designs() {
+fn common_samples_have_the_same_random_numbers_for_all_designs() {
     let imperfection = Imperfection { gap_cv: 0.1, slant_sd_deg: 0.0 };
     let wide = Design { gap: 2.0 * STEEP.gap, ..STEEP };
     let [narrow, wide, next] = [(STEEP, 5), (wide, 5), (STEEP, 6)].map(|(design, number)| {
@@ -198,11 +196,9 @@ fn common_samples_have_the_same_random_numbers_in_all_designs() {
     assert_ne!(narrow, next);
 }
 
-/// First contact occurs in the gap that closes first.
-///
-/// It closes by tops or by sliding corners.
+/// Compares the closed form (F9) of first contact with solved imperfect strips.
 #[test]
-fn a_strip_touches_where_its_first_gap_closes() {
+fn an_imperfect_strip_first_touches_at_the_closed_form_curvature() {
     for (gap_cv, slant_sd_deg) in [(0.2, 0.0), (0.2, 0.5)] {
         for number in 1..=2 {
             let measures = bent(&sample(gap_cv, slant_sd_deg, 3, number)).measures;

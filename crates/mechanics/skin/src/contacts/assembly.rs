@@ -1,4 +1,4 @@
-//! Contributions of the closed contacts to residual and tangent.
+//! Adds the closed contacts to the residual and the tangent of a row or a strip.
 
 use contact::{CornerContact, CornerResponse, Curvature, FORCES, Force, Gap};
 use solver::{Residual, Tangent};
@@ -17,7 +17,7 @@ impl Contacts {
     ) {
         let mut turned = None;
         for (pair, modes) in state.mode.contacts.chunks_exact(LEVELS.len()).enumerate() {
-            // Most pairs are open: skip them before computing poses.
+            // Skip open pairs, which are the majority, before computing poses.
             if modes.iter().all(|mode| *mode == CornerContact::Open) {
                 continue;
             }
@@ -40,7 +40,7 @@ impl Contacts {
                 self.add_response(contact, mode.acting(), &response, residual, matrix);
             }
         }
-        // Separate loop, so that rows without friction pay nothing for it.
+        // Friction has a separate loop, so that rows without friction are not slowed down.
         if self.has_friction() {
             for pair in self.whole_pairs() {
                 if Self::contacts_of(pair)
@@ -53,9 +53,10 @@ impl Contacts {
         }
     }
 
-    /// Adds a corner on an edge of a row, without the derivatives that vanish.
+    /// Adds a contact of a corner on an edge, in a row on a flat body.
     ///
-    /// Most contacts are of this kind. The terms equal [`CornerContact::acting_response`].
+    /// This is a fast path for the majority of contacts: it omits derivatives that vanish. The
+    /// other terms equal the terms of [`CornerContact::acting_response`].
     fn add_edge(
         &self,
         gap: &Gap,
@@ -71,8 +72,8 @@ impl Contacts {
         let (corner, edge) = if corner_is_left { (left, right) } else { (right, left) };
         let [x, y, turn, both] =
             [normal_turned.x, normal_turned.y, arm, distance].map(|entry| -force * entry);
-        // From left to right, as for other contacts, because the order of a sum affects its last
-        // digit.
+        // Add the left scale before the right scale, as for other contacts, because the order of a
+        // sum affects its last digit.
         for is_by_corner in [corner_is_left, !corner_is_left] {
             if is_by_corner {
                 matrix.add(corner + 2, corner + 2, -turn);
@@ -93,7 +94,7 @@ impl Contacts {
         matrix.add(unknown, unknown, approach.slope);
     }
 
-    /// Adds the response of a closed contact with the given `acting` forces.
+    /// Adds the response of a closed contact; `acting` flags its active forces.
     fn add_response(
         &self,
         contact: usize,
@@ -109,7 +110,7 @@ impl Contacts {
         for force in acting.clone() {
             pair.add_column(matrix, unknowns[force], &balance.map(|own| own.by_force[force]));
         }
-        // The condition of a force is the equation in the row of its own unknown.
+        // The condition of a force is the equation in the row of the unknown of this force.
         for force in acting.clone() {
             let Some(condition) = &conditions[force] else { continue };
             residual.add(unknowns[force], condition.value);

@@ -1,32 +1,33 @@
-//! Contact energy, and the audit of the final state.
+//! Contact forces and energy, and the audit of the final state for overlaps.
 
 use contact::{CornerContact, Overlap, overlaps};
 use geometry::Vec2;
 
 use super::{Contacts, SkinPoint, SkinState};
 
-/// Overlap (over `t`) beyond the contact law that the audit accepts.
+/// Overlap in units of `t` that the audit accepts in addition to the approach of the contact law.
 ///
-/// It covers the round-off of the collision query.
+/// It covers the round-off in the computation of overlaps.
 const AUDIT_TOLERANCE: f64 = 1e-8;
 
-/// Fraction of an edge by which a foot may exceed its end: round-off of the path.
+/// Fraction of an edge by which a contact may lie beyond its end, because of round-off.
 const OFF_EDGE: f64 = 1e-6;
 
-/// Extrapolation distances beyond the end of a path, in path units.
+/// Multiples of the path direction at which states beyond the end of a path are checked.
 ///
-/// Step sizes were reduced to 1e-9 before the path stopped.
+/// The solver reduced its steps to 1e-9 before the path stopped.
 const AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 
-/// Smallest jump of the penetration, over `t`, where a corner passes an edge end.
+/// Gap in units of `t` that distinguishes a corner passing an edge end from a closing contact.
 ///
-/// The jump occurs within one of the steps [`AHEAD`].
+/// If a corner passes the end of an edge, its gap jumps below `−BEHIND` within one of the steps
+/// [`AHEAD`].
 const BEHIND: f64 = 1e-3;
 
 impl Contacts {
-    /// Computes the forces of a contact on its left scale, including friction.
+    /// Computes the two forces of a contact on its left scale, including friction.
     ///
-    /// The first acts at the corner or corners, the second at the flush contact.
+    /// The first force acts at the touching corner, the second at the flush contact, if any.
     pub(super) fn forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let [on_corners, on_flush] = self.normal_forces_on_left(state, contact);
         if self.has_friction() {
@@ -36,26 +37,24 @@ impl Contacts {
         }
     }
 
-    /// Computes the normal components of the contact forces.
-    ///
-    /// The contact law relates them to the approach.
+    /// Computes the forces of [`Self::forces_on_left`] without friction.
     fn normal_forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);
         state.mode.contacts[contact].forces_on_left(&self.corners(contact, &poses), forces)
     }
 
-    /// Computes the total normal force of a contact, the argument of the contact law.
+    /// Computes the normal force of a contact that enters the contact law.
     fn force(&self, state: &SkinState, contact: usize) -> f64 {
         match state.mode.contacts[contact] {
             CornerContact::Open => 0.0,
-            // The law uses the magnitude of the rotating force at a corner (C5), and the sum of
-            // both forces on flush edges (C7).
+            // At a corner the law uses the magnitude of the resultant (C5), on flush edges the sum
+            // of both forces (C7).
             _ => self.normal_forces_on_left(state, contact).map(|force| force.norm()).iter().sum(),
         }
     }
 
-    /// Computes the approach of the scales at a contact, over `t`.
+    /// Computes the approach `δ` of the two scales at a contact, in units of `t`.
     pub(super) fn approach(&self, state: &SkinState, contact: usize) -> f64 {
         self.law.approach(self.force(state, contact)).value
     }
@@ -67,20 +66,20 @@ impl Contacts {
             .sum()
     }
 
-    /// Returns true if any contact carries force beyond an end of its edge.
+    /// Returns true if any closed contact lies beyond an end of its edge.
     ///
-    /// Beyond the end near the partner corner the contact would have left its edge; beyond the
-    /// other end the model has no contact to continue with.
+    /// Beyond the end near the partner corner the contact should have changed its state. Beyond the
+    /// other end the model has no contact.
     pub(crate) fn off_edge(&self, state: &SkinState) -> bool {
         let contacts = state.mode.contacts.iter().enumerate();
         contacts.into_iter().any(|(contact, mode)| {
-            // Coinciding corners are at the end of the edge, where (C5) applies.
+            // Coinciding corners lie at the end of the edge by definition (C5).
             if let CornerContact::Open | CornerContact::Corner(_) = mode {
                 return false;
             }
             let [left, right] = self.pair_poses(&state.z, contact);
             let pair = self.pair(Self::pair_of(contact));
-            // A foot is a fraction of its edge, from 0 at one end to 1 at the other.
+            // `foot` is the position along an edge, from 0 at one end to 1 at the other end.
             let feet = mode
                 .carrying()
                 .into_iter()
@@ -90,51 +89,51 @@ impl Contacts {
         })
     }
 
-    /// Returns true if a corner passes an end of an edge just beyond `point`.
+    /// Returns true if the path leads an open corner past an end of an edge just beyond `point`.
     ///
-    /// The corner then faces the edge from behind, and the model has no contact for the edge that
-    /// it crossed or for the region below the bases.
+    /// Behind the edge the corner lies inside the other scale or below the bases, and the model has
+    /// no contact for these positions.
     pub(crate) fn passes_an_end(&self, point: &SkinPoint) -> bool {
         let here = self.open_gaps(&point.state);
         AHEAD.iter().any(|&step| {
             let ahead = self.open_gaps(&point.state.moved(step, &point.leaving));
             here.iter().zip(&ahead).any(|(here, ahead)| {
-                // A small gap that becomes negative is a closing contact. A wide or missing gap
-                // that is strongly negative one step later belongs to a corner that passed the end
-                // of an edge.
+                // If a small gap becomes negative, the contact closes. If a wide or undefined gap
+                // is strongly negative one step later, the corner has passed the end of an edge.
                 ahead.is_some_and(|gap| gap < -BEHIND && here.is_none_or(|here| here > BEHIND))
             })
         })
     }
 
-    /// Returns the gap of each open contact that has a corner in front of an edge.
+    /// Returns the gap of each contact; `None` if it is closed or no corner faces an edge.
     fn open_gaps(&self, state: &SkinState) -> Vec<Option<f64>> {
         let mut gaps = vec![None; state.mode.contacts.len()];
         self.for_each(state, |contact, corners| {
-            // Closed contacts stay on their edge; `off_edge` checks them.
+            // `off_edge` checks closed contacts.
             let is_open = state.mode.contacts[contact] == CornerContact::Open;
             gaps[contact] = corners.facing().filter(|_| is_open).map(|(_, gap)| gap);
         });
         gaps
     }
 
-    /// Returns the distance in pitches of overlapping scales without a contact.
+    /// Returns the largest distance, in pitches, of overlapping scales beyond the contact reach.
     ///
-    /// `None` for direct neighbours, and if a contact is so soft that a scale is pushed half
-    /// through its neighbour: overlaps behind it are then not meaningful.
+    /// `None` if no scales beyond the reach overlap. Also `None` if a contact is so soft that a
+    /// scale is pushed half through its neighbour, because overlaps of scales farther away are then
+    /// not meaningful.
     pub(crate) fn meeting_beyond(&self, state: &SkinState) -> Option<usize> {
         let scale = self.arrangement.scale(0);
         let half_breadth = scale.half_base() * scale.slant().cos();
         let mut contacts = 0..state.mode.contacts.len();
         let is_soft = contacts.any(|contact| self.approach(state, contact) > half_breadth);
-        // Use the largest distance: a contact reach that covers it covers all shorter ones.
+        // A contact reach equal to the largest distance covers all shorter distances.
         let overlapping = self.overlapping(state, |_| 0.0).into_iter();
         overlapping.max().filter(|&pitches| pitches > self.reach && !is_soft)
     }
 
-    /// Lists the distances in pitches of scales that overlap.
+    /// Lists the distances, in pitches, of all pairs of scales that overlap too much.
     ///
-    /// They overlap by more than their contact approach and the `slack` of their pair.
+    /// The depth of the overlap exceeds the approach of their contacts plus `slack(pair)`.
     pub(crate) fn overlapping(
         &self,
         state: &SkinState,
@@ -147,9 +146,9 @@ impl Contacts {
         let mut distances = Vec::new();
         for Overlap { left, right, depth } in found {
             let pitches = right - left;
-            // Inverse of the pair numbering in `ends`.
+            // Number of the pair; this inverts `ends`.
             let pair = self.reach * left + pitches - 1;
-            // Scales beyond the reach have no contact, so no overlap is allowed.
+            // Scales beyond the reach have no contact, so they must not overlap.
             let allowed = if pitches <= self.reach {
                 self.pair_approach(state, pair) + slack(pair)
             } else {
@@ -162,9 +161,9 @@ impl Contacts {
         distances
     }
 
-    /// Returns true if two neighbours overlap by more than their contact approach.
+    /// Returns true if two neighbours overlap by more than the approach of their contacts.
     ///
-    /// Only neighbours are checked, because a strip bent to a ring may overlap its other end.
+    /// Checks pairs only, because a strip bent to a ring may overlap its other end.
     pub(crate) fn neighbours_interpenetrate(&self, state: &SkinState) -> bool {
         self.pairs(&state.z).any(|(pair, poses)| {
             let allowed = self.pair_approach(state, pair) + AUDIT_TOLERANCE;
@@ -175,7 +174,7 @@ impl Contacts {
         })
     }
 
-    /// Returns the largest approach of the contacts of a pair.
+    /// Returns the larger approach of the two contacts of a pair, in units of `t`.
     fn pair_approach(&self, state: &SkinState, pair: usize) -> f64 {
         Self::contacts_of(pair).map(|contact| self.approach(state, contact)).fold(0.0, f64::max)
     }

@@ -11,14 +11,13 @@ pub enum ContactChange {
     Closed,
     /// The contact opens.
     Opened,
-    /// The corner reaches the end of its edge and stays at the other corner.
+    /// The corner reaches the end of its edge, and both corners then coincide.
     ReachedCorner,
-    /// The contact leaves the corner along the edge on which it arrived.
+    /// The corner returns to the edge along which it reached the other corner.
     LeftCorner,
-    /// The contact passes the corner and continues as its partner.
+    /// The force moves to the partner contact: the other corner on the other edge.
     ///
-    /// Corner and edge are exchanged. On flush edges the contact at the other end carries all the
-    /// force.
+    /// On flush edges it moves to the contact at the other end of both edges.
     HandedOver,
     /// The contact starts to slip.
     Slips,
@@ -40,7 +39,7 @@ impl ContactChange {
         }
     }
 
-    /// Classifies the change of a force from the state after the event.
+    /// Classifies the change of a constraint; `state` is the state after the event.
     pub(crate) fn classify(contacts: &Contacts, state: &SkinState, change: solver::Change) -> Self {
         let acts = state.active[change.constraint];
         let (contact, slot) = contacts.contact_of(change.constraint);
@@ -50,11 +49,12 @@ impl ContactChange {
         };
         match (force, change.activated) {
             (Force::Own | Force::Flush, true) => Self::Closed,
-            // The remaining partner force takes over the active flag of the contact.
+            // The own force vanished but its flag is active: the contact continued as its partner,
+            // and the partner force became its own force.
             (Force::Own, false) if acts => Self::HandedOver,
             (Force::Own | Force::Flush, false) => Self::Opened,
             (Force::Partner, true) if acts => Self::ReachedCorner,
-            // Between parallel sides no force has to rotate, so the partner carries all force at
+            // Between parallel sides both normals agree, so the partner takes the whole force at
             // once.
             (Force::Partner, true) => Self::HandedOver,
             (Force::Partner, false) => Self::LeftCorner,

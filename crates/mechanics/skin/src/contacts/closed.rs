@@ -1,4 +1,4 @@
-//! Closed contacts of a state, for drawings and reports.
+//! Lists the closed contacts of a state and their forces.
 
 use contact::{CornerContact, CornerEdge};
 use geometry::Vec2;
@@ -8,36 +8,39 @@ use super::{Contacts, SkinState};
 /// A closed contact between two scales.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// The left scale of the pair, from 0 at the left end of the row.
+    /// Index of the left scale of the pair, from 0 at the left end of the row.
     pub left: usize,
-    /// Right scale of the pair: nearly always the neighbour.
+    /// Index of the right scale of the pair, nearly always the neighbour of the left scale.
     pub right: usize,
     /// Corner and edge that touch.
     pub corner_edge: CornerEdge,
-    /// Position of the touching corner in the deformed state, over `t`.
+    /// Position `x`, `y` of the touching corner in the deformed state, in units of `t`.
     ///
     /// It is relative to the node of the first scale at rest. On a curved body its components are
-    /// in the tangent frame of that scale.
+    /// in the tangent frame of the first scale.
     pub point: [f64; 2],
-    /// Force on the left scale; the right scale carries the opposite force.
+    /// Components `x`, `y` of the force on the left scale; the opposite force acts on the right
+    /// scale.
     pub force: [f64; 2],
-    /// Approach `δ` of the scales, over `t`.
+    /// Approach `δ` of the two scales, in units of `t`.
     pub approach: f64,
     /// True if the contact slips; `None` without friction.
     pub slips: Option<bool>,
 }
 
 impl Contacts {
-    /// Lists the closed contacts from the left.
+    /// Lists the closed contacts from left to right.
     ///
-    /// With relative poses, points and forces are in the frame of the left scale of each pair.
+    /// With relative poses, point and force of a contact are in the frame of its left scale.
     pub(crate) fn closed_contacts(&self, state: &SkinState) -> Vec<Contact> {
         let contacts = (0..state.mode.contacts.len())
             .filter(|&contact| state.mode.contacts[contact] != CornerContact::Open);
         contacts.flat_map(|contact| self.closed_at(state, contact)).flatten().collect()
     }
 
-    /// Returns the corner contact and the flush contact closed at a level of a pair.
+    /// Returns the contact at the corner and the flush contact at one level of a pair.
+    ///
+    /// `None` if the respective contact is open.
     fn closed_at(&self, state: &SkinState, contact: usize) -> [Option<Contact>; 2] {
         let [own, flush] = state.mode.contacts[contact].carrying();
         let [on_corners, on_flush] = self.forces_on_left(state, contact);
@@ -53,10 +56,10 @@ impl Contacts {
         })
     }
 
-    /// Lists the contact forces on the scales of a row, from the left.
+    /// Lists the contact forces on the scales of a row, in the order of the contacts.
     ///
-    /// Each entry holds the scale, the arm from its node, in the deformed state, and the force, both
-    /// in the tangent frame of the scale.
+    /// Each entry holds the index of the scale, the vector from its node to the contact in the
+    /// deformed state, and the force. Both vectors are in the tangent frame of the scale.
     pub(crate) fn forces_on_scales(&self, state: &SkinState) -> Vec<(usize, [Vec2; 2])> {
         let mut forces = Vec::new();
         for (contact, mode) in state.mode.contacts.iter().enumerate() {
@@ -87,9 +90,10 @@ impl Contacts {
         forces
     }
 
-    /// Returns the position of the touching corner.
+    /// Returns the position of the corner of a contact in the deformed state.
     ///
-    /// It is relative to the node of the first scale at rest.
+    /// It is relative to the node of the first scale at rest, or to the node of the left scale of
+    /// the pair if poses are relative.
     fn corner(&self, z: &[f64], contact: usize, corner_edge: CornerEdge) -> Vec2 {
         let of_right = usize::from(!corner_edge.corner_is_left());
         let pose = self.pair_poses(z, contact)[of_right];
@@ -97,8 +101,8 @@ impl Contacts {
         let (ends, pair) = (self.ends(pair), self.pair(pair));
         let arm = pose.turn(pair.scales()[of_right].corner(corner_edge.corner()));
         let moved = pose.displacement + arm;
-        // With relative poses, positions count from the left scale of the pair instead of the first
-        // scale.
+        // With relative poses or on a curved body, `moved` is in the frame of the left scale of the
+        // pair.
         if self.relative || !self.body.is_flat() {
             let corner = of_right as f64 * pair.offset() + moved;
             if self.relative {

@@ -1,4 +1,4 @@
-//! Work that friction between scales dissipates along a path.
+//! Frictional dissipation between scales along a path.
 
 use std::iter::Sum;
 use std::ops::{Add, Mul};
@@ -9,11 +9,11 @@ use super::{Contacts, SkinPoint};
 /// Dissipation `∫ T ds` along a segment of a path.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Dissipation {
-    /// With cubics between the ends.
+    /// Dissipation if force and slip are cubic polynomials within the segment.
     pub(crate) value: f64,
-    /// By the trapezoidal rule.
+    /// Dissipation by the trapezoidal rule.
     ///
-    /// The difference from `value` measures the curvature within the segment.
+    /// Its difference from `value` indicates the error of the integration.
     pub(crate) trapezoid: f64,
 }
 
@@ -41,8 +41,8 @@ impl Contacts {
     /// Computes the frictional dissipation `∫ μ Λ |ds|` between two path points.
     ///
     /// `spans` are the lengths of the segment in units of the outgoing direction at `from` and of
-    /// the incoming direction at `to` ([`solver::Continuation::spans`]). With them both factors are
-    /// accurate to third order.
+    /// the incoming direction at `to` ([`solver::Continuation::spans`]). They define cubics for the
+    /// normal force `Λ` and the slip coordinate `s`.
     pub(crate) fn friction_work(
         &self,
         from: &SkinPoint,
@@ -59,7 +59,9 @@ impl Contacts {
         work.sum()
     }
 
-    /// Computes the dissipation of a contact that slips since `s` was `start`.
+    /// Computes the dissipation of a slipping contact.
+    ///
+    /// `sign` is the sign of `ṡ`, and `start` the slip coordinate at which the slip began.
     fn work_of_slip(
         &self,
         contact: usize,
@@ -72,13 +74,14 @@ impl Contacts {
         let Some(edge) = mode.contacts[contact].edge() else { return Dissipation::default() };
         let vectors = [&from.state.z, &to.state.z, &from.leaving, &to.arriving];
         let [first, last, leaving, arriving] = vectors.map(|z| {
-            // The force may have been handed over to another contact at the second point.
+            // Use the contacts of the first point: at the second point the force may have moved to
+            // another contact.
             let both = Self::sharing_contacts(mode, contact);
             both.map(|contact| self.own_and_flush_force(z, contact)).sum::<f64>()
         });
         let slip = self.unknown(contact, SLIP_DISTANCE);
-        // The contact may have stopped slipping at the second point, so compute its slip from the
-        // poses.
+        // If the contact stops slipping at the second point, its slip distance is reset there, so
+        // compute the slip from the poses.
         let end = sign * (self.slip_coordinate(&to.state, edge, contact) - start);
         let slip_distances = [from.state.z[slip], end];
         let rates = [spans[0] * from.leaving[slip], spans[1] * to.arriving[slip]];
@@ -103,8 +106,8 @@ impl Contacts {
         else {
             return Dissipation::default();
         };
-        // The state may have changed at the second point, so use the state of the first point for
-        // both.
+        // Use the friction state of the first point for both points, because it may change at the
+        // second point.
         let by_normal_force = self.by_normal_force(contact, friction_state);
         let multiplier = self.unknown(contact, STICK_MULTIPLIER);
         let ends = [(&from.state, &from.leaving, spans[0]), (&to.state, &to.arriving, spans[1])];
@@ -124,9 +127,10 @@ impl Contacts {
     }
 }
 
-/// Computes `∫ f dg` over a unit interval for cubics.
+/// Computes `∫ f dg` over a unit interval for two cubic polynomials `f` and `g`.
 ///
-/// They are given by values and slopes at both ends. Exact with three Gauss points.
+/// The arguments are `[values, slopes]` of `f` and of `g`, each at both ends of the interval. Three
+/// Gauss points integrate the product exactly.
 pub(crate) fn product_integral(
     [values, slopes]: [[f64; 2]; 2],
     [of_g, slopes_of_g]: [[f64; 2]; 2],

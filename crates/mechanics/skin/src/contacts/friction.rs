@@ -1,29 +1,35 @@
 //! Friction between neighbouring scales, with stick and slip.
 //!
-//! The contact force has a component `T` along its edge. On the left scale it acts in the direction
-//! of the normal force rotated counter-clockwise by a quarter turn. With the normal forces `Λ` on
-//! the edge and the slip coordinate `s` of the left scale in that direction
+//! The contact force has a tangential component `T` along its edge. On the left scale `T` acts in
+//! the direction of the normal force rotated counter-clockwise by a quarter turn. The slip
+//! coordinate `s` is the position of the left scale in this direction, and `Λ` is the sum of the
+//! normal forces on the edge:
 //!
 //! ```text
 //! |T| ≤ μ Λ,    stick:  s = s₀, T unknown,    slip:  T = −μ Λ sign ṡ                          (Q1)
 //! ```
 //!
-//! Sticking is an equality constraint. Its unknown is the *stick multiplier* `a = T + μ Λ`, which
-//! vanishes where the contact starts to slip forward; backward slip starts where `2 μ Λ − a`
-//! vanishes. The unknown of a slipping contact is its slip distance, which only grows: where it
-//! would decrease the contact sticks (Q2). Friction thus adds two constraints per contact:
+//! Sticking is an equality constraint. Its unknown is the *stick multiplier* `a = T + μ Λ`. The
+//! contact starts to slip forward where `a` vanishes, and backward where `2 μ Λ − a` vanishes. The
+//! unknown of a slipping contact is its slip distance `σ (s − s₀)` in the direction `σ` = ±1, which
+//! only grows: where it would decrease, the contact sticks (Q2). Friction thus adds two constraints
+//! to each contact:
 //!
 //! ```text
 //! 0 ≤ a   while sticking          0 ≤ σ (s − s₀)  ⟂  2 μ Λ − a ≥ 0
 //! ```
 //!
-//! If the sides of a pair lie on each other, its two contacts slide along one line and only the sum
-//! of their friction matters. One of them, the *carrier*, then carries the friction of both; the
-//! other one is *shared*. Coinciding corners are *locked*: they keep the ratio `T/Λ` with which
-//! they met, which is the ratio for sliding on along the edge beyond the corner. A corner at the
-//! position of a needle tip moves with the tip. While both slide the corner is locked with the
-//! ratio of sliding in that direction; while both stick only the sum of their friction matters, and
-//! tip and corner take equal fractions of their limits ([`TipFriction`]).
+//! Special contacts:
+//!
+//! - If the sides of a pair lie on each other, both contacts of the pair slide along one line, and
+//!   only the sum of their friction matters. One contact, the *carrier*, carries the friction of
+//!   both; the other contact is *shared*.
+//! - Coinciding corners are *locked*: they keep the ratio `T/Λ` with which they met. It is also the
+//!   ratio with which the contact would continue to slide along the next edge.
+//! - A corner at the position of a needle tip moves with the tip. While the tip slides, the corner
+//!   is locked with the ratio `T/Λ` of sliding in this direction. While the tip sticks, only the
+//!   sum of both friction forces matters, and tip and corner take equal fractions of their limits
+//!   ([`TipFriction`]).
 
 use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose, quarter};
 use geometry::Vec2;
@@ -31,45 +37,46 @@ use solver::{Residual, Tangent};
 
 use super::{Contacts, LEVELS, SkinMode, SkinState};
 
-/// Slots of the friction constraints of a contact, after the force constraints.
+/// Index of the stick multiplier among the constraints of a contact.
 pub(super) const STICK_MULTIPLIER: usize = FORCES;
+/// Index of the slip distance among the constraints of a contact.
 pub(super) const SLIP_DISTANCE: usize = FORCES + 1;
 
-/// Normal forces below this belong to a contact that has just closed.
+/// Normal force below which a contact counts as just closed.
 pub(super) const NO_FORCE: f64 = 1e-12;
 
-/// Relative tolerance within which `|T/Λ|` equals the coefficient of friction.
+/// Relative tolerance within which `|T/Λ|` counts as equal to the coefficient of friction.
 const SLIDES: f64 = 1e-9;
 
 /// Friction state of a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum FrictionState {
-    /// Open, or the other contact of the pair carries its friction.
+    /// The contact is open, or the other contact of the pair carries its friction.
     #[default]
     None,
-    /// Sticks at the slip coordinate `anchor`.
+    /// The contact sticks.
     Stick {
-        /// Slip coordinate `s₀`.
+        /// Slip coordinate `s₀` at which it sticks.
         anchor: f64,
     },
-    /// Slips with the sign of `ṡ`, since `s` was `start`.
+    /// The contact slips.
     Slip {
-        /// `σ`, 1 or −1.
+        /// Sign `σ` of the slip rate `ṡ`: 1 or −1.
         sign: f64,
-        /// `s` at the start of slip.
+        /// Slip coordinate `s` at which the slip started.
         start: f64,
     },
-    /// Locked with a constant ratio `T/Λ`.
+    /// The contact keeps a constant ratio `T/Λ`.
     ///
-    /// The corners coincide, or a needle tip is at the corner.
+    /// Either the corners coincide, or a sliding needle tip is at the corner.
     Locked {
         /// Ratio `T/Λ`.
         ratio: f64,
     },
-    /// A sticking needle tip is at the corner.
+    /// A sticking needle tip is at the corner of the contact.
     ///
-    /// The unknown is `T + 2 μ Λ`, which vanishes only with `Λ`, because the tip determines the
-    /// limits of friction.
+    /// The unknown is `T + 2 μ Λ`. It vanishes only together with `Λ`, because the equations of the
+    /// tip determine when tip and corner slide.
     WithTip,
 }
 
@@ -79,7 +86,7 @@ impl FrictionState {
         self != Self::None
     }
 
-    /// Returns true if both stick, both are locked, or both slip in the same direction.
+    /// Returns true if both states are of the same kind, and slip in the same direction if any.
     pub(super) fn is_same_form(self, other: Self) -> bool {
         match (self, other) {
             (Self::Slip { sign, .. }, Self::Slip { sign: of_other, .. }) => sign == of_other,
@@ -87,34 +94,36 @@ impl FrictionState {
         }
     }
 
-    /// Returns whether the stick and the slip constraint are active.
+    /// Returns two flags: whether the stick and whether the slip constraint is active.
     pub(super) fn acting(self) -> [bool; 2] {
         [matches!(self, Self::Stick { .. } | Self::WithTip), matches!(self, Self::Slip { .. })]
     }
 }
 
-/// Friction of a contact at a sticking needle tip.
+/// Friction of a contact between scales with a sticking needle tip at its corner.
 pub(crate) struct TipFriction {
-    /// Unknown `T + 2 μ Λ` of the contact.
+    /// Index of the unknown `T + 2 μ Λ` of the contact.
     ///
-    /// Its row takes the equation that the tip adds.
+    /// The row of this unknown contains the equation of the tip.
     pub(crate) unknown: usize,
-    /// `T`.
+    /// Tangential force `T`.
     pub(crate) traction: f64,
-    /// `μ Λ`.
+    /// Friction limit `μ Λ`.
     pub(crate) limit: f64,
-    /// `μ`.
+    /// Coefficient of friction `μ` between scales.
     pub(crate) friction: f64,
-    /// Unknowns of the normal forces in `Λ`.
+    /// Indices of the unknown normal forces with the sum `Λ`.
     pub(crate) normal_forces: Vec<usize>,
 }
 
-/// Friction of a closed contact: state, traction, slip coordinate with derivatives.
+/// Friction of a closed contact.
 struct Sliding {
     friction_state: FrictionState,
+    /// Tangential force `T`.
     traction: f64,
-    /// `∂T/∂Λ` at a constant stick multiplier.
+    /// Derivative `∂T/∂Λ` at a constant stick multiplier.
     by_normal_force: f64,
+    /// Slip coordinate `s` with its derivatives.
     slide: Gap,
 }
 
@@ -124,7 +133,7 @@ impl Contacts {
         self.law.friction() > 0.0
     }
 
-    /// Returns true if friction acts at any contact.
+    /// Returns true if at least one contact has a friction state other than `None`.
     pub(crate) fn friction_acts(state: &SkinState) -> bool {
         state
             .mode
@@ -133,7 +142,7 @@ impl Contacts {
             .any(|friction_state| *friction_state != FrictionState::None)
     }
 
-    /// Counts the sticking and the slipping contacts.
+    /// Returns the number of sticking and the number of slipping contacts.
     pub(crate) fn stick_slip_counts(state: &SkinState) -> [usize; 2] {
         [0, 1].map(|k| {
             state
@@ -145,19 +154,21 @@ impl Contacts {
         })
     }
 
-    /// Returns true if a constraint belongs to friction.
+    /// Returns true if a constraint is the stick multiplier or the slip distance of a contact.
     pub(crate) fn is_friction(&self, constraint: usize) -> bool {
         constraint < self.forces.len() && self.contact_of(constraint).1 >= FORCES
     }
 
     /// Returns true if a constraint is a friction constraint of a slipping contact.
     pub(crate) fn slips(&self, state: &SkinState, constraint: usize) -> bool {
-        // Shared and locked contacts have friction constraints, too, but none of them is active.
+        // Shared and locked contacts also have friction constraints, but none of these is active.
         self.is_friction(constraint)
             && state.mode.friction_states[self.contact_of(constraint).0].acting() == [false, true]
     }
 
-    /// Iterates over history variables: anchors, and ratios of locked contacts.
+    /// Iterates over the anchors of sticking contacts and the ratios of locked contacts.
+    ///
+    /// Each item is the index of the contact and its anchor or ratio.
     pub(crate) fn anchors(state: &SkinState) -> impl Iterator<Item = (usize, f64)> {
         let friction_states = state.mode.friction_states.iter().enumerate();
         friction_states.filter_map(|(contact, friction_state)| match friction_state {
@@ -168,7 +179,9 @@ impl Contacts {
         })
     }
 
-    /// Evaluates in `state` the anchor or ratio that a contact will have in state `to`.
+    /// Evaluates the anchor or ratio in `state` that a contact has from state `to` on.
+    ///
+    /// Used to differentiate anchors at the event at which they are set.
     pub(crate) fn anchor_value(
         &self,
         state: &SkinState,
@@ -181,20 +194,20 @@ impl Contacts {
         }
     }
 
-    /// Shifts the anchor of a contact.
+    /// Shifts the anchor or ratio of a contact.
     ///
-    /// For a perturbed row, which reaches the same state with another history.
+    /// Used in rows with a perturbed parameter, in which contacts begin to stick elsewhere.
     pub(crate) fn shift_anchor(&mut self, contact: usize, by: f64) {
         self.anchor_shifts.push((contact, by));
     }
 
-    /// Returns the anchor of a contact, given its value in the mode.
+    /// Returns the anchor or ratio of a contact: the value `of_mode` plus its shift, if any.
     fn shifted_anchor(&self, contact: usize, of_mode: f64) -> f64 {
         let moved = self.anchor_shifts.iter().find(|(moved, _)| *moved == contact);
         of_mode + moved.map_or(0.0, |(_, by)| *by)
     }
 
-    /// Returns the friction ratio of a locked contact; 0 for other contacts.
+    /// Returns the ratio `T/Λ` of a locked contact; 0 for other contacts.
     pub(super) fn locked_ratio(&self, mode: &SkinMode, contact: usize) -> f64 {
         match mode.friction_states.get(contact) {
             Some(FrictionState::Locked { ratio }) => self.shifted_anchor(contact, *ratio),
@@ -210,7 +223,7 @@ impl Contacts {
             else {
                 continue;
             };
-            // Keep `T` continuous: the multiplier is 0 after forward slip and `2 μ Λ` after
+            // `T` is continuous if the multiplier is 0 after forward slip and `2 μ Λ` after
             // backward slip.
             let multiplier = (1.0 - sign) * self.law.friction() * self.normal_force(state, contact);
             state.mode.friction_states[contact] =
@@ -219,7 +232,7 @@ impl Contacts {
         }
     }
 
-    /// Computes the friction of a contact as a fraction of its limit, from −1 to 1.
+    /// Computes the friction `T/(μ Λ)` of a contact as a fraction of its limit, from −1 to 1.
     pub(crate) fn mobilised(&self, state: &SkinState, contact: usize) -> f64 {
         if !self.has_friction() {
             return 0.0;
@@ -229,8 +242,8 @@ impl Contacts {
 
     /// Locks the friction of a contact because a needle tip is at its corner.
     ///
-    /// The ratio `T/Λ` is unchanged, or with `sliding` it is the ratio of sliding with the tip, and
-    /// `sliding` is the sign of `T`.
+    /// If `sliding` is `None`, the ratio `T/Λ` keeps its value. Otherwise `sliding` is the sign of
+    /// `T` while the corner slides with the tip, and the ratio is `±μ`.
     pub(crate) fn lock(&self, state: &mut SkinState, contact: usize, sliding: Option<f64>) {
         if !self.has_friction() {
             return;
@@ -239,13 +252,13 @@ impl Contacts {
         let ratio =
             sliding.map_or_else(|| self.ratio(state, carrier), |sign| sign * self.law.friction());
         state.mode.friction_states[carrier] = FrictionState::Locked { ratio };
-        // A locked contact has no friction unknown.
+        // A locked contact has no active friction unknown, so set both to zero.
         self.set_friction(state, carrier, 0.0, true);
     }
 
-    /// Makes the corner of a contact stick with the needle tip at its position.
+    /// Makes a contact stick together with the needle tip at its corner.
     ///
-    /// `T` stays as it is, or takes this `fraction` of its limit.
+    /// `T` keeps its value, or becomes `fraction` times its limit `μ Λ` if a fraction is given.
     pub(crate) fn stick_with_tip(
         &self,
         state: &mut SkinState,
@@ -263,7 +276,9 @@ impl Contacts {
         self.set_friction(state, carrier, multiplier, true);
     }
 
-    /// Evaluates the friction of a contact that sticks with the tip at its corner.
+    /// Evaluates the friction of a contact that sticks together with the tip at its corner.
+    ///
+    /// `None` if the contact is in another friction state.
     pub(crate) fn friction_with_tip(
         &self,
         state: &SkinState,
@@ -287,10 +302,10 @@ impl Contacts {
         })
     }
 
-    /// Releases a contact that a needle tip had locked or made stick.
+    /// Releases a contact that was locked or stuck because a needle tip was at its corner.
     ///
-    /// It then sticks or slips on its edge. If the needle tip `slides`, a corner at its friction
-    /// limit keeps sliding, too.
+    /// If the needle tip `slides` and the contact is at its friction limit, the contact slips on
+    /// its edge; otherwise it sticks.
     pub(crate) fn release(&self, state: &mut SkinState, contact: usize, slides: bool) {
         if !self.has_friction() {
             return;
@@ -303,10 +318,10 @@ impl Contacts {
         };
         let ratio = self.ratio(state, carrier);
         let position = self.slip_coordinate(state, edge, carrier);
-        // Keep `T` continuous: it was `ratio Λ` while locked, and the multiplier is `T + μ Λ`.
+        // `T = ratio Λ` is continuous with the multiplier `T + μ Λ`.
         let multiplier = (ratio + self.law.friction()) * self.normal_force(state, carrier);
         state.mode.friction_states[carrier] = if slides && self.is_sliding(ratio) {
-            // Friction opposes the motion, so the slip has the opposite sign of the ratio.
+            // Friction opposes the slip, so the sign of the slip is opposite to the sign of `T/Λ`.
             FrictionState::Slip { sign: -ratio.signum(), start: position }
         } else {
             FrictionState::Stick { anchor: position }
@@ -314,7 +329,7 @@ impl Contacts {
         self.set_friction(state, carrier, multiplier, true);
     }
 
-    /// Adds the friction of a pair to its balance, and the stick and slip equations.
+    /// Adds the friction forces of a pair to its balance, and its stick and slip equations.
     pub(super) fn add_friction(
         &self,
         state: &SkinState,
@@ -339,21 +354,20 @@ impl Contacts {
             }
             match friction_state {
                 FrictionState::Stick { anchor } => {
-                    // While sticking `T = a − μ Λ`, so its derivative with respect to the
-                    // multiplier is 1.
+                    // While sticking `T = a − μ Λ`, so the derivative of `T` with respect to the
+                    // multiplier `a` is 1.
                     pair.add_column(matrix, multiplier, &along.map(|slope| -slope));
                     residual.add(multiplier, slide.value - self.shifted_anchor(contact, anchor));
                     pair.add_row(matrix, multiplier, &along);
                 }
                 FrictionState::Slip { sign, start } => {
-                    // Counted from the start of slip, so the slip distance starts at zero and only
-                    // grows.
+                    // The slip distance counts from `start`, so it is zero when the slip begins.
                     residual.add(slip, -sign * (slide.value - start));
                     residual.add(slip, state.z[slip]);
                     pair.add_row(matrix, slip, &along.map(|slope| -sign * slope));
                     matrix.add(slip, slip, 1.0);
                 }
-                // The tip adds the equation of the row.
+                // The equation in the row of the multiplier is added by the needle.
                 FrictionState::WithTip => {
                     pair.add_column(matrix, multiplier, &along.map(|slope| -slope));
                 }
@@ -363,11 +377,10 @@ impl Contacts {
         }
     }
 
-    /// Evaluates the condition of an inactive friction constraint.
+    /// Evaluates the condition `2 μ Λ − a` of backward slip for a sticking contact.
     ///
-    /// With a direction for `z` it is the derivative of the condition.
-    ///
-    /// Only the slip condition of a sticking contact can be violated.
+    /// If `z` is a direction instead of the unknowns, the result is the derivative of the condition
+    /// along it. `None` for all other friction constraints, which have no condition while inactive.
     pub(super) fn slot_condition(
         &self,
         state: &SkinState,
@@ -380,13 +393,13 @@ impl Contacts {
         if slot != SLIP_DISTANCE {
             return None;
         }
-        // Linear in the unknowns, so a direction in place of `z` gives the derivative.
+        // The condition is linear in `z`, so a direction in place of `z` gives the derivative.
         let normal_force: f64 =
             self.normal_force_unknowns(mode, contact).map(|force| z[force]).sum();
         Some(2.0 * self.law.friction() * normal_force - z[self.unknown(contact, STICK_MULTIPLIER)])
     }
 
-    /// Evaluates the directional derivative of a friction equation or condition.
+    /// Evaluates the derivative of a friction equation or condition along `direction`.
     pub(super) fn slot_slope(
         &self,
         state: &SkinState,
@@ -406,7 +419,7 @@ impl Contacts {
         }
     }
 
-    /// Evaluates the directional derivative of the tangential displacement of a contact.
+    /// Evaluates the derivative of the slip coordinate of a contact along `direction`.
     fn slide_rate(&self, state: &SkinState, direction: &[f64], contact: usize) -> f64 {
         let sliding = self.friction_of(state, contact, &self.pair_poses(&state.z, contact));
         sliding.map_or(0.0, |sliding| {
@@ -414,9 +427,9 @@ impl Contacts {
         })
     }
 
-    /// Fills in the slip conditions, or with a direction for `z` their derivatives.
+    /// Writes the conditions of [`Self::slot_condition`] of all contacts into `values`.
     ///
-    /// Contacts without such a condition get `otherwise`.
+    /// If `z` is a direction, these are derivatives. Contacts without a condition get `otherwise`.
     pub(super) fn friction_conditions(
         &self,
         state: &SkinState,
@@ -430,14 +443,14 @@ impl Contacts {
         }
     }
 
-    /// Returns true if the other contact of the pair carries the friction of this one.
+    /// Returns true if the other contact of the pair carries the friction of `contact`.
     pub(super) fn is_shared(mode: &SkinMode, contact: usize) -> bool {
         mode.friction_states[contact] == FrictionState::None
             && mode.contacts[contact] != CornerContact::Open
             && mode.friction_states[Self::other_contact(contact)].carries_friction()
     }
 
-    /// Returns the contact that carries the friction of a contact.
+    /// Returns the contact that carries the friction of `contact`: itself, or the other one.
     fn carrier_of(mode: &SkinMode, contact: usize) -> usize {
         if Self::is_shared(mode, contact) { Self::other_contact(contact) } else { contact }
     }
@@ -447,14 +460,14 @@ impl Contacts {
         matches!(mode.friction_states[Self::carrier_of(mode, contact)], FrictionState::Slip { .. })
     }
 
-    /// Iterates over a carrier and the contact that shares it, if any.
+    /// Iterates over a carrier and the shared contact of its pair, if any.
     pub(super) fn sharing_contacts(mode: &SkinMode, carrier: usize) -> impl Iterator<Item = usize> {
         let shared =
             Some(Self::other_contact(carrier)).filter(|&other| Self::is_shared(mode, other));
         std::iter::once(carrier).chain(shared)
     }
 
-    /// Computes the friction on the left scale for a given normal force.
+    /// Computes the friction force on the left scale; `normal_force` is the force of the contact.
     pub(super) fn traction_on_left(
         &self,
         state: &SkinState,
@@ -463,8 +476,8 @@ impl Contacts {
     ) -> Vec2 {
         let poses = self.pair_poses(&state.z, contact);
         match (self.friction_of(state, contact, &poses), normal_force.norm()) {
-            // Without a force the direction is undefined. Coinciding corners have no edge to slide
-            // on; their friction follows from the locked ratio.
+            // The direction of a zero force is undefined. Coinciding corners do not slide along an
+            // edge; their friction follows from the locked ratio.
             (Some(sliding), size) if size > 0.0 => sliding.traction * quarter(normal_force) / size,
             _ => self.locked_ratio(&state.mode, contact) * quarter(normal_force),
         }
@@ -480,7 +493,7 @@ impl Contacts {
         let slide = self.slide(edge, contact, poses);
         let normal_force: f64 =
             self.normal_force_unknowns(&state.mode, contact).map(|force| state.z[force]).sum();
-        // Inactive multipliers are zero, so this holds in every friction state.
+        // An inactive multiplier is zero, so the formula below is valid in every friction state.
         let multiplier = state.z[self.unknown(contact, STICK_MULTIPLIER)];
         Some(Sliding {
             friction_state,
@@ -490,7 +503,7 @@ impl Contacts {
         })
     }
 
-    /// Returns `∂T/∂Λ` at a constant multiplier.
+    /// Returns the derivative `∂T/∂Λ` at a constant stick multiplier.
     pub(super) fn by_normal_force(&self, contact: usize, friction_state: FrictionState) -> f64 {
         match friction_state {
             FrictionState::Stick { .. } => -self.law.friction(),
@@ -501,9 +514,9 @@ impl Contacts {
         }
     }
 
-    /// Returns the edge on which a contact slides; `None` for coinciding corners.
+    /// Returns the corner and edge of a contact that slides along an edge.
     ///
-    /// The contact law rotates the force of coinciding corners.
+    /// `None` for open contacts and coinciding corners.
     pub(super) fn edge_of(mode: &SkinMode, contact: usize) -> Option<CornerEdge> {
         let contact = mode.contacts[contact];
         contact.edge().filter(|_| !matches!(contact, CornerContact::Corner(_)))
@@ -513,14 +526,14 @@ impl Contacts {
         self.pair(Self::pair_of(contact)).slide(edge, left, right)
     }
 
-    /// Returns the unknown of a constraint of a contact.
+    /// Returns the index of the unknown of constraint number `slot` of a contact.
     pub(super) fn unknown(&self, contact: usize, slot: usize) -> usize {
         self.forces[self.slots * contact + slot]
     }
 
-    /// Iterates over the normal-force unknowns on the edge of a carrier.
+    /// Iterates over the unknown normal forces on the edge of a carrier.
     ///
-    /// The shared contact is included.
+    /// Includes the forces of the shared contact, if any.
     pub(super) fn normal_force_unknowns(
         &self,
         mode: &SkinMode,
@@ -534,14 +547,14 @@ impl Contacts {
         })
     }
 
-    /// Returns the other contact of the pair.
+    /// Returns the contact at the other level of the same pair.
     pub(super) fn other_contact(contact: usize) -> usize {
-        // The two contacts of a pair are consecutive, so their numbers add up to a known sum.
+        // The pair has the contacts `first` and `first + 1`, with the sum `2 first + 1`.
         let first = Self::contacts_of(Self::pair_of(contact)).start;
         2 * first + LEVELS.len() - 1 - contact
     }
 
-    /// Computes `T/Λ` of a contact.
+    /// Computes the ratio `T/Λ` of a contact; 0 if its normal force is zero.
     pub(super) fn ratio(&self, state: &SkinState, contact: usize) -> f64 {
         match state.mode.friction_states[contact] {
             FrictionState::Locked { ratio } => ratio,
@@ -549,7 +562,7 @@ impl Contacts {
             FrictionState::Stick { .. } | FrictionState::WithTip => {
                 let normal_force = self.normal_force(state, contact);
                 let multiplier = state.z[self.unknown(contact, STICK_MULTIPLIER)];
-                // Without normal force the ratio would be a quotient of round-off errors.
+                // Without a normal force the quotient would consist of round-off errors.
                 if normal_force > NO_FORCE {
                     multiplier / normal_force
                         + self.by_normal_force(contact, state.mode.friction_states[contact])
@@ -558,19 +571,19 @@ impl Contacts {
                 }
             }
             FrictionState::None if Self::is_shared(&state.mode, contact) => {
-                // Both slide along one line, so the shared contact has the ratio of its carrier.
+                // Both contacts of the pair slide along one line, so they have the same ratio.
                 self.ratio(state, Self::other_contact(contact))
             }
             FrictionState::None => 0.0,
         }
     }
 
-    /// Returns true if the ratio equals the coefficient of friction.
+    /// Returns true if the magnitude of the ratio `T/Λ` equals the coefficient of friction.
     pub(super) fn is_sliding(&self, ratio: f64) -> bool {
         ratio.abs() >= self.law.friction() * (1.0 - SLIDES)
     }
 
-    /// Computes the total normal force on the edge of a carrier.
+    /// Computes the normal force `Λ` of a carrier, including its shared contact.
     pub(super) fn normal_force(&self, state: &SkinState, contact: usize) -> f64 {
         self.normal_force_unknowns(&state.mode, contact).map(|force| state.z[force]).sum()
     }

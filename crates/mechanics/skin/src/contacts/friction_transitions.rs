@@ -1,7 +1,7 @@
 //! Transitions of contacts with friction at events (Q2).
 //!
-//! This module carries out transitions. The rate problem of the solver (`solver/src/rate_problem.rs`)
-//! chooses between stick and slip: it tries transitions until the rates satisfy all constraints.
+//! This module changes the friction states. The solver chooses between stick and slip
+//! (`solver/src/rate_problem.rs`): it tries transitions until the rates satisfy all constraints.
 
 use contact::{CornerContact, CornerEdge, Force};
 
@@ -9,10 +9,10 @@ use super::friction::{FrictionState, NO_FORCE, SLIP_DISTANCE, STICK_MULTIPLIER};
 use super::{Contacts, SkinState};
 
 impl Contacts {
-    /// Updates the friction of a pair after a force of `contact` changed sides.
+    /// Updates the friction of a pair after a normal force of `contact` began to act or vanished.
     ///
-    /// `before` is the state at the event. `is_back` is true if parting corners return to the
-    /// previous edge.
+    /// `before` is the state before the transition. `is_back` is true if a corner returns from the
+    /// other corner to the edge along which it arrived.
     pub(super) fn update_friction(
         &self,
         state: &mut SkinState,
@@ -21,7 +21,7 @@ impl Contacts {
         is_back: bool,
     ) {
         let pair = [contact, Self::other_contact(contact)];
-        // Evaluate ratios before the change, because afterwards the forces are in other unknowns.
+        // Evaluate ratios in `before`, because the transition moves forces to other unknowns.
         let ratios = pair.map(|contact| self.ratio(before, contact));
         let mut friction_states =
             pair.map(|contact| self.inherited_friction(before, contact, state));
@@ -31,7 +31,8 @@ impl Contacts {
         if friction_states.iter().all(|friction_state| friction_state.carries_friction())
             && Self::slide_along_one_line(state, contact)
         {
-            // The previous carrier stays the carrier, because its anchor is known.
+            // A contact that already carried friction remains the carrier, because its anchor is
+            // known. The other contact becomes shared.
             let shared = usize::from(before.mode.friction_states[contact].carries_friction());
             friction_states[shared] = FrictionState::None;
             if let Some(anchor) =
@@ -43,10 +44,10 @@ impl Contacts {
         self.set_friction_of_pair(state, before, pair, ratios, friction_states);
     }
 
-    /// Returns the friction state of a contact that closes, opens, or reaches or leaves a corner.
+    /// Returns the friction state after a contact closed, opened, or reached or left a corner.
     ///
-    /// `ratio` is `T/Λ` before the change. `None` for other changes, after which the contact keeps
-    /// the inherited friction.
+    /// `ratio` is `T/Λ` before this change. `None` for other changes, after which the contact keeps
+    /// its inherited friction state.
     fn changed_friction(
         &self,
         state: &SkinState,
@@ -63,12 +64,12 @@ impl Contacts {
         };
         let here = self.slip_coordinate(state, edge, contact);
         match before.mode.contacts[contact] {
-            // A corner that continues with the sliding ratio slips on along the next edge.
+            // A corner that leaves along the next edge with the ratio of sliding continues to slip.
             CornerContact::Corner(_) if self.is_sliding(ratio) && !is_back => {
                 Some(FrictionState::Slip { sign: -ratio.signum(), start: here })
             }
-            // A corner that returns, or has a smaller ratio, sticks at the end of its edge. A newly
-            // closed contact has not slid yet; the rates decide whether it slips at once.
+            // A corner that returns, or that has a smaller ratio, sticks at the end of its edge. A
+            // newly closed contact starts as sticking; the rates decide whether it slips at once.
             CornerContact::Open | CornerContact::Corner(_) => {
                 Some(FrictionState::Stick { anchor: here })
             }
@@ -76,10 +77,10 @@ impl Contacts {
         }
     }
 
-    /// Returns the anchor of a carrier that stops slipping under the friction of both contacts.
+    /// Returns the anchor of a carrier that must stick because it now carries shared friction.
     ///
-    /// Two contacts that slid in opposite directions have less friction than the limit together.
-    /// `None` if the carrier keeps its friction state `carried`.
+    /// If both contacts slid in opposite directions, the sum of their friction is below the limit,
+    /// so the carrier sticks. `None` if the carrier keeps its friction state `carried`.
     fn anchor_of_carrier(
         &self,
         state: &SkinState,
@@ -99,7 +100,7 @@ impl Contacts {
 
     /// Sets the friction states of a pair and the unknowns that belong to them.
     ///
-    /// `ratios` are the values of `T/Λ` before the change.
+    /// `before` is the state before the change, and `ratios` are the values of `T/Λ` in it.
     fn set_friction_of_pair(
         &self,
         state: &mut SkinState,
@@ -108,8 +109,8 @@ impl Contacts {
         ratios: [f64; 2],
         friction_states: [FrictionState; 2],
     ) {
-        // Set both states first: the normal force that bounds a multiplier depends on which contact
-        // is shared.
+        // Set both friction states before the multipliers: the upper limit of a multiplier depends
+        // on which contact is shared.
         for (contact, friction_state) in pair.into_iter().zip(friction_states) {
             state.mode.friction_states[contact] = friction_state;
         }
@@ -117,8 +118,8 @@ impl Contacts {
             (ratios[k] + self.law.friction()) * self.own_and_flush_force(&state.z, pair[k])
         });
         for (k, (contact, friction_state)) in pair.into_iter().zip(friction_states).enumerate() {
-            // The carrier takes over the tangential force of the shared contact, so their sum is
-            // continuous.
+            // The carrier also takes the tangential force of the shared contact, so that the sum of
+            // both forces is continuous.
             let is_carrier = Self::is_shared(&state.mode, pair[1 - k]);
             let shared = if is_carrier { multipliers[1 - k] } else { 0.0 };
             let is_new = before.mode.friction_states[contact] != friction_state;
@@ -126,13 +127,15 @@ impl Contacts {
         }
     }
 
-    /// Returns the normal force of a contact on its edge.
+    /// Returns the normal force of a contact: the sum of its own and its flush force.
     pub(super) fn own_and_flush_force(&self, z: &[f64], contact: usize) -> f64 {
         let forces = self.forces_of(z, contact);
         forces[Force::Own as usize] + forces[Force::Flush as usize]
     }
 
-    /// Returns the friction that a contact inherits, on its edge in the state `now`.
+    /// Returns the friction state that a contact keeps across an event.
+    ///
+    /// Its slip coordinates refer to the edge of the contact in the state `now`, after the event.
     fn inherited_friction(
         &self,
         before: &SkinState,
@@ -143,11 +146,11 @@ impl Contacts {
         let from = if is_shared { Self::other_contact(contact) } else { contact };
         let friction_state = before.mode.friction_states[from];
         let Some(edge) = now.mode.contacts[contact].edge() else { return FrictionState::None };
-        // On the same edge the anchor, or the start of slip, is unchanged.
+        // On the same edge, anchors and starts of slip keep their values.
         if !is_shared && before.mode.contacts[contact].edge() == Some(edge) {
             return friction_state;
         }
-        // On another edge the slip coordinate has another origin.
+        // On another edge the slip coordinate has another origin, so use the current position.
         let here = self.slip_coordinate(now, edge, contact);
         match friction_state {
             FrictionState::Stick { .. } => FrictionState::Stick { anchor: here },
@@ -156,11 +159,13 @@ impl Contacts {
         }
     }
 
-    /// Returns true if the sides of a pair lie on each other at both contacts.
+    /// Returns true if both contacts of a pair have a corner on a side of the neighbour.
+    ///
+    /// Both contacts then slide along one line.
     fn slide_along_one_line(state: &SkinState, contact: usize) -> bool {
         [contact, Self::other_contact(contact)].into_iter().all(|contact| {
             match state.mode.contacts[contact] {
-                // A tip on the top or base of its neighbour slides along that, not along the sides.
+                // A tip on the top or base of the neighbour does not slide along the sides.
                 CornerContact::Edge(edge) => {
                     !matches!(edge, CornerEdge::TopRightOnTop | CornerEdge::BottomLeftOnBase)
                 }
@@ -169,7 +174,9 @@ impl Contacts {
         })
     }
 
-    /// Sets active flags and values of the friction unknowns of a contact.
+    /// Sets active flags and values of the friction unknowns of a contact from its friction state.
+    ///
+    /// `multiplier` is `T + μ Λ`, and `is_new` is true if the friction state has changed.
     pub(super) fn set_friction(
         &self,
         state: &mut SkinState,
@@ -181,9 +188,10 @@ impl Contacts {
         let first = self.slots * contact;
         [state.active[first + STICK_MULTIPLIER], state.active[first + SLIP_DISTANCE]] =
             [sticks, slips];
-        // While sticking the multiplier is in `[0, 2 μ Λ]`; clamp it against round-off.
+        // The multiplier of a sticking contact lies between 0 and `2 μ Λ`; clamping removes
+        // round-off.
         let largest = 2.0 * self.law.friction() * self.normal_force(state, contact);
-        // With a tip at the corner the unknown is larger by `μ Λ`.
+        // With a tip at the corner the unknown is `T + 2 μ Λ`, larger by `μ Λ`.
         let offset = if state.mode.friction_states[contact] == FrictionState::WithTip {
             0.5 * largest
         } else {
@@ -191,16 +199,17 @@ impl Contacts {
         };
         state.z[self.unknown(contact, STICK_MULTIPLIER)] =
             if sticks { multiplier.clamp(0.0, largest.max(0.0)) + offset } else { 0.0 };
-        // A contact that keeps slipping keeps its slip distance.
+        // Reset the slip distance unless the contact continues to slip.
         if is_new || !slips {
             state.z[self.unknown(contact, SLIP_DISTANCE)] = 0.0;
         }
     }
 
-    /// Moves a contact to its next friction state where it starts or stops slipping.
+    /// Moves a contact to its next friction state when it starts or stops slipping.
     ///
-    /// Returns the constraint that must hold on the outgoing branch, or `None` if there
-    /// is no such transition.
+    /// `slot` is the friction constraint that becomes active or inactive (`acts`). Returns the
+    /// constraint of the contact that the outgoing branch must satisfy, or `None` if there is no
+    /// such transition.
     ///
     /// | Before | Condition | After |
     /// |---|---|---|
@@ -224,8 +233,8 @@ impl Contacts {
                 (FrictionState::Slip { sign: -1.0, start: here }, SLIP_DISTANCE)
             }
             (FrictionState::Slip { sign, .. }, SLIP_DISTANCE, false) => {
-                // After forward slip the multiplier is zero, after backward slip it is at its
-                // maximum: that limit has to hold after the contact has stopped.
+                // After forward slip the multiplier is zero, after backward slip it is at its upper
+                // limit. The outgoing branch must not violate this limit.
                 (
                     FrictionState::Stick { anchor: here },
                     if sign > 0.0 { STICK_MULTIPLIER } else { SLIP_DISTANCE },
@@ -233,14 +242,13 @@ impl Contacts {
             }
             _ => return None,
         };
-        // Compute the multiplier that keeps `T` continuous while the mode still holds the old
-        // ratio.
+        // Before changing the friction state, compute the multiplier that keeps `T` continuous.
         let multiplier =
             (self.ratio(state, contact) + self.law.friction()) * self.normal_force(state, contact);
         state.mode.friction_states[contact] = friction_state;
         self.set_friction(state, contact, multiplier, true);
-        // A contact that has just closed must carry a compressive force, whatever its friction
-        // state.
+        // If the contact has just closed, the outgoing branch must have a compressive force in any
+        // friction state.
         Some(if has_force { valid } else { Force::Own as usize })
     }
 }

@@ -1,4 +1,4 @@
-//! The discrete state of a skin: contacts, friction and needle.
+//! Discrete state of a row or a strip: contacts, friction and needle.
 
 use contact::CornerContact;
 
@@ -15,9 +15,9 @@ pub(crate) struct SkinMode {
 }
 
 impl SkinMode {
-    /// Returns true if contacts, friction states and needle agree.
+    /// Returns true if contacts, friction states and needle of both modes agree.
     ///
-    /// Their anchors may differ.
+    /// Anchors, starts of slip and locked ratios between scales may differ.
     pub(crate) fn is_same_form(&self, other: &Self) -> bool {
         let friction_states = self.friction_states.iter().zip(&other.friction_states);
         self.contacts == other.contacts

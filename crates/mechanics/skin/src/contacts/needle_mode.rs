@@ -1,8 +1,8 @@
-//! Discrete state of a guided needle: its touches and their friction states.
+//! Discrete state of a guided needle: its contacts with scales and their friction states.
 
-/// Part of the outline of a scale.
+/// Part of the outline of a scale: a face or a corner.
 ///
-/// The order is from the left foot over the top to the right foot.
+/// Parts are ordered from the left foot over the top to the right foot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd)]
 pub(crate) enum OutlinePart {
     /// The left face.
@@ -28,32 +28,32 @@ impl OutlinePart {
     }
 }
 
-/// Friction state of the needle tip at a touch.
+/// Friction state of the needle tip in contact with a scale.
 ///
-/// It determines the law of the tangential force `T`, with normal force `N` and coordinate `ξ`
-/// along the face.
+/// It determines the tangential force `T`. `N` is the normal force and `ξ` the coordinate of the
+/// tip along the outline of the scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TipState {
-    /// Slides since `ξ` was `start`: `T = sign μ N` with the sign of `ξ̇`.
+    /// The tip slides, and `T = sign μ_n N`.
     ///
-    /// 0 without friction.
+    /// `sign` is the sign of `ξ̇`, or 0 without friction; sliding began at `ξ = start`.
     Slip { sign: f64, start: f64 },
-    /// Sticks: `ξ = anchor`, and `T` is unknown.
+    /// The tip sticks at `ξ = anchor`, and `T` is unknown.
     Stick { anchor: f64 },
-    /// Passes over a corner, forward or backward along the outline.
+    /// The tip stays at a corner while the force turns, and `T` is unknown.
     ///
-    /// `ξ = 0` in the frame of the corner, and `T` is unknown.
+    /// `forward` is true if the tip moves forward along the outline. `ξ` is 0 at the corner.
     Passing { forward: bool },
-    /// Locked in a notch by the neighbouring face.
+    /// The tip is held in a notch between two scales.
     ///
-    /// Nothing moves, and `T = ratio N` keeps its ratio.
+    /// It does not slide, and the tangential force is `T = ratio N`.
     Locked { ratio: f64 },
 }
 
 /// Contact of the needle with a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Touch {
-    /// Number of the scale, counted from the punctured one to the right.
+    /// Number of the scale: 0 for the punctured scale, increasing to the right.
     pub(crate) scale: i64,
     pub(crate) place: OutlinePart,
     pub(crate) tip_state: TipState,
@@ -64,14 +64,15 @@ impl Touch {
         matches!(self.tip_state, TipState::Locked { .. })
     }
 
-    /// Replaces the outline part, for comparison.
+    /// Returns the touch with its outline part replaced by [`OutlinePart::Top`].
     ///
-    /// A round tip rolls between parts without sliding.
+    /// Used to compare touches of a round tip regardless of their outline part, because `ξ` and `T`
+    /// of a round tip are continuous between parts.
     pub(crate) fn anywhere(&self) -> Self {
         Self { place: OutlinePart::Top, ..*self }
     }
 
-    /// Returns true if the tangential force is unknown because the position is fixed.
+    /// Returns true if the position `ξ` of the tip is fixed and the tangential force is unknown.
     pub(crate) fn has_fixed_position(&self) -> bool {
         matches!(self.tip_state, TipState::Stick { .. } | TipState::Passing { .. })
     }
@@ -82,30 +83,32 @@ impl Touch {
     }
 }
 
-/// Slots of a sharp tip: it touches at most two neighbouring scales.
+/// Number of slots of a sharp tip, which touches at most two neighbouring scales.
 pub(crate) const SHARP_SLOTS: usize = 2;
 
-/// Discrete state of a guided needle, history included; empty under a free needle.
+/// Discrete state of a guided needle, including its history; empty for a free needle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct NeedleMode {
-    /// One entry per slot: two for a sharp tip, one per scale in reach for a round tip.
+    /// One entry for each slot; `None` if the needle does not touch a scale there.
+    ///
+    /// A sharp tip has two slots, a round tip one slot for each scale in reach.
     pub(crate) touches: Vec<Option<Touch>>,
 }
 
 impl NeedleMode {
-    /// Returns true for a round tip, which always has more slots.
+    /// Returns true for a round tip, which always has more than two slots.
     pub(crate) fn is_round(&self) -> bool {
         self.touches.len() > SHARP_SLOTS
     }
 
-    /// Returns the part of a scale that the tip touches.
+    /// Returns the part of a scale that the tip touches; `None` if the tip does not touch it.
     ///
-    /// Scales are counted from the punctured one.
+    /// Scales are numbered as in [`Touch::scale`].
     pub(crate) fn place(&self, scale: i64) -> Option<OutlinePart> {
         self.all().find(|(_, touch)| touch.scale == scale).map(|(_, touch)| touch.place)
     }
 
-    /// Iterates over all touches with their slots.
+    /// Iterates over all touches, each with the number of its slot.
     pub(crate) fn all(&self) -> impl Iterator<Item = (usize, &Touch)> {
         let slots = self.touches.iter().enumerate();
         slots.filter_map(|(slot, touch)| Some((slot, touch.as_ref()?)))

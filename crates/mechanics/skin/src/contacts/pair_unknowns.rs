@@ -1,4 +1,4 @@
-//! Maps the coordinates of a pair of scales to the unknowns of the system.
+//! Maps the six coordinates of a pair of scales to the unknowns of the system.
 
 use std::array;
 
@@ -8,12 +8,10 @@ use solver::{Residual, Tangent};
 
 use super::Contacts;
 
-/// One number per coordinate of a pair.
+/// One value for each coordinate of a pair: `x`, `y`, rotation of the left and the right scale.
 type OfEach = [f64; COORDINATES];
 
-/// Signed contribution of an unknown to a coordinate.
-///
-/// A coordinate is the sum of such terms.
+/// Term of a coordinate: an unknown times a sign. A coordinate is the sum of its terms.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
     unknown: usize,
@@ -22,30 +20,32 @@ pub(super) struct Part {
     sign: f64,
 }
 
-/// The unknowns that form the coordinates of a pair.
+/// The unknowns of the coordinates of a pair.
 #[derive(Clone, Copy)]
 pub(super) enum PairUnknowns {
-    /// Row: each scale has three consecutive unknowns from this index.
+    /// Row on a flat body: index of the first of three consecutive unknowns of each scale.
     ///
-    /// Whole blocks are therefore added.
+    /// Matrix entries are added in blocks.
     Blocks([usize; 2]),
-    /// Row on a curved body: the frame of the right scale is rotated from the left one.
-    Curved([usize; 2], Frame),
-    /// Strip: a rotation is the difference of two unknowns.
+    /// Row on a curved body: as `Blocks`, with the tangent frame of the right scale.
     ///
-    /// Entries are therefore added one by one.
+    /// The frame is relative to the frame of the left scale.
+    Curved([usize; 2], Frame),
+    /// Strip, in which the relative rotation of a scale is the difference of two unknowns.
+    ///
+    /// Matrix entries are added one by one.
     Parts([Option<Part>; COORDINATES + 1]),
 }
 
 impl Contacts {
-    /// Returns the unknowns of the pair of a contact.
+    /// Returns the unknowns of the coordinates of the pair to which a contact belongs.
     ///
-    /// With relative poses the rotation of the right scale has a second term: the rotation of its
-    /// frame.
+    /// With relative poses the rotation of the right scale has a second term: minus the rotation of
+    /// the left scale.
     pub(super) fn pair_unknowns(&self, contact: usize) -> PairUnknowns {
         let ends = self.ends(Self::pair_of(contact));
         let right = self.scales[ends[1]];
-        // With relative poses the left scale is the origin, so it has no unknowns here.
+        // With relative poses the left scale is the reference, so its coordinates are zero.
         let left = self.scales[ends[0]].filter(|_| !self.relative);
         if let (Some(left), Some(right)) = (left, right) {
             return if self.body.is_flat() {
@@ -58,8 +58,7 @@ impl Contacts {
         PairUnknowns::Parts(array::from_fn(|k| match k {
             0..3 => Some(Part { unknown: left? + k, coordinate: k, sign: 1.0 }),
             3..COORDINATES => Some(Part { unknown: right? + k - 3, coordinate: k, sign: 1.0 }),
-            // The coordinate is the rotation relative to the left scale, so the rotation of the
-            // frame is subtracted.
+            // Subtract the rotation of the left scale from the rotation of the right scale.
             _ => {
                 let (unknown, coordinate) = (self.frame(ends[1])?, COORDINATES - 1);
                 Some(Part { unknown, coordinate, sign: -1.0 })
@@ -68,13 +67,16 @@ impl Contacts {
     }
 }
 
-/// Rotates derivatives with respect to the displacement of the right scale to its frame.
+/// Converts derivatives with respect to the coordinates of a pair to a curved body.
+///
+/// Rotates the derivatives with respect to the displacement of the right scale from the frame of
+/// the left scale to the frame of the right scale.
 pub(super) fn local(&[lx, ly, turn, x, y, right_turn]: &OfEach, frame: &Frame) -> OfEach {
     let right = frame.inward(Vec2::new(x, y));
     [lx, ly, turn, right.x, right.y, right_turn]
 }
 
-/// Rotates second derivatives like [`local`].
+/// Converts second derivatives like [`local`].
 pub(super) fn local_square(square: &[OfEach; COORDINATES], frame: &Frame) -> [OfEach; COORDINATES] {
     let by_local = square.map(|row| local(&row, frame));
     let columns: [OfEach; COORDINATES] = array::from_fn(|l| array::from_fn(|k| by_local[k][l]));
@@ -83,7 +85,7 @@ pub(super) fn local_square(square: &[OfEach; COORDINATES], frame: &Frame) -> [Of
 }
 
 impl PairUnknowns {
-    /// Computes the dot product of `factors` with the coordinates of the pair in `z`.
+    /// Computes the dot product of `factors` and the coordinates of the pair for the unknowns `z`.
     pub(super) fn sum(self, factors: &OfEach, z: &[f64]) -> f64 {
         match self {
             Self::Blocks([left, right]) => {
@@ -98,7 +100,7 @@ impl PairUnknowns {
         }
     }
 
-    /// Adds the balance of each coordinate to the residual rows of its unknowns.
+    /// Adds the force balance of each coordinate to the residual rows of its unknowns.
     pub(super) fn add_balance(self, residual: &mut Residual, balance: &OfEach) {
         match self {
             Self::Blocks(scales) => {
@@ -117,14 +119,15 @@ impl PairUnknowns {
         }
     }
 
-    /// Adds the derivatives of the balance with respect to the coordinates.
+    /// Adds the derivatives of the force balance with respect to the coordinates.
     pub(super) fn add_square(self, matrix: &mut impl Tangent, slopes: &[OfEach; COORDINATES]) {
         match self {
             Self::Blocks(scales) => {
                 for (i, row) in scales.into_iter().enumerate() {
                     for (j, column) in scales.into_iter().enumerate() {
                         let (k, l) = (3 * i, 3 * j);
-                        // Written out: closures over arrays are not inlined here in test builds.
+                        // Entries are written out, because closures over arrays are not inlined in
+                        // test builds.
                         let block = [
                             [slopes[k][l], slopes[k][l + 1], slopes[k][l + 2]],
                             [slopes[k + 1][l], slopes[k + 1][l + 1], slopes[k + 1][l + 2]],
@@ -148,7 +151,7 @@ impl PairUnknowns {
         }
     }
 
-    /// Adds the derivatives of the balance with respect to the unknown of `column`.
+    /// Adds the derivatives of the force balance with respect to the unknown `column`.
     pub(super) fn add_column(self, matrix: &mut impl Tangent, column: usize, slopes: &OfEach) {
         match self {
             Self::Blocks(scales) => {
@@ -167,7 +170,7 @@ impl PairUnknowns {
         }
     }
 
-    /// Adds the derivatives of the equation of `row` with respect to the coordinates.
+    /// Adds the derivatives of the equation `row` with respect to the coordinates.
     pub(super) fn add_row(self, matrix: &mut impl Tangent, row: usize, slopes: &OfEach) {
         match self {
             Self::Blocks(scales) => {

@@ -5,9 +5,9 @@ use contact::{CornerContact, FORCES};
 use super::{Contacts, SkinState};
 
 impl Contacts {
-    /// Iterates over the active contact forces (C8).
+    /// Iterates over the unknowns of the active contact forces.
     ///
-    /// They stay unknowns of the stiffness matrix.
+    /// They remain unknowns of the stiffness matrix (C8).
     pub(crate) fn forces_in_stiffness(&self, state: &SkinState) -> impl Iterator<Item = usize> {
         let contacts = state.mode.contacts.iter().enumerate();
         contacts.flat_map(|(contact, mode)| self.acting_unknowns(contact, *mode))
@@ -22,12 +22,11 @@ impl Contacts {
         (0..FORCES).filter(move |&force| acting[force]).map(move |force| unknowns[force])
     }
 
-    /// Calls `entry` for each entry of the symmetric stiffness of the closed contacts.
+    /// Calls `entry(row, column, value)` for each entry of the stiffness of the closed contacts.
     ///
-    /// Its arguments are row, column and value.
-    ///
-    /// Each force unknown adds one negative eigenvalue to the negative ones of the condensed
-    /// stiffness (Haynsworth 1968, doi 10.1016/0024-3795(68)90050-5).
+    /// The stiffness is symmetric. It has one negative eigenvalue for each force unknown, in
+    /// addition to the negative eigenvalues of the stiffness after elimination of the forces
+    /// (Haynsworth 1968, doi 10.1016/0024-3795(68)90050-5).
     pub(crate) fn for_stiffness(
         &self,
         state: &SkinState,
@@ -42,7 +41,8 @@ impl Contacts {
             let stiffness = mode.stiffness(&self.corners(contact, &poses), &self.law, forces);
             let pair = self.pair_unknowns(contact);
             pair.add_square(&mut entry, &stiffness.by_coordinate);
-            // Keep the force as an unknown, because its compliance vanishes at first contact.
+            // Keep the forces as unknowns: the compliance of a contact vanishes at first touch, so
+            // they cannot be eliminated.
             let unknowns: Vec<_> = self.acting_unknowns(contact, *mode).collect();
             for (i, (force, balance)) in unknowns.iter().zip(&stiffness.by_force).enumerate() {
                 pair.add_column(&mut entry, *force, balance);
@@ -54,7 +54,7 @@ impl Contacts {
         }
     }
 
-    /// Counts the contacts with corners on a ridge of the energy.
+    /// Counts the contacts in which the coinciding corners lie on a ridge of the energy.
     pub(crate) fn ridges(&self, state: &SkinState) -> usize {
         state
             .mode

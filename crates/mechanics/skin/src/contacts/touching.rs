@@ -1,4 +1,4 @@
-//! Corners on edges, with the geometry of their contact forces.
+//! Corners in contact with edges, with the geometry of their forces, for elastic scales.
 
 use contact::{COORDINATES, CornerContact, CornerEdge};
 use geometry::Vec2;
@@ -6,7 +6,7 @@ use geometry::Vec2;
 use super::pair_unknowns::PairUnknowns;
 use super::{Contacts, LEVELS, SkinState};
 
-/// Function of the six unknowns of a pair, with its derivatives.
+/// Function of the six unknowns of a pair, with first and second derivatives.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct PairCoordinate {
     pub(crate) value: f64,
@@ -14,7 +14,7 @@ pub(crate) struct PairCoordinate {
     pub(crate) curvature: [[f64; COORDINATES]; COORDINATES],
 }
 
-/// A corner on an edge of the neighbour.
+/// A corner that touches or faces an edge of a neighbouring scale.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TouchingEdge {
     /// Number of the contact.
@@ -22,24 +22,27 @@ pub(crate) struct TouchingEdge {
     /// Left and right scale of the pair.
     pub(crate) ends: [usize; 2],
     pub(crate) edge: CornerEdge,
-    /// Unknown of the force and its value.
+    /// Index of the unknown normal force.
     pub(crate) unknown: usize,
+    /// Value of the normal force.
     pub(crate) force: f64,
-    /// Unknowns of the left and of the right scale.
+    /// Indices of the three unknowns of the left scale and the three of the right scale.
     pub(crate) at: [usize; COORDINATES],
-    /// Position of the corner along the edge, from the node, in the direction of the outward normal
+    /// Slip coordinate: position of the corner along the edge.
+    ///
+    /// It counts from the node of the scale with the edge, in the direction of the outward normal
     /// turned by 90° counter-clockwise.
     pub(crate) slide: PairCoordinate,
-    /// Rotation of the right scale relative to the left one.
+    /// Rotation of the right scale minus the rotation of the left scale.
     pub(crate) turn: PairCoordinate,
-    /// Outward normal of the edge, in the frame of its scale.
+    /// Outward normal of the edge, in the frame of the scale with the edge.
     pub(crate) normal: Vec2,
-    /// Corner, in the frame of the scale to which it belongs.
+    /// Position of the corner, in the frame of the scale with the corner.
     pub(crate) corner: Vec2,
 }
 
 impl Contacts {
-    /// Lists the corners that carry a force on an edge.
+    /// Lists the closed contacts of all pairs.
     pub(crate) fn closed_edges(&self, state: &SkinState) -> Vec<TouchingEdge> {
         let contacts = state.mode.contacts.iter().enumerate();
         contacts
@@ -47,7 +50,7 @@ impl Contacts {
             .collect()
     }
 
-    /// Iterates over the corners of a scale or on its edges that carry a force.
+    /// Iterates over the closed contacts of a scale with its neighbours.
     pub(crate) fn closed_edges_of(
         &self,
         state: &SkinState,
@@ -60,12 +63,14 @@ impl Contacts {
     }
 
     /// Returns the corner that faces an edge at an open contact.
+    ///
+    /// `None` if the contact is closed or no corner faces an edge.
     pub(crate) fn facing_edge(&self, state: &SkinState, contact: usize) -> Option<TouchingEdge> {
         let is_open = state.mode.contacts[contact] == CornerContact::Open;
         self.edge_at(state, contact).filter(|_| is_open)
     }
 
-    /// Returns the corner that rests on an edge or, at an open contact, faces one.
+    /// Returns the corner that touches an edge or, at an open contact, faces an edge.
     pub(crate) fn edge_at(&self, state: &SkinState, contact: usize) -> Option<TouchingEdge> {
         if !self.is_whole(Self::pair_of(contact)) {
             return None;
@@ -77,7 +82,7 @@ impl Contacts {
         self.touching_edge(state, contact, edge)
     }
 
-    /// Lists the contacts of the pairs with one of the scales marked in `bent`.
+    /// Lists the contacts of all pairs in which at least one scale is marked in `bent`.
     pub(crate) fn contacts_beside(&self, bent: &[bool]) -> Vec<usize> {
         self.whole_pairs()
             .filter(|&pair| self.ends(pair).iter().any(|&scale| bent[scale]))
@@ -85,20 +90,21 @@ impl Contacts {
             .collect()
     }
 
-    /// Returns the number of the contact of a normal force, or `None` for other constraints.
+    /// Returns the contact with the normal force `λ` at a constraint; `None` for other constraints.
     pub(crate) fn contact_of_own_force(&self, constraint: usize) -> Option<usize> {
         let (contact, slot) = self.contact_of(constraint);
         (slot == 0).then_some(contact)
     }
 
-    /// Returns the constraint of the normal force of a contact.
+    /// Returns the constraint number of the normal force `λ` of a contact.
     pub(crate) fn own_force(&self, contact: usize) -> usize {
         self.slots * contact
     }
 
-    /// Returns the overlap that bending permits a pair in addition to its contact law.
+    /// Returns the overlap that bending of the scales of a pair explains.
     ///
-    /// `openings` holds the opening of each contact by bending.
+    /// The audit intersects rigid outlines, so it accepts this overlap in addition to the approach
+    /// of the contact law. `openings` holds the increase of each gap by bending.
     pub(crate) fn pair_slack(openings: &[f64], pair: usize) -> f64 {
         openings[LEVELS.len() * pair..][..LEVELS.len()].iter().copied().fold(0.0, f64::max)
     }
@@ -141,9 +147,9 @@ impl Contacts {
 }
 
 impl PairUnknowns {
-    /// Returns the six unknowns of the pair in a row, and the derivatives in these unknowns.
+    /// Returns the indices of the six unknowns of a pair, and the derivatives in these unknowns.
     ///
-    /// `None` for a strip.
+    /// `slopes` are derivatives with respect to the coordinates of the pair. `None` for a strip.
     fn in_unknowns(
         self,
         slopes: &[f64; COORDINATES],

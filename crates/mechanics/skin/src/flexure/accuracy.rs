@@ -1,4 +1,4 @@
-//! Discretisation error of the measures of a bent strip.
+//! Estimates the discretisation error of the measures of a bent strip.
 
 use solver::{Newton, Settings};
 
@@ -6,17 +6,17 @@ use super::strip::Strip;
 use crate::contacts::SkinState;
 use crate::record::Skin;
 
-/// Floor of the denominator of relative changes; smaller values are round-off.
+/// Smallest denominator of a relative change; smaller values are round-off.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// The quantities of a state that a finer membrane may change.
+/// The compared quantities of a state.
 ///
-/// Moment, its slope, axial fraction of the energy, and largest strain.
+/// They are the moment, its slope, the axial fraction of the energy, and the largest strain.
 pub(super) type Quantities = [f64; 4];
 
-/// Returns the largest relative change against a finer membrane.
+/// Returns the largest relative change from the quantities `ours` to those on a `finer` membrane.
 ///
-/// `None` if not finite.
+/// `None` if it is not finite.
 pub(super) fn largest_change(ours: Quantities, finer: Quantities) -> Option<f64> {
     let changes = ours
         .into_iter()
@@ -25,7 +25,7 @@ pub(super) fn largest_change(ours: Quantities, finer: Quantities) -> Option<f64>
     changes.reduce(f64::max).filter(|largest| largest.is_finite())
 }
 
-/// Solves the strip at the rotation and with the contacts of `state`.
+/// Solves the strip at the end rotation and with the contacts of `state`, and evaluates it.
 ///
 /// `None` if Newton's method fails.
 fn quantities(strip: &Strip, mut state: SkinState, settings: &Settings) -> Option<Quantities> {
@@ -35,18 +35,17 @@ fn quantities(strip: &Strip, mut state: SkinState, settings: &Settings) -> Optio
     Some([moment, stiffness, strip.axial_energy_share(&state), strip.largest_strain(&state)])
 }
 
-/// Returns the largest relative change of the quantities with a finer membrane.
+/// Returns the largest relative change of the [`Quantities`] between a strip and a `finer` one.
 ///
-/// Moment, slope of the moment, axial energy fraction and strain are compared at the same end
-/// rotation and with the same contacts. `None` if the state cannot be solved again.
+/// Both are evaluated at the end rotation and with the contacts of `state`. `None` if one of them
+/// cannot be solved there.
 pub(crate) fn change(
     strip: &Strip,
     finer: &Strip,
     state: &SkinState,
     settings: &Settings,
 ) -> Option<f64> {
-    // Solve on both meshes by the same method, so that both slopes are taken with the contacts of
-    // `state`.
+    // Solve `strip` again, too, so that both slopes refer to the contacts of `state`.
     let ours = quantities(strip, state.clone(), settings)?;
     let theirs = quantities(finer, strip.transferred(state, finer)?, settings)?;
     largest_change(ours, theirs)

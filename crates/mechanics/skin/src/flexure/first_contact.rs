@@ -1,6 +1,6 @@
-//! Curvature at which the scales of a strip first touch.
+//! Closed form of the curvature at which the scales of a strip first touch.
 //!
-//! It is independent of the end of the path.
+//! The curvature exists even if bending stops before contact.
 
 use std::f64::consts::PI;
 
@@ -11,20 +11,20 @@ use solver::Neighbours;
 use super::{FlexureInput, FlexureParameters};
 use crate::{Derivative, Design};
 
-/// Sample rotations used to bracket the rotation at which a gap closes.
+/// Number of sample rotations used to bracket the rotation at which a gap closes.
 const SAMPLES: u32 = 512;
 
-/// Largest rotation of a gap: beyond it the arc of the membrane turns back.
+/// Largest rotation of a gap considered for contact: half a turn, radians.
 const LARGEST_ROTATION: f64 = PI;
 
-/// Returns the curvature `κ₁*` at which neighbours first touch.
+/// Computes the curvature `κ₁*` at which neighbours first touch.
 ///
-/// The scales are on the inside of the bend. `None` if the gap does not close before its membrane
-/// has turned by half a circle.
+/// The scales are on the inside of the bend. `None` if neighbours do not touch up to a relative
+/// rotation of half a turn.
 ///
-/// Before contact no force acts in the membrane, so it is an arc of length `d` whatever its
-/// stiffness. With the depth `z₀` of the axis below the bases and the rotation `θ`, the node of the
-/// right scale in the frame of the left one is at
+/// Before contact no force acts in the membrane, so it is an arc of length `d` for any stiffness.
+/// With the depth `z₀` of the axis below the bases and the rotation `θ`, the node of the right
+/// scale, seen from the left scale, is at
 ///
 /// ```text
 /// (a, −z₀) + d/θ (sin θ, 1 − cos θ) + R(θ) (a, z₀),   κ₁* = θ₁/p                           (F5)
@@ -42,22 +42,22 @@ pub fn contact_curvature(
     Ok(contact_curvature_of_row(&design.row()?, parameters))
 }
 
-/// Returns the curvature `κ₁*` at which neighbours in this row first touch.
+/// Computes the curvature `κ₁*` at which neighbours in an even row first touch.
 pub(super) fn contact_curvature_of_row(row: &Row, parameters: &FlexureParameters) -> Option<f64> {
     let gap = BareGap::from_row(row, parameters);
     gap.closing_rotation(LARGEST_ROTATION).map(|rotation| rotation / gap.pair.offset().x)
 }
 
-/// Returns the curvature at which the first gap of an imperfect strip closes.
+/// Computes the curvature at which the first gap of an imperfect strip closes.
 ///
-/// All gaps carry the same moment, so before contact they are arcs of one curvature `θ/d`, and the
-/// strip as a whole turns by that curvature times `Σd`:
+/// All gaps carry the same moment, so before contact their membranes are arcs of the same curvature
+/// `θ/d`. The whole strip then turns by this curvature times `Σd`, over its length `Σp`:
 ///
 /// ```text
 /// κ₁* = minᵢ(θ₁ᵢ/dᵢ) Σd/Σp                                                                  (F9)
 /// ```
 pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> Option<f64> {
-    // Gaps that would close later, or only after half a circle, do not matter.
+    // Search each gap only up to the curvature at which an earlier gap closes.
     let arc = (0..row.gaps().len()).fold(f64::INFINITY, |first, i| {
         let scales = [row.scales()[i], row.scales()[i + 1]];
         let gap = BareGap::new(scales, [row.pitch(i), row.gaps()[i]], parameters);
@@ -67,14 +67,16 @@ pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> 
     arc.is_finite().then(|| arc * row.gaps().iter().sum::<f64>() / row.length())
 }
 
-/// Returns the derivatives of [`contact_curvature`] from the gap `g(θ, q)` that vanishes there:
+/// Computes the derivatives of [`contact_curvature`] with respect to the varied parameters `q`.
+///
+/// The distance `g(θ, q)` of a corner from the edge that it meets vanishes at first contact, so
 ///
 /// ```text
 /// dκ₁/dq = d(θ₁/p)/dq,   dθ₁/dq = −(∂g/∂q)/(∂g/∂θ)                                          (F6)
 /// ```
 ///
-/// If several corners compete, the derivative on each side of the parameter belongs to the corner
-/// nearest to its edge there.
+/// If two corners reach their edges at almost the same rotation, the derivative on each side of the
+/// parameter belongs to the corner nearest to its edge on this side.
 pub(super) fn curvature_derivatives(
     input: &FlexureInput,
     variations: &[Neighbours<FlexureInput>],
@@ -87,7 +89,7 @@ pub(super) fn curvature_derivatives(
         .map(|(parameter, variation)| {
             let Neighbours { below, above, step } = variation;
             let neighbours = [BareGap::from_input(below)?, BareGap::from_input(above)?];
-            // For upright scales corners meet corners, and neither may face an edge.
+            // Corners of upright scales meet corners. If none faces an edge, use the upper one.
             let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
             let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
             let (measure, value) = ("contact_curvature", rotation / gap.pair.offset().x);
@@ -103,13 +105,13 @@ pub(super) fn curvature_derivatives(
         .collect()
 }
 
-/// Distance within which a corner is about to meet its edge.
+/// Distance in units of `t` within which a corner counts as about to meet its edge.
 const CLOSE: f64 = 1e-3;
 
-/// Step of the difference in rotation, relative to the rotation.
+/// Step of the difference quotient in the rotation, relative to the rotation.
 const STEP: f64 = 1e-6;
 
-/// A gap with a force-free membrane.
+/// A gap between two scales with a force-free membrane; lengths in units of `t`.
 struct BareGap {
     pair: Pair,
     width: f64,
@@ -135,9 +137,9 @@ impl BareGap {
         Ok(Self::from_row(&input.design.leaning_row()?, &input.parameters))
     }
 
-    /// Computes the derivative of the curvature at which a corner meets its edge.
+    /// Computes the derivative of the curvature at which the corner of `meeting` meets its edge.
     ///
-    /// The `neighbours` differ by `2 step` in a parameter.
+    /// `neighbours` are the gaps for the parameter decreased and increased by `step`.
     fn closing_rate(
         &self,
         meeting: CornerEdge,
@@ -152,17 +154,17 @@ impl BareGap {
         let [below, above] = neighbours.each_ref().map(|gap| gap.opening(meeting, rotation));
         let turned = -(above - below) / (2.0 * step) / by_rotation;
         let [below, above] = neighbours.each_ref().map(|gap| gap.pair.offset().x);
-        // `κ₁* = θ₁/p`, and the pitch depends on the parameter, too.
+        // Differentiate `κ₁* = θ₁/p`, in which both `θ₁` and `p` depend on the parameter.
         let pitch = self.pair.offset().x;
         (turned - rotation / pitch * (above - below) / (2.0 * step)) / pitch
     }
 
-    /// Computes the distance of a corner from its edge.
+    /// Computes the distance of a corner from its edge at a rotation of the gap.
     fn opening(&self, corner_edge: CornerEdge, rotation: f64) -> f64 {
         self.pair.distance(corner_edge, &Pose::new(0.0, 0.0, 0.0), &self.right(rotation))
     }
 
-    /// Returns the corner that is about to meet the edge it faces.
+    /// Returns the corner and edge that are about to meet; `None` if no corner is close to an edge.
     fn meeting(&self, rotation: f64) -> Option<CornerEdge> {
         let close = self.facing(rotation).filter(|(_, gap)| gap.abs() < CLOSE);
         close.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(meeting, _)| meeting)
@@ -170,14 +172,14 @@ impl BareGap {
 
     /// Returns the first rotation up to `farthest` at which the neighbours touch.
     fn closing_rotation(&self, farthest: f64) -> Option<f64> {
-        // Upright scales meet corner on corner, where no foot is within an edge, so a search for a
-        // corner that faces an edge would miss the contact.
+        // The tops of upright scales meet corner on corner. No corner then faces an edge, and the
+        // search below would miss the contact.
         let upright = self.width / (1.0 + self.offset);
         let stands = self.pair.scales().iter().all(|scale| scale.slant() == 0.0);
         if stands && self.offset > -1.0 && upright <= LARGEST_ROTATION {
             return (upright <= farthest).then_some(upright);
         }
-        // Start above zero, because the radius of the arc is infinite at zero.
+        // Start above zero, because the radius of the arc is infinite at zero rotation.
         let samples =
             (1..=SAMPLES).map(|sample| LARGEST_ROTATION * f64::from(sample) / f64::from(SAMPLES));
         let mut open = 0.0;
@@ -190,7 +192,7 @@ impl BareGap {
         None
     }
 
-    /// Bisects for the rotation of first contact between `open` and `closed`.
+    /// Finds the rotation of first contact between the rotations `open` and `closed` by bisection.
     fn narrowed(&self, mut open: f64, mut closed: f64) -> f64 {
         loop {
             let middle = f64::midpoint(open, closed);
@@ -218,12 +220,12 @@ impl BareGap {
             .filter_map(move |level| Corners::new(level, &self.pair, [&left, &right]).facing())
     }
 
-    /// Computes the pose of the right scale (F5).
+    /// Computes the pose of the right scale relative to the left scale (F5).
     fn right(&self, rotation: f64) -> Pose {
         let (sin, cos) = rotation.sin_cos();
-        // Scales of a sample differ in slant, not in base.
+        // Both scales have the same base, also in an imperfect strip.
         let (a, z0) = (self.pair.scales()[0].half_base(), self.offset);
-        // 1 − cos θ without cancellation.
+        // Compute `1 − cos θ` without cancellation.
         let versine = 2.0 * (0.5 * rotation).sin().powi(2);
         let chord = self.width / rotation;
         let x = a + chord * sin + cos * a - sin * z0;

@@ -1,17 +1,18 @@
-//! Poses of the whole strip from relative poses of neighbours.
+//! Computes the poses of all scales of a strip from the relative poses of neighbours.
 
 use contact::Pose;
 use geometry::Vec2;
 
 use crate::arrangement::Arrangement;
 
-/// Displacement and rotation of a scale relative to its left neighbour.
+/// Displacements `x`, `y` and rotation of a scale relative to its left neighbour.
 pub(crate) type Step = [f64; 3];
 
-/// Computes the frames of all scales of a strip of `gaps` gaps.
+/// Computes the frames of all scales of a strip with `gaps` gaps.
 ///
-/// The gaps repeat the `steps`. The first scale is at rest. A frame holds the node position
-/// relative to the node of the first scale, and the rotation.
+/// `steps` holds the relative poses of the solved gaps; they are repeated to fill the strip. Each
+/// frame consists of the position of the node of a scale relative to the node of the first scale,
+/// and its rotation. The first scale is fixed.
 pub(crate) fn frames(steps: &[Step], gaps: usize, row: &Arrangement) -> Vec<Pose> {
     let first = Pose::new(0.0, 0.0, 0.0);
     let steps = steps.iter().cycle().take(gaps).enumerate();
@@ -23,7 +24,7 @@ pub(crate) fn frames(steps: &[Step], gaps: usize, row: &Arrangement) -> Vec<Pose
     std::iter::once(first).chain(others).collect()
 }
 
-/// Converts frames to displacements from rest and rotations.
+/// Converts frames of scales to their displacements from the undeformed strip, and rotations.
 pub(crate) fn displacements(frames: &[Pose], row: &Arrangement) -> Vec<Step> {
     frames
         .iter()
@@ -35,7 +36,7 @@ pub(crate) fn displacements(frames: &[Pose], row: &Arrangement) -> Vec<Step> {
         .collect()
 }
 
-/// Maps a point from a frame to the frame of the strip.
+/// Transforms a point from the frame of a scale to the frame of the strip.
 pub(crate) fn place(frame: &Pose, point: Vec2) -> Vec2 {
     frame.displacement + frame.turn(point)
 }

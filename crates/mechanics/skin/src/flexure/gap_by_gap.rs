@@ -1,4 +1,4 @@
-//! Bending of a strip with unequal gaps, gap by gap.
+//! Bending of a strip with unequal gaps, in which each gap is solved separately.
 
 use geometry::OutOfRange;
 use membrane::GapEnergies;
@@ -13,43 +13,43 @@ use super::{Flexure, FlexureMeasures};
 use crate::Status;
 use crate::contacts::Contacts;
 
-/// Tolerance of the moment: largest remaining relative correction.
+/// Relative tolerance of the moment at which the strip reaches its final rotation.
 const CLOSE: f64 = 1e-12;
 
 /// Predicted relative gain below which the search for the largest stiffness stops.
 const FLAT: f64 = 1e-11;
 
-/// Distance from the stiffest point at which the strip is checked to be softer.
+/// Distance from the stiffest point at which the strip is checked not to be stiffer.
 ///
-/// It is relative to the distance to the next breakpoint.
+/// It is relative to the distance from the stiffest point to the next breakpoint.
 const BESIDE: f64 = 1e-3;
-/// Relative gain that counts as a larger stiffness.
+/// Relative increase of the stiffness that counts in this check.
 const STIFFER: f64 = 1e-9;
 
-/// Maximum number of iterations of a search. Most searches need a quarter or less.
+/// Maximum number of iterations of a search. Most searches need at most a quarter of them.
 const ROUNDS: usize = 50;
 
-/// Largest factor by which the moment is raised at once.
+/// Largest factor by which one iteration raises the moment.
 ///
-/// Where gaps close, extrapolation along their slopes overshoots.
+/// Extrapolation with the compliance before a gap closes would overshoot.
 const FARTHER: f64 = 2.0;
 
-/// Divisor of the step size of gaps with friction.
+/// Divisor of the largest step size if there is friction.
 const FRICTION_REFINEMENT: f64 = 4.0;
 
-/// Golden-section steps within a segment before the stiffest point is solved for.
+/// Number of golden-section steps that predict the stiffest point between two breakpoints.
 const SECTIONS: usize = 30;
 
 /// Result of bending a sample of an imperfect strip.
 #[derive(Clone, Copy, Debug)]
 pub struct BentSample {
-    /// How the path ended, and whether its end is valid.
+    /// Outcome of the path, including the audit of its end.
     pub status: Status,
-    /// The measures of the bending.
+    /// The measures of bending.
     pub measures: FlexureMeasures,
-    /// See [`Flexure::closing_range`].
+    /// Width of the range of curvatures in which the gaps close, as [`Flexure::closing_range`].
     pub closing_range: Option<f64>,
-    /// Number of equilibria on the path of the strip, or on the paths of its gaps.
+    /// Number of equilibria on the path of the chain, or on the paths of all separate gaps.
     pub points: usize,
     /// Number of Newton iterations that computed these equilibria.
     pub iterations: usize,
@@ -67,17 +67,18 @@ impl From<&Flexure> for BentSample {
     }
 }
 
-/// Bends a strip gap by gap.
+/// Bends a strip by solving each of its gaps separately.
 ///
-/// In pure bending every cut carries the same moment and no force, so gaps interact through the
-/// moment alone. As long as the moment only grows, their rotations and compliances add up:
+/// In pure bending every cut carries the same moment and no force, so the gaps interact only
+/// through the moment. While the moment grows, the rotations `θᵢ` of the gaps and their compliances
+/// add up:
 ///
 /// ```text
 /// Φ(M) = Σ θᵢ(M),    dΦ/dM = Σ dθᵢ/dM                                                       (F7)
 /// ```
 ///
-/// `None` if a gap does not reach the final moment or turns back before: then gaps interact, and
-/// the assembled chain has to be solved.
+/// `None` if a gap does not reach the final moment, or if its moment or rotation decreases before.
+/// Then the chain of all gaps has to be solved.
 pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutOfRange> {
     let mut resolution = problem.coarsest();
     loop {
@@ -88,7 +89,7 @@ pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutO
     }
 }
 
-/// The curves of all gaps of a strip.
+/// A strip of unequal gaps, with the moment–rotation curve of each gap.
 struct UnevenStrip<'a> {
     problem: &'a FlexureProblem<'a>,
     resolution: Resolution,
@@ -99,8 +100,8 @@ impl<'a> UnevenStrip<'a> {
     fn new(problem: &'a FlexureProblem, resolution: Resolution) -> Result<Self, OutOfRange> {
         let mut settings = problem.common.solver;
         if problem.common.friction > 0.0 {
-            // The accuracy of the dissipation depends on the step size. The assembled chain has
-            // more points, one for every event of any gap.
+            // The accuracy of the dissipation depends on the step size. The path of a single gap
+            // has fewer points than the path of the chain, which stops at the events of all gaps.
             settings.max_step /= FRICTION_REFINEMENT;
         }
         let gaps = (0..problem.solved)
@@ -109,7 +110,7 @@ impl<'a> UnevenStrip<'a> {
         Ok(Self { problem, resolution, gaps })
     }
 
-    /// Bends the strip to its end; `None` if the gaps cannot be solved separately.
+    /// Bends the strip to its final rotation; `None` if the gaps cannot be solved separately.
     fn bend(&mut self) -> Option<BentSample> {
         let end = self.end()?;
         let (measures, closing_range) = self.measures(end)?;
@@ -128,15 +129,15 @@ impl<'a> UnevenStrip<'a> {
     fn status(&self, end: f64) -> Status {
         let audited =
             self.knots(end).map(|(gap, knot)| Status::audited(gap.strip(), &knot.point.state));
-        // Same precedence as for the chain: interpenetration is worse than a contact off its edge.
+        // As for the chain, interpenetration takes precedence over a contact off its edge.
         audited.fold(Status::Complete, |one, other| {
             if one == Status::Complete || other == Status::Interpenetration { other } else { one }
         })
     }
 
-    /// Computes the measures of a strip bent up to a moment.
+    /// Computes the measures of the strip bent up to the moment `end`.
     ///
-    /// Also returns the range of curvatures over which its gaps close.
+    /// Also returns the width of the range of curvatures in which its gaps close.
     fn measures(&mut self, end: f64) -> Option<(FlexureMeasures, Option<f64>)> {
         let problem = self.problem;
         let closings = self.gaps.iter().filter_map(GapCurve::first_closing);
@@ -148,11 +149,10 @@ impl<'a> UnevenStrip<'a> {
             .into_iter()
             .flatten()
             .try_for_each(|moment| self.solve_at(moment))?;
-        // Before contact the strip bends to arcs with constant stiffness, so there is no maximum to
-        // search.
+        // Without contact the stiffness is constant, so any moment serves.
         let stiffest = if first.is_some() { self.stiffest(end)? } else { 0.0 };
         let error = match self.resolution.finer() {
-            // Arcs are exact in every resolution.
+            // Without contact the membranes are arcs, which every resolution represents exactly.
             Some(_) if first.is_none() => Some(0.0),
             finer => finer.map(|finer| self.error(finer, stiffest, end)),
         };
@@ -194,7 +194,7 @@ impl<'a> UnevenStrip<'a> {
             let moment = self.moment_at(whole, highest);
             let compliance = self.compliance(moment, KinkSide::Behind);
             if whole - self.rotation(moment) > CLOSE * moment * compliance {
-                // Even the highest moment so far does not reach the rotation.
+                // The highest moment so far does not reach the final rotation.
                 let missing = (whole - self.rotation(moment)) / compliance;
                 highest += missing.min((FARTHER - 1.0) * highest);
                 continue;
@@ -208,22 +208,22 @@ impl<'a> UnevenStrip<'a> {
         None
     }
 
-    /// Returns the curvature of the strip under a moment.
+    /// Returns the curvature `κ*` of the strip under a moment.
     fn curvature(&self, moment: f64) -> f64 {
         self.direction() * self.rotation(moment) / self.problem.length()
     }
 
-    /// Inverts (F8) for the moment of a rotation.
+    /// Returns the moment at which the curves, interpolated by (F8), reach a rotation of the strip.
     ///
-    /// Returns `highest` if that moment is too small.
+    /// Returns `highest` if the rotation is not reached up to this moment.
     fn moment_at(&self, rotation: f64, highest: f64) -> f64 {
         let at_highest = self.rotation(highest) - rotation;
         if at_highest <= 0.0 {
             return highest;
         }
         let mut bracket = Bracket::new((0.0, -rotation), (highest, at_highest));
-        // Regula falsi converges from one side: stop when the iterate no longer moves, not when the
-        // bracket is narrow.
+        // Regula falsi may move only one end of the bracket, so stop when the iterate no longer
+        // changes, not when the bracket is narrow.
         let mut moment = highest;
         for _ in 0..ROUNDS {
             let next = bracket.secant();
@@ -237,9 +237,9 @@ impl<'a> UnevenStrip<'a> {
         moment
     }
 
-    /// Finds and solves the moment at which the strip is stiffest.
+    /// Finds the moment at which the strip is stiffest, and solves all gaps there.
     ///
-    /// `None` if the maximum lies between breakpoints, where (F8) does not resolve it.
+    /// `None` if the strip is stiffer between two breakpoints, where (F8) does not predict it.
     fn stiffest(&mut self, end: f64) -> Option<f64> {
         let mut best = (0.0, f64::INFINITY);
         for _ in 0..ROUNDS {
@@ -257,7 +257,7 @@ impl<'a> UnevenStrip<'a> {
         let before = breakpoints.iter().rfind(|breakpoint| **breakpoint < best.0);
         let behind = breakpoints.iter().find(|breakpoint| **breakpoint > best.0);
         for (side, breakpoint) in [(KinkSide::Before, before), (KinkSide::Behind, behind)] {
-            // At an event the strip may be softer on one side.
+            // If the best point is an event, check only its stiff side.
             let is_stiff = self.compliance(best.0, side) <= best.1 * (1.0 + FLAT);
             if let Some(breakpoint) = breakpoint.filter(|_| is_stiff) {
                 let beside = best.0 + BESIDE * (breakpoint - best.0);
@@ -270,10 +270,10 @@ impl<'a> UnevenStrip<'a> {
         Some(best.0)
     }
 
-    /// Returns the breakpoints between which the compliance is smooth.
+    /// Returns the moments, in ascending order, between which the compliance is smooth.
     ///
-    /// Between events the sum is as smooth as each of its terms, so the equilibria of one gap and
-    /// the events of all gaps suffice.
+    /// These are the events of all gaps, at which the compliance may jump. The equilibria of the
+    /// first gap are added as samples.
     fn breakpoints(&self, end: f64) -> Vec<f64> {
         let one = self.gaps.first().into_iter().flat_map(|gap| gap.knots_to(end));
         let all = self.gaps.iter().flat_map(|gap| gap.knots_to(end));
@@ -284,7 +284,7 @@ impl<'a> UnevenStrip<'a> {
         breakpoints
     }
 
-    /// Predicts by (F8) the moment of least compliance and the compliance there.
+    /// Predicts by (F8) the moment of least compliance, and returns it with this compliance.
     fn promising(&self, end: f64) -> (f64, f64) {
         let breakpoints = self.breakpoints(end);
         let found = breakpoints.iter().map(|&moment| (moment, self.least_compliance(moment)));
@@ -292,13 +292,13 @@ impl<'a> UnevenStrip<'a> {
         let number = breakpoints.partition_point(|moment| *moment < best.0);
         let beside = breakpoints[number.saturating_sub(1)..].windows(2).take(2);
         let inside = beside.map(|segment| self.least_within([segment[0], segment[1]]));
-        // Prefer a solved point if the predictions agree up to round-off.
+        // Prefer a breakpoint if a point between breakpoints is not better by more than round-off.
         inside.filter(|(_, value)| *value < best.1 * (1.0 - FLAT)).fold(best, lesser)
     }
 
-    /// Minimises the compliance between two breakpoints by golden sections.
+    /// Minimises the compliance between two neighbouring breakpoints by golden-section search.
     ///
-    /// The breakpoints are neighbours.
+    /// Returns the moment and the compliance.
     fn least_within(&self, [mut low, mut high]: [f64; 2]) -> (f64, f64) {
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
         let mut inner = [high - golden * (high - low), low + golden * (high - low)]
@@ -314,9 +314,9 @@ impl<'a> UnevenStrip<'a> {
         if inner[0].1 < inner[1].1 { inner[0] } else { inner[1] }
     }
 
-    /// Returns the moment of the last contact change if the strip locks at the end.
+    /// Returns the moment of the last contact change if the strip is locked at the moment `end`.
     ///
-    /// A strip locks if its contacts stick.
+    /// A strip is locked if contacts stick and make it [`LOCKED`] times as stiff as at rest.
     fn locking(&self, end: f64) -> Option<f64> {
         let sticks =
             self.knots(end).any(|(_, knot)| Contacts::stick_slip_counts(&knot.point.state)[0] > 0);
@@ -327,10 +327,10 @@ impl<'a> UnevenStrip<'a> {
         changes.reduce(f64::max).filter(|_| sticks && stiffened >= LOCKED)
     }
 
-    /// Estimates the discretisation error at the stiffest point and at the end.
+    /// Estimates the discretisation error at the moments `stiffest` and `end`.
     fn error(&self, finer: Resolution, stiffest: f64, end: f64) -> f64 {
         let moments = [stiffest, end].into_iter().skip(usize::from(stiffest == end));
-        // A state without a solution on the finer membrane counts as not resolved.
+        // If a state has no solution on the finer membrane, its error counts as infinite.
         moments
             .map(|moment| self.change(finer, moment).unwrap_or(f64::INFINITY))
             .fold(0.0, f64::max)
@@ -345,17 +345,17 @@ impl<'a> UnevenStrip<'a> {
             theirs.add(&strip, &knot);
             ours.add(gap.strip(), gap.knot(moment)?);
         }
-        // Compare both at the same rotation of the ends.
+        // Compare both membranes at the same end rotation: correct the moment of the finer one.
         let theirs_there = moment - (theirs.rotation - ours.rotation) / theirs.compliance;
         largest_change(ours.quantities(moment), theirs.quantities(theirs_there))
     }
 
-    /// Solves all gaps under a moment that their paths have covered.
+    /// Solves all gaps under a moment that their paths have already passed.
     fn solve_at(&mut self, moment: f64) -> Option<()> {
         self.gaps.iter_mut().try_for_each(|gap| gap.solve_at(moment))
     }
 
-    /// Returns 1, or −1 for bending to the outside.
+    /// Returns 1 with the scales on the inside of the bend, −1 with the scales on the outside.
     fn direction(&self) -> f64 {
         self.problem.end_rotation().signum()
     }
@@ -368,23 +368,23 @@ impl<'a> UnevenStrip<'a> {
         self.gaps.iter().map(|gap| gap.compliance(moment, side)).sum()
     }
 
-    /// Returns the smaller of the compliances on both sides of a moment.
+    /// Returns the smaller one of the compliances just below and just above a moment.
     fn least_compliance(&self, moment: f64) -> f64 {
         self.compliance(moment, KinkSide::Before).min(self.compliance(moment, KinkSide::Behind))
     }
 
-    /// Iterates over the gaps with their equilibria under a solved moment.
+    /// Iterates over the gaps, each with its equilibrium under a moment that was solved for.
     fn knots(&self, moment: f64) -> impl Iterator<Item = (&GapCurve, &Knot)> {
         self.gaps.iter().filter_map(move |gap| Some((gap, gap.knot(moment)?)))
     }
 }
 
-/// Returns the sample of the lesser value; the first one if both are equal.
+/// Returns the `(moment, value)` pair of lesser value; the first one if both are equal.
 fn lesser(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
     if other.1 < one.1 { other } else { one }
 }
 
-/// Sums over the gaps under one moment; of the strain, the largest value.
+/// Sums of quantities of all gaps under one moment; the strain is the largest of all gaps.
 #[derive(Default)]
 struct Sums {
     rotation: f64,

@@ -1,4 +1,4 @@
-//! Rotation of one gap over its moment, solved on demand.
+//! Curve of the rotation of one gap over its moment, solved on demand.
 
 use solver::{Continuation, Event, Newton, Settings};
 
@@ -6,29 +6,31 @@ use super::strip::Strip;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::Work;
 
-/// Relative moment decrease between equilibria that still counts as round-off.
+/// Relative decrease of moment or rotation between equilibria that counts as round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Tolerance of Newton's method for states of a finer resolution.
+/// Tolerance of Newton's method for states on a finer membrane, which only serve an error estimate.
 ///
-/// They only serve an error estimate. The last iteration converges quadratically, so the error is
-/// far smaller than the tolerance.
+/// The last iteration converges quadratically, so the error of the state is far smaller than the
+/// tolerance.
 const ESTIMATED: f64 = 1e-6;
 
 /// Side of a moment at which the curve has a kink.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum KinkSide {
+    /// Smaller moments.
     Before,
+    /// Larger moments.
     Behind,
 }
 
-/// Equilibrium of a gap; moment and rotation are positive in bending direction.
+/// Equilibrium of a gap; moment and rotation are positive in the direction of bending.
 #[derive(Debug)]
 pub(super) struct Knot {
     pub(super) point: SkinPoint,
     pub(super) moment: f64,
     pub(super) rotation: f64,
-    /// `dθ/dM` of the incoming and of the outgoing branch.
+    /// Compliances `dθ/dM` of the incoming and of the outgoing branch.
     compliances: [f64; 2],
 }
 
@@ -44,30 +46,29 @@ impl Knot {
         }
     }
 
-    /// Returns `dθ/dM` of the outgoing branch.
+    /// Returns the compliance `dθ/dM` of the outgoing branch.
     pub(super) fn compliance(&self) -> f64 {
         self.compliances[1]
     }
 
-    /// Returns true if a contact changes here.
+    /// Returns true if a contact changes at this equilibrium.
     pub(super) fn is_event(&self) -> bool {
         matches!(self.point.event, Some(Event::Changed(_)))
     }
 }
 
-/// The curve of a gap: its equilibria sorted by moment.
+/// The curve of a gap: its equilibria ("knots") sorted by moment.
 ///
-/// Some belong to its path, others are solved for in between.
-///
-/// Between two knots, with the rotations `θ`, the compliances `c = dθ/dM` and the secant
-/// `s = Δθ/ΔM`, the rotation is approximately
+/// The knots are points of the path of the gap, and further equilibria between these points that
+/// are solved for at given moments. Between two knots, with the rotations `θ`, the compliances
+/// `c = dθ/dM` and the secant `s = Δθ/ΔM`, the rotation is approximately
 ///
 /// ```text
 /// θ₁ + Δθ [s x² + c₁ x (1 − x)]/[s + (c₁ + c₂ − 2s) x (1 − x)],    x = (M − M₁)/ΔM           (F8)
 /// ```
 ///
-/// This rational interpolant is monotone however much the gap stiffens (Gregory & Delbourgo 1982,
-/// doi 10.1093/imanum/2.2.123). It only predicts where to solve and does not enter any result.
+/// This rational interpolant is monotone for any stiffening of the gap (Gregory & Delbourgo 1982,
+/// doi 10.1093/imanum/2.2.123). It only predicts at which moments to solve, and enters no result.
 #[derive(Debug)]
 pub(super) struct GapCurve {
     path: Continuation<Strip>,
@@ -88,10 +89,10 @@ impl GapCurve {
         self.path.system()
     }
 
-    /// Follows the path until the gap carries a moment.
+    /// Follows the path until the gap carries at least the given moment.
     ///
-    /// `None` if the path ends earlier, or if moment or rotation decrease: then the moment does not
-    /// determine the state of the gap.
+    /// `None` if the path ends earlier. Also `None` if the moment or the rotation decreases,
+    /// because then the moment does not determine the state of the gap.
     pub(super) fn follow_to(&mut self, moment: f64) -> Option<()> {
         loop {
             let last = self.knots.last()?;
@@ -116,9 +117,9 @@ impl GapCurve {
         }
     }
 
-    /// Solves for the equilibrium under a moment already covered.
+    /// Solves for the equilibrium under a moment that the path has already passed.
     ///
-    /// `None` if Newton's method fails.
+    /// `None` if Newton's method fails or converges to another branch.
     pub(super) fn solve_at(&mut self, moment: f64) -> Option<()> {
         let next = self.knots.partition_point(|knot| knot.moment < moment);
         let [from, to] = [self.knots.get(next.checked_sub(1)?)?, self.knots.get(next)?];
@@ -130,27 +131,27 @@ impl GapCurve {
         let condition = self.strip().under_moment(moment);
         let point = self.path.solved(guess, &condition)?;
         let knot = Knot { moment, ..Knot::new(self.path.system(), point) };
-        // Newton's method may converge to a state on another branch.
+        // A rotation outside the segment means that Newton's method found another branch.
         range.contains(&knot.rotation).then(|| self.knots.insert(next, knot))
     }
 
-    /// Returns the equilibria up to a moment.
+    /// Returns the equilibria with moments up to the given moment.
     pub(super) fn knots_to(&self, moment: f64) -> &[Knot] {
         &self.knots[..self.knots.partition_point(|knot| knot.moment <= moment)]
     }
 
-    /// Returns the last equilibrium under a moment that was solved for.
+    /// Returns the last equilibrium at exactly this moment; `None` if none was solved for.
     pub(super) fn knot(&self, moment: f64) -> Option<&Knot> {
         self.knots_to(moment).last().filter(|knot| knot.moment == moment)
     }
 
-    /// Returns the moment at which the gap first closes.
+    /// Returns the moment of first contact; `None` if the gap has not closed so far.
     pub(super) fn first_closing(&self) -> Option<f64> {
         let mut touching = self.knots.iter().filter(|knot| Contacts::closed(&knot.point.state) > 0);
         touching.next().map(|knot| knot.moment)
     }
 
-    /// Returns the rotation under a moment, as solved or interpolated by (F8).
+    /// Returns the rotation `θ` under a moment, from an equilibrium or interpolated by (F8).
     pub(super) fn rotation(&self, moment: f64) -> f64 {
         match self.find(moment) {
             Ok([knot, _]) => knot.rotation,
@@ -158,7 +159,7 @@ impl GapCurve {
         }
     }
 
-    /// Returns `dθ/dM` at a moment, as solved or interpolated by (F8).
+    /// Returns the compliance `dθ/dM` at a moment, from an equilibrium or interpolated by (F8).
     pub(super) fn compliance(&self, moment: f64, side: KinkSide) -> f64 {
         match (self.find(moment), side) {
             (Ok([knot, _]), KinkSide::Before) => knot.compliances[0],
@@ -167,7 +168,7 @@ impl GapCurve {
         }
     }
 
-    /// Finds the first and the last equilibrium at a moment, or the segment around it.
+    /// Finds the first and the last equilibrium at a moment, or else the segment that contains it.
     fn find(&self, moment: f64) -> Result<[&Knot; 2], Segment<'_>> {
         let next = self.knots.partition_point(|knot| knot.moment < moment);
         let here = self.knots[next..].partition_point(|knot| knot.moment <= moment);
@@ -177,7 +178,7 @@ impl GapCurve {
         }
     }
 
-    /// Computes the frictional dissipation up to a moment that was solved for.
+    /// Computes the frictional dissipation from rest to a moment that was solved for.
     pub(super) fn friction_work(&mut self, moment: f64) -> f64 {
         let mut work = Work::default();
         let end = self.knots_to(moment).len();
@@ -187,13 +188,15 @@ impl GapCurve {
         work.total()
     }
 
-    /// Returns the largest membrane strain up to a moment.
+    /// Returns the largest membrane strain from rest to a moment.
     pub(super) fn largest_strain(&self, moment: f64) -> f64 {
         let knots = self.knots_to(moment).iter();
         knots.map(|knot| self.strip().largest_strain(&knot.point.state)).fold(0.0, f64::max)
     }
 
-    /// Solves the equilibrium under a moment again on a finer strip; `None` on failure.
+    /// Solves the equilibrium under a moment again with a finer membrane.
+    ///
+    /// `None` if no equilibrium was solved for at this moment, or if Newton's method fails.
     pub(super) fn resolved(&self, moment: f64, finer: &Strip, newton: &mut Newton) -> Option<Knot> {
         let mut state = self.strip().transferred(&self.knot(moment)?.point.state, finer)?;
         let condition = finer.under_moment(moment);
@@ -204,14 +207,14 @@ impl GapCurve {
     }
 }
 
-/// Part of a curve between two equilibria.
+/// Part of a curve between two neighbouring equilibria.
 struct Segment<'a> {
     from: &'a Knot,
     to: &'a Knot,
 }
 
 impl Segment<'_> {
-    /// Returns `ΔM`, `Δθ`, and the coordinate `x` of a moment.
+    /// Returns `ΔM`, `Δθ`, and the coordinate `x` of a moment, as in (F8).
     fn coordinates(&self, moment: f64) -> [f64; 3] {
         let width = self.to.moment - self.from.moment;
         [width, self.to.rotation - self.from.rotation, (moment - self.from.moment) / width]
@@ -236,9 +239,9 @@ impl Segment<'_> {
         (secant / below).powi(2) * (end * x * x + 2.0 * secant * x * y + start * y * y)
     }
 
-    /// Predicts the state under a moment by a cubic of the rotation in each unknown.
+    /// Predicts the state under a moment: each unknown is a cubic polynomial of the rotation.
     ///
-    /// Stiffening curves are smooth as functions of the rotation.
+    /// Unknowns are smoother as functions of the rotation than of the moment if the gap stiffens.
     fn state(&self, strip: &Strip, moment: f64) -> SkinState {
         let Self { from, to } = self;
         let turn = to.rotation - from.rotation;

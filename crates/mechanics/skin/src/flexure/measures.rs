@@ -1,4 +1,4 @@
-//! Measures of bending.
+//! Measures of a bent strip.
 
 use serde::{Deserialize, Serialize};
 use solver::Continuation;
@@ -11,46 +11,46 @@ use crate::common::is_default;
 use crate::contacts::Contacts;
 use crate::record::Record;
 
-/// The measures of bending; `None` if the value does not exist.
+/// The measures of bending; `None` for a measure without a value.
 ///
-/// The moment is `M* = M t/(E_m I_m)`, the curvature `κ* = κ t` with `κ` the rotation of one end
-/// against the other over the length `n p` of the strip.
+/// The dimensionless moment is `M* = M t/(E_m I_m)`. The dimensionless curvature is `κ* = κ t`,
+/// where `κ` is the relative rotation of both ends divided by the length `n p` of the strip.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlexureMeasures {
     /// Flexural compliance `C_f* = 1/max(dM*/dκ*)`.
     pub compliance: Option<f64>,
-    /// `1/(dM*/dκ*)` at rest.
+    /// Compliance `1/(dM*/dκ*)` at rest.
     pub initial_compliance: Option<f64>,
-    /// True if scales touch.
+    /// True if scales touch somewhere on the path.
     pub contact: Option<bool>,
-    /// `κ*` at the first contact.
+    /// Curvature `κ*` at the first contact.
     pub first_contact_curvature: Option<f64>,
-    /// `M*` of the largest magnitude; negative on a path to the outside.
+    /// Moment `M*` of the largest magnitude; negative if the scales are on the outside of the bend.
     pub max_moment: Option<f64>,
     /// Axial fraction of the elastic energy at the end of the path.
     pub axial_energy_share: Option<f64>,
     /// Largest strain `|ε| + ½ h |κ|` at the membrane surface, anywhere on the path.
     pub membrane_strain_max: Option<f64>,
-    /// Estimated largest relative error of the measures by the membrane discretisation.
+    /// Estimate of the largest relative error of the measures due to the membrane discretisation.
     ///
-    /// `None` for a given number of elements.
+    /// `None` if the number of elements is given.
     pub error: Option<f64>,
     /// Number of gaps `n` of the strip, an integer in a chain.
     pub gaps: f64,
-    /// Frictional dissipation in the whole strip at the end of the path, over `E_m t³`.
+    /// Frictional dissipation of the whole strip from rest to the end of the path, over `E_m t³`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
-    /// `κ*` at which friction locks the strip.
+    /// Curvature `κ*` beyond which friction locks the strip.
     ///
-    /// Beyond it contacts stick and the rotation hardly grows.
+    /// Beyond it contacts stick, and the rotation hardly grows with the moment.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub locking_curvature: Option<f64>,
     /// Residual state after unloading.
     #[serde(default, skip_serializing_if = "is_default")]
     pub remains: Remains,
-    /// `κ*` at which scales would touch, even if the path ends earlier.
+    /// Curvature `κ*` at which scales first touch, even if the path ends earlier.
     ///
-    /// In an imperfect strip it belongs to the gap that closes first. `None` if no gap can close.
+    /// In an imperfect strip it refers to the gap that closes first. `None` if no gap can close.
     pub contact_curvature: Option<f64>,
 }
 
@@ -58,8 +58,7 @@ impl FlexureMeasures {
     /// Computes the measures of a completed path.
     pub(crate) fn new(record: &Record<Strip>, path: &mut Continuation<Strip>) -> Self {
         let first = record.first_contact();
-        // Before contact the strip bends to arcs with constant stiffness, so there is no maximum to
-        // search.
+        // Without contact the stiffness is constant, so no maximum has to be searched for.
         let stiffest = match first {
             Some(_) => record.stiffness_summit(path).map(|summit| summit.value),
             None => Some(record.initial_stiffness),
@@ -84,13 +83,14 @@ impl FlexureMeasures {
         }
     }
 
-    /// Replaces computed values by closed forms where these exist.
+    /// Replaces computed values by closed forms, where closed forms exist.
     ///
-    /// Before contact the compliance is `Σd/Σp`, and no energy stretches the membrane.
+    /// Before contact the compliance is `free_compliance`, equal to `Σd/Σp`, and the axial energy
+    /// is zero.
     pub(crate) fn in_closed_form(self, free_compliance: f64) -> Self {
         let bare = self.contact == Some(false);
         Self {
-            // Missing values stay missing: a closed form does not make up for a failed path.
+            // Values that are missing because the path failed remain missing.
             initial_compliance: self.initial_compliance.map(|_| free_compliance),
             compliance: self.compliance.map(|found| if bare { free_compliance } else { found }),
             axial_energy_share: self.axial_energy_share.map(|found| if bare { 0.0 } else { found }),
@@ -98,12 +98,12 @@ impl FlexureMeasures {
         }
     }
 
-    /// Keeps only the measures of the start of a path, for a path that failed.
+    /// Removes the measures that are not known if the path stopped early.
     pub(crate) fn without_final_values(self) -> Self {
         Self {
             initial_compliance: self.initial_compliance,
             first_contact_curvature: self.first_contact_curvature,
-            // No contact so far does not exclude a later contact.
+            // Without contact so far it is unknown whether scales would touch later.
             contact: self.first_contact_curvature.map(|_| true),
             contact_curvature: self.contact_curvature,
             gaps: self.gaps,
@@ -112,18 +112,19 @@ impl FlexureMeasures {
     }
 }
 
-/// Returns the curvature of the last contact change.
+/// Returns the curvature of the last contact change if the strip is locked at the end of its path.
 ///
-/// `None` unless contacts then stick and lock the strip.
+/// `None` if no contact sticks there, or if the strip is less than [`LOCKED`] times as stiff as at
+/// rest.
 fn locking(record: &Record<Strip>, path: &Continuation<Strip>) -> Option<f64> {
     let [sticking, _] = Contacts::stick_slip_counts(&path.point().state);
     let (start, end) = record.path.first().zip(record.path.last())?;
-    // Sticking contacts alone are not enough: a strip may continue to bend with some of them.
+    // Check the stiffness, too, because a strip may bend further while some contacts stick.
     let is_locked = sticking > 0 && end.stiffness.abs() >= LOCKED * start.stiffness;
     record.events.last().filter(|_| is_locked).map(|event| event.point.curvature)
 }
 
-/// Returns the number of larger magnitude.
+/// Returns the number of larger magnitude, with its sign.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b.abs() > a.abs() { b } else { a }
 }

@@ -1,26 +1,26 @@
-//! Discretisation of the membrane of a gap.
+//! Discretisation of the membrane in a gap.
 
 use geometry::OutOfRange;
 use membrane::{Elastica, GapMembrane, Membrane, Section, Span};
 
-/// Resolution of the membrane between two scales.
+/// Selects the discretisation of the membrane between two scales.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MembraneMesh {
-    /// As fine as the measures need, by a spectral element for the extensible elastica.
+    /// A spectral element for the extensible elastica, refined automatically.
     ///
-    /// Its order increases until the measures change by less than 1e-4.
+    /// Its order increases until a further increase changes the measures by at most 1e-4.
     #[default]
     Auto,
-    /// This many co-rotational beam elements of equal length.
+    /// The given number of co-rotational beam elements of equal length.
     Elements(usize),
 }
 
-/// Resolution of a membrane.
+/// Discretisation of a membrane with its resolution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Resolution {
-    /// This many co-rotational elements.
+    /// The given number of co-rotational elements.
     Elements(usize),
-    /// Spectral element of this order for the elastica.
+    /// A spectral element of the given order for the elastica.
     Order(usize),
 }
 
@@ -34,8 +34,9 @@ impl Resolution {
 
     /// Returns the next finer resolution if the `error` is too large.
     ///
-    /// `error` is the largest relative change of any measure with that resolution. `None` also
-    /// beyond the largest useful order.
+    /// `error` is the largest relative change of any measure between this resolution and the next
+    /// finer one. Returns `None` if the error is acceptable or unknown, or if the order is already
+    /// the largest.
     pub(crate) fn better(self, error: Option<f64>) -> Option<Self> {
         let suffices = error.is_none_or(|error| error <= TOLERANCE);
         self.finer().filter(|finer| {
@@ -43,7 +44,7 @@ impl Resolution {
         })
     }
 
-    /// Returns the next finer order; `None` for elements.
+    /// Returns the next finer resolution; `None` for co-rotational elements.
     pub(crate) fn finer(self) -> Option<Self> {
         match self {
             Self::Elements(_) => None,
@@ -52,22 +53,22 @@ impl Resolution {
     }
 }
 
-/// Largest relative change of any measure at which the coarser resolution suffices.
+/// Largest relative change of a measure by refinement at which the coarser resolution suffices.
 const TOLERANCE: f64 = 1e-4;
 
-/// Initial order of [`MembraneMesh::Auto`].
+/// Initial order of the spectral element for [`MembraneMesh::Auto`].
 ///
-/// It resolves boundary layers at the bases of a hundredth of the gap, and is within 1e-4 for
-/// nearly all designs of the reference study.
+/// It resolves boundary layers with a thickness of a hundredth of the gap. For nearly all designs
+/// of the reference study its error is below 1e-4.
 const FIRST_ORDER: usize = 12;
 
-/// Increment of the order.
+/// Increment of the order of the spectral element.
 const ORDER_STEP: usize = 6;
 
-/// Largest order.
+/// Largest order of the spectral element.
 ///
-/// Beyond it, boundary layers are thinner than a thousandth of the gap and beam theory does not
-/// apply.
+/// Only boundary layers thinner than a thousandth of the gap need a larger order, and beam theory
+/// is not valid for these.
 const LAST_ORDER: usize = 48;
 
 impl MembraneMesh {

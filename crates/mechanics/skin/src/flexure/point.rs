@@ -4,28 +4,30 @@ use super::strip::Strip;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::Skin;
 
-/// One equilibrium of the path.
+/// Recorded values of one equilibrium of the path.
+///
+/// Energies, dissipation and contacts refer to the whole strip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlexurePoint {
-    /// `κ*`.
+    /// Curvature `κ*`.
     pub curvature: f64,
-    /// `M*`.
+    /// Moment `M*`.
     pub moment: f64,
-    /// `dM*/dκ*` of the outgoing branch.
+    /// Stiffness `dM*/dκ*` of the outgoing branch.
     pub stiffness: f64,
     /// Rotation of each end, degrees.
     pub end_rotation_deg: f64,
-    /// Bending energy of the membrane of the whole strip, over `E_m t³`.
+    /// Bending energy of the membrane, over `E_m t³`.
     pub bending_energy: f64,
     /// Axial energy of the membrane, over `E_m t³`.
     pub axial_energy: f64,
-    /// Energy of the contacts, over `E_m t³`.
+    /// Elastic energy of the contacts, over `E_m t³`.
     pub contact_energy: f64,
-    /// Frictional dissipation up to here, over `E_m t³`, for the whole strip.
+    /// Frictional dissipation from rest to this point, over `E_m t³`.
     ///
     /// `None` without friction.
     pub friction_work: Option<f64>,
-    /// Closed contacts of the strip, scaled to the rounded number of gaps.
+    /// Number of closed contacts, for the rounded number of gaps.
     pub contacts: usize,
     /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane.
     pub membrane_strain: f64,
@@ -50,7 +52,7 @@ impl Skin for Strip {
             bending_energy: membrane.bending * repeats,
             axial_energy: membrane.axial * repeats,
             contact_energy: self.contacts.energy(state) * repeats,
-            // Filled in later, because the work depends on the previous point, too.
+            // Set by `note_friction`, because the dissipation also depends on the previous points.
             friction_work: None,
             contacts: self.whole_gaps() / self.gaps() * Contacts::closed(state),
             membrane_strain: self.largest_strain(state),
@@ -71,11 +73,11 @@ impl Skin for Strip {
     }
 
     fn angle_deg(&self, state: &SkinState) -> f64 {
-        // Each end turns by half of the relative rotation of the ends.
+        // Each end rotates by half of the relative rotation of both ends.
         0.5 * (self.rotation(&state.z) * self.repeats).to_degrees()
     }
 
-    /// `dM/dΦ` of the solved gaps.
+    /// Returns `dM/dΦ` of the solved gaps.
     fn stiffness(&self, _state: &SkinState, direction: &[f64]) -> f64 {
         self.moment(direction) / self.rotation(direction)
     }
@@ -84,7 +86,7 @@ impl Skin for Strip {
         (self.whole_gaps() == self.gaps()).then_some(scale as i64)
     }
 
-    /// Checks neighbours only, because a ring may overlap its other end.
+    /// Checks neighbours only, because a strip bent to a ring may overlap its other end.
     fn interpenetrates(&self, state: &SkinState) -> bool {
         self.contacts.neighbours_interpenetrate(state)
     }

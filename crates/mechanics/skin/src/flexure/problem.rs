@@ -22,14 +22,15 @@ pub(crate) struct Bent {
     pub(crate) record: Record<Strip>,
     pub(crate) path: Continuation<Strip>,
     pub(crate) status: Status,
-    /// Largest change of any measure with a finer resolution; `None` if there is none.
+    /// Largest relative change of any measure on a finer membrane; `None` if not estimated.
     error: Option<f64>,
+    /// Relative poses of neighbours in the solved gaps, at every point of the path.
     steps: Vec<Vec<Step>>,
-    /// Equilibria at the requested end rotations.
+    /// Equilibria at the requested end rotations; `None` for a rotation that was not reached.
     pub(crate) requested_points: Vec<Option<SkinPoint>>,
 }
 
-/// A bending problem.
+/// Input of a bending problem, with the undeformed strip.
 pub(crate) struct FlexureProblem<'a> {
     pub(crate) common: &'a Common,
     parameters: &'a FlexureParameters,
@@ -39,14 +40,14 @@ pub(crate) struct FlexureProblem<'a> {
     law: ContactLaw,
     /// Number of gaps `n` of the whole strip.
     pub(crate) gaps: f64,
-    /// Number of gaps that are solved for.
+    /// Number of gaps that are solved together: one for a unit cell.
     pub(super) solved: usize,
-    /// Curvature of first contact, if it is a requested measure.
+    /// Curvature of first contact in closed form; `None` if it is unknown or scales cannot touch.
     pub(super) contact_curvature: Option<f64>,
 }
 
 impl<'a> FlexureProblem<'a> {
-    /// Sets up the strip of a design.
+    /// Sets up the strip of a design with equal gaps.
     pub(crate) fn even(
         design: &Design,
         common: &'a Common,
@@ -56,7 +57,9 @@ impl<'a> FlexureProblem<'a> {
         Ok(Self { contact_curvature, ..Self::of_row(design.row()?, design, common, parameters)? })
     }
 
-    /// Sets up the strip of a design with the given row.
+    /// Sets up the strip of an even `row`, without its curvature of first contact.
+    ///
+    /// The row may have negative slants. The other parameters are taken from `design`.
     pub(crate) fn of_row(
         row: Row,
         design: &Design,
@@ -73,7 +76,7 @@ impl<'a> FlexureProblem<'a> {
         Self::new(design, common, parameters, Arrangement::Even(row), gaps, solved)
     }
 
-    /// Sets up a sample of the strip with all its gaps.
+    /// Sets up an imperfect strip with all its gaps.
     pub(crate) fn sample(
         design: &Design,
         common: &'a Common,
@@ -111,7 +114,7 @@ impl<'a> FlexureProblem<'a> {
         })
     }
 
-    /// Returns the mean curvature at the end of bending.
+    /// Returns the curvature `κ*` at the end of bending.
     pub(super) fn end_curvature(&self) -> f64 {
         self.end_rotation() / self.length()
     }
@@ -123,16 +126,16 @@ impl<'a> FlexureProblem<'a> {
 
     /// Returns the relative rotation of the ends at the end of bending, radians.
     pub(super) fn end_rotation(&self) -> f64 {
-        // The parameter is the rotation of each end.
+        // The parameter is the rotation of each end, half of the relative rotation.
         2.0 * self.parameters.max_end_rotation_deg.to_radians()
     }
 
-    /// `E_m I_m`, over `E_m t⁴`.
+    /// Returns the bending stiffness `E_m I_m` of the membrane, over `E_m t⁴`.
     pub(super) fn bending_stiffness(&self) -> f64 {
         self.section.bending_stiffness()
     }
 
-    /// Builds the strip with this resolution.
+    /// Builds the solved part of the strip with the given resolution of its membranes.
     pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, OutOfRange> {
         // Equal gaps share one membrane.
         let unlike = match &self.row {
@@ -147,10 +150,10 @@ impl<'a> FlexureProblem<'a> {
         Ok(Strip::new(self.row.clone(), membranes, self.law, self.section, extent))
     }
 
-    /// Builds one gap of an uneven strip, with its two scales.
+    /// Builds a strip that consists of one gap of an uneven strip and its two scales.
     pub(super) fn gap(&self, gap: usize, resolution: Resolution) -> Result<Strip, OutOfRange> {
         let membranes = vec![self.membrane(gap, resolution)?];
-        // Without contact every gap turns in proportion to its length.
+        // Before contact the rotation of each gap is proportional to its length.
         let free_length = self.row.gap_fraction() * self.length();
         let share = self.row.gap(gap) / free_length;
         let rotation = share * self.end_rotation();
@@ -163,7 +166,7 @@ impl<'a> FlexureProblem<'a> {
         resolution.membrane(self.section, Span { half_base, gap: self.row.gap(gap), axis_offset })
     }
 
-    /// Bends the strip, with increasing resolution until the error is acceptable.
+    /// Bends the strip; refines the membrane until the discretisation error is acceptable.
     pub(crate) fn solve(&self) -> Result<Flexure, OutOfRange> {
         Ok(self.flexure(self.resolved(&[], &[])?.0))
     }
@@ -173,10 +176,10 @@ impl<'a> FlexureProblem<'a> {
         self.parameters.elements_per_gap.coarsest()
     }
 
-    /// Bends the strip with a sufficient resolution.
+    /// Bends the strip; refines the membrane until the discretisation error is acceptable.
     ///
-    /// Follows the largest values of some `functions`, and locates the equilibria at some
-    /// `end_rotations`.
+    /// Also tracks the maxima of `functions` along the path, and locates the equilibria at
+    /// `end_rotations` (rotation of each end, radians). Returns the final resolution, too.
     pub(crate) fn resolved(
         &self,
         functions: &[PathFunction<Strip>],
@@ -185,9 +188,9 @@ impl<'a> FlexureProblem<'a> {
         let mut resolution = self.coarsest();
         loop {
             let bent = self.bend(resolution, functions, end_rotations)?;
-            // A path that stopped early has no error estimate and is not refined.
+            // A path that stopped early is not refined.
             let error = bent.error.filter(|_| bent.status == Status::Complete);
-            // At the largest order the remaining error is reported with the measures.
+            // If the largest order is not sufficient, its error is reported with the measures.
             let Some(finer) = resolution.better(error) else { return Ok((bent, resolution)) };
             resolution = finer;
         }
@@ -219,8 +222,8 @@ impl<'a> FlexureProblem<'a> {
         loop {
             let from = path.point_shared();
             let Some(point) = path.next() else { break };
-            // If a side is flush in every gap at once, the moment only shifts the force from one
-            // end of the side to the other, and no control parameter changes along the path.
+            // If sides lie flush in all equal gaps, a larger moment only moves the contact force
+            // from one end of the side to the other end. The strip does not bend further.
             flush = alike && Contacts::flush(&point.state);
             if flush {
                 break;
@@ -229,7 +232,7 @@ impl<'a> FlexureProblem<'a> {
             record.visit(&mut path, &from, &point);
             steps.push(path.system().steps(&point.state.z));
         }
-        // The loop ended before the path did, so the path has no stop reason.
+        // After the break above the path has no stop reason of its own.
         let stop = if flush { Some(Termination::Singular) } else { path.termination() };
         let status = match Status::of(&path, stop.unwrap_or(Termination::Reached)) {
             Status::Stopped(stop) if stop.is_numerical() && (flush || locks(&record.path)) => {
@@ -249,11 +252,11 @@ impl<'a> FlexureProblem<'a> {
         Ok(Bent { record, path, status, error, steps, requested_points: locator.points })
     }
 
-    /// Builds the result of a bent strip.
+    /// Builds the result of bending, and unloads the strip if requested.
     pub(crate) fn flexure(&self, bent: Bent) -> Flexure {
         let Bent { record, mut path, status, error, steps, .. } = bent;
-        // Computed values agree with the closed forms up to round-off, but designs without contact
-        // should have exactly `d/p`.
+        // Computed values agree with the closed forms only up to round-off. Designs without contact
+        // should have exactly the compliance `d/p`.
         let measures =
             FlexureMeasures::new(&record, &mut path).in_closed_form(self.row.gap_fraction());
         let measures =
@@ -265,7 +268,7 @@ impl<'a> FlexureProblem<'a> {
         let (gaps, row) = (path.system().whole_gaps(), self.row.clone());
         let Record { path: points, events, history, work, .. } = record;
         let unload = self.parameters.unload && status == Status::Complete;
-        // Unload last: unloading moves the path away from the end at which measures are taken.
+        // Unload after evaluating the measures, because unloading moves the path from its end.
         let unloading = unload.then(|| Unloading::follow(&mut path, work));
         let remains =
             unloading.as_ref().map(|back| back.remains(|point: &FlexurePoint| point.curvature));
@@ -273,9 +276,9 @@ impl<'a> FlexureProblem<'a> {
         Flexure { status, measures, path: points, events, history, unloading, gaps, steps, row }
     }
 
-    /// Estimates the largest change of any measure with a finer resolution.
+    /// Estimates the largest relative change of any measure on the next finer membrane.
     ///
-    /// `None` if there is none.
+    /// `None` for co-rotational elements, which are not refined.
     fn error(
         &self,
         resolution: Resolution,
@@ -284,14 +287,14 @@ impl<'a> FlexureProblem<'a> {
     ) -> Result<Option<f64>, OutOfRange> {
         let Some(finer) = resolution.finer() else { return Ok(None) };
         if record.first_contact().is_none() {
-            // Arcs are exact in every resolution.
+            // Without contact the membranes are arcs, which every resolution represents exactly.
             return Ok(Some(0.0));
         }
         let finer = self.strip(finer)?;
         let settings = &self.common.solver;
-        // A state without a solution on the finer membrane counts as not resolved.
+        // If a state has no solution on the finer membrane, its error counts as infinite.
         let end = &path.point().state;
-        // A strip is often stiffest at its end.
+        // Skip the stiffest state if it is the end of the path, as is often the case.
         let before =
             record.stiffness.point().map(|point| &point.state).filter(|state| *state != end);
         Ok(before
@@ -302,36 +305,39 @@ impl<'a> FlexureProblem<'a> {
     }
 }
 
-/// Stiffness relative to rest beyond which the scales lock a strip.
+/// Ratio of the stiffness to the stiffness at rest from which a strip counts as locked.
 pub(super) const LOCKED: f64 = 100.0;
 
-/// Membrane strain beyond the validity of the small-strain law.
+/// Membrane strain far beyond the validity of the small-strain law.
 const BEYOND_LAW: f64 = 1.0;
 
-/// Time for an unknown of a strip over the time for an unknown of a punctured row, rounded.
+/// Computing time for an unknown of a strip divided by the time for an unknown of a punctured row.
 ///
-/// Each gap solves its membrane, and many tangents of a strip need row exchanges.
+/// The value is rounded. Strips are slower because each gap has a membrane, and because many of
+/// their tangents need row exchanges.
 const WORK_PER_UNKNOWN: u64 = 3;
 
-/// Stiffness relative to rest below which the moment has reached a maximum.
+/// Ratio of the stiffness to the stiffness at rest below which the moment counts as maximal.
 const LEVEL: f64 = 1e-3;
 
 /// Returns true if the moment reaches a maximum at the end of a path.
 ///
-/// Beyond the maximum the bending of a strip with several equal gaps localises: one of them bends
-/// further, the others open. The path bifurcates there, so Newton's method fails.
+/// Beyond the maximum the bending of several equal gaps localises: one gap bends further, the
+/// others open. The path bifurcates at the maximum, so Newton's method fails.
 fn ends_at_largest_moment(path: &[FlexurePoint]) -> bool {
     let ends = path.first().zip(path.last());
     ends.is_some_and(|(first, last)| last.stiffness.abs() <= LEVEL * first.stiffness)
 }
 
-/// Returns true if scales lock a strip at the end of its path.
+/// Returns true if the scales lock a strip at the end of its path.
 ///
-/// Then the rotation hardly changes, or only by straining the membrane beyond its law.
+/// The strip is then much stiffer than at rest, or bends further only with a membrane strain far
+/// beyond the validity of the law.
 fn locks(path: &[FlexurePoint]) -> bool {
     let ends = path.first().zip(path.last());
     ends.is_some_and(|(first, last)| {
-        // The stiffness of a reversing path is large, too, so ignore its sign.
+        // Use the magnitude: the stiffness of a locked strip may be negative, because its rotation
+        // may decrease.
         last.stiffness.abs() >= LOCKED * first.stiffness || last.membrane_strain >= BEYOND_LAW
     })
 }

@@ -19,7 +19,7 @@ use crate::sensitivity::{
 use crate::unloading::unloaded;
 use crate::{Common, Design, Status};
 
-/// Complete input of a bending problem.
+/// Complete input of bending a design.
 #[derive(Clone, Debug)]
 pub struct FlexureInput {
     /// The design.
@@ -30,25 +30,26 @@ pub struct FlexureInput {
     pub parameters: FlexureParameters,
 }
 
-/// Functions with a maximum that is a measure, in addition to the stiffness.
+/// Functions, in addition to the stiffness, of which the maximum on the path is a measure.
 pub(super) const FOLLOWED: [PathFunction<Strip>; 2] = [
     |strip, state, _| strip.normalised_moment(&state.z),
     |strip, state, _| strip.largest_strain(state),
 ];
+/// Index of the moment in [`FOLLOWED`].
 const MOMENT: usize = 0;
+/// Index of the membrane strain in [`FOLLOWED`].
 const STRAIN: usize = 1;
 
-/// Relative distance of first contact from the end of bending that counts as far.
+/// Relative distance between the curvatures of first contact and of the end of bending.
 ///
-/// Beyond it a parameter step does not change whether scales touch.
-///
-/// Steps are a few millionths of a parameter.
+/// If the distance is larger, a difference step of a few millionths of a parameter cannot change
+/// whether scales touch before the end.
 const NEARLY: f64 = 1e-3;
 
 /// Bends a strip like [`solve`](super::solve), and differentiates its measures.
 ///
-/// Returns the derivatives with respect to the parameter of each variation; none if the path was
-/// not completed.
+/// Returns the derivatives with respect to the parameter of each variation. The list is empty if
+/// the path was not completed.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -70,15 +71,15 @@ pub fn differentiate(
     Ok((problem.flexure(bent), derivatives))
 }
 
-/// Moment over curvature.
+/// Curve of the moment `M*` over the curvature `κ*`.
 const MOMENT_OVER_CURVATURE: Curve<Strip> = [
     |strip, state, _, _| strip.curvature(&state.z),
     |strip, state, _, _| strip.normalised_moment(&state.z),
 ];
 
-/// Computes the moment at given curvatures, with derivatives for each variation.
+/// Computes the moment `M*` at given curvatures `κ*`, with a derivative for each variation.
 ///
-/// Follows the path as far as needed; `None` where it does not reach a curvature.
+/// Follows the path to the largest curvature. `None` for a curvature that the path does not reach.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -91,7 +92,7 @@ pub fn moment_curve(
     let FlexureInput { design, common, parameters } = &input;
     let problem = FlexureProblem::even(design, common, parameters)?;
     let (bent, resolution) = problem.resolved(&[], &rotations)?;
-    // The end scales the control parameter, so use the same end for the perturbed inputs.
+    // The final rotation scales the control parameter, so perturbed inputs need the same value.
     let end = parameters.max_end_rotation_deg;
     let strips = Neighbours::map_all(variations, |other| {
         let parameters = FlexureParameters { max_end_rotation_deg: end, ..other.parameters };
@@ -103,8 +104,7 @@ pub fn moment_curve(
         .into_iter()
         .map(|found| {
             let point = found?;
-            // In bending the derivative of a stick anchor with respect to a parameter is not
-            // available.
+            // In bending, derivatives of the position at which a contact sticks are not available.
             let known =
                 if Contacts::stick_slip_counts(&point.state)[0] > 0 { &[][..] } else { &strips };
             let mut on_curve =
@@ -115,10 +115,10 @@ pub fn moment_curve(
         .collect())
 }
 
-/// Computes the moment at given curvatures while the moment is removed, without derivatives.
+/// Computes the moment `M*` at given curvatures of the unloading path, without derivatives.
 ///
-/// Unloading begins at the curvature `turn`. `None` below the residual curvature, or if the path
-/// does not reach `turn`.
+/// Unloading begins at the curvature `turn`. `None` for curvatures below the residual curvature,
+/// and for all curvatures if the loading path does not reach `turn`.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -139,26 +139,26 @@ pub fn unloading_curve(
     Ok(unloaded(&mut bent.path, turn, locations, &common.solver, MOMENT_OVER_CURVATURE))
 }
 
-/// Returns the input of a strip that is bent to the largest of some curvatures.
+/// Returns the input for bending a strip to the largest one of the given `curvatures`.
 ///
-/// Also returns the end rotation at each curvature.
+/// Also returns the rotation of each end at each curvature, in radians.
 fn bent_to(
     input: &FlexureInput,
     curvatures: &[f64],
 ) -> Result<(FlexureInput, Vec<f64>), OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
-    // `κ*` is the relative rotation of the ends over this length, twice the rotation of each end.
+    // `κ* length` is the relative rotation of the ends, which is twice the rotation of each end.
     let length = FlexureProblem::even(design, common, parameters)?.length();
     let rotations: Vec<_> = curvatures.iter().map(|curvature| 0.5 * curvature * length).collect();
-    // A strip may also bend to the outside: take the largest magnitude, with its sign.
+    // Use the largest magnitude, because rotations are negative with the scales on the outside.
     let farthest = rotations.iter().copied().fold(0.0, larger);
-    // Go slightly beyond, so that round-off does not put the last curvature past the end.
+    // Bend slightly further, so that round-off does not put the last curvature beyond the end.
     let end = (1.001 * farthest.to_degrees()).clamp(-180.0, 180.0);
     let parameters = FlexureParameters { max_end_rotation_deg: end, ..*parameters };
     Ok((FlexureInput { parameters, ..input.clone() }, rotations))
 }
 
-/// Builds the strip of a design with this resolution.
+/// Builds the strip of an input with the given resolution of its membranes.
 fn strip(input: &FlexureInput, resolution: Resolution) -> Result<Strip, OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     FlexureProblem::of_row(design.leaning_row()?, design, common, parameters)?.strip(resolution)
@@ -188,17 +188,15 @@ impl FlexureProblem<'_> {
         Ok(derivatives)
     }
 
-    /// Removes derivatives of the compliance if scales are about to touch at the end.
+    /// Removes derivatives of the compliance if a parameter step makes scales touch at the end.
     ///
-    /// The compliance jumps at first contact, so the derivative without contact is valid on one
-    /// side only.
+    /// The compliance jumps at first contact, so it has no derivative there.
     fn mark_touching(
         &self,
         derivatives: &mut [Derivative],
         variations: &[Neighbours<FlexureInput>],
     ) -> Result<(), OutOfRange> {
-        // Far from the end no step of a difference causes contact; checking would cost as much as
-        // bending.
+        // If first contact is far from the end of bending, no parameter step causes contact.
         let ratio = self.contact_curvature.map(|curvature| curvature / self.end_curvature());
         if !ratio.is_some_and(|ratio| (ratio - 1.0).abs() < NEARLY) {
             return Ok(());
@@ -213,7 +211,7 @@ impl FlexureProblem<'_> {
         Ok(())
     }
 
-    /// Lists the points of the path at which measures are taken.
+    /// Lists the points of the path at which measures are evaluated, with these measures.
     fn measured_points(
         &self,
         record: &Record<Strip>,
@@ -227,7 +225,7 @@ impl FlexureProblem<'_> {
                 let stiffest = record.stiffness_summit(path);
                 sensitivity::summit(stiffest, path, Strip::stiffness, settings)
             }
-            // Without contact the stiffness is the stiffness at rest.
+            // Without contact the stiffness is constant.
             None => Some(rest(path.system())),
         };
         let highest = record.highest_point(MOMENT);
@@ -250,7 +248,7 @@ impl FlexureProblem<'_> {
     }
 }
 
-/// Returns true if the scales of a strip touch before its bending ends.
+/// Returns true if the scales of a strip touch before the end of bending.
 fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     let row = design.leaning_row()?;
@@ -259,9 +257,9 @@ fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
     Ok(touching.is_some_and(|curvature| curvature <= end))
 }
 
-/// Fills unknown derivatives at sticking points by differences of whole solutions.
+/// Fills `unknown` derivatives at points with sticking contacts by differences of whole solutions.
 ///
-/// In bending the derivative of a stick anchor with respect to a parameter is not available.
+/// In bending, derivatives of the position at which a contact sticks are not available.
 fn differences(
     mut unknown: Vec<Derivative>,
     variations: &[Neighbours<FlexureInput>],
@@ -271,7 +269,7 @@ fn differences(
         return Ok(unknown);
     };
     for (parameter, variation) in variations.iter().enumerate().take(last + 1) {
-        // A change of resolution would dominate the difference.
+        // Use the same resolution: its change would dominate the difference.
         let (below, above) =
             (measured(&variation.below, resolution)?, measured(&variation.above, resolution)?);
         for derivative in unknown.iter_mut().filter(|of| of.parameter == parameter) {
@@ -287,9 +285,9 @@ fn differences(
     Ok(unknown)
 }
 
-/// Solves a strip with this resolution and returns its measures.
+/// Bends a strip with the given resolution, and returns the names and values of its measures.
 ///
-/// Empty if its path is incomplete.
+/// The list is empty if the path is incomplete.
 fn measured(
     input: &FlexureInput,
     resolution: Resolution,
@@ -297,7 +295,7 @@ fn measured(
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::of_row(design.leaning_row()?, design, common, parameters)?;
     let mut bent = problem.bend(resolution, &FOLLOWED, &[])?;
-    // An incomplete neighbour leaves this side without a derivative.
+    // Without measures this side of the parameter has no derivative.
     if bent.status != Status::Complete {
         return Ok(Vec::new());
     }

@@ -1,4 +1,4 @@
-//! Snapshots of a bent strip at chosen curvatures.
+//! Snapshots of a bent strip at given end rotations.
 
 use contact::Pose;
 use geometry::OutOfRange;
@@ -12,31 +12,34 @@ use crate::contacts::{Contact, SkinState};
 use crate::record::Skin;
 use crate::{Common, Design};
 
-/// Sample intervals of the membrane axis per element, or per gap.
+/// Number of intervals at which the membrane axis is sampled, for each element or spectral element.
 const INTERVALS: usize = 12;
 
-/// A strip in equilibrium.
+/// Geometry and contacts of a strip in equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StripSnapshot {
-    /// `κ*`.
+    /// Curvature `κ*`.
     pub curvature: f64,
-    /// `M*`.
+    /// Moment `M*`.
     pub moment: f64,
     /// Rotation of each end, degrees.
     pub end_rotation_deg: f64,
-    /// Displacement (over `t`) and rotation of every scale.
+    /// Displacements `x`, `y` (in units of `t`) and rotation of every scale.
     ///
-    /// Rotations are counter-clockwise, in radians. The first scale is at rest.
+    /// Rotations are counter-clockwise, in radians. The first scale is fixed.
     pub scales: Vec<[f64; 3]>,
-    /// Deformed membrane axis in every gap, relative to the first node; over `t`.
+    /// Points of the deformed membrane axis in every gap, in units of `t`.
+    ///
+    /// They are relative to the node of the first scale.
     pub membrane: Vec<Vec<[f64; 2]>>,
-    /// Every closed contact; forces over `E_m t²`.
+    /// Every closed contact; forces in units of `E_m t²`.
     pub contacts: Vec<Contact>,
 }
 
-/// Solves the bending of `design` at given end rotations.
+/// Solves the bending of `design`, and returns a snapshot at each of the given end rotations.
 ///
-/// Each snapshot is an equilibrium, not an interpolation; `None` if the path does not reach it.
+/// Each snapshot is an equilibrium, not an interpolation; `None` if the path does not reach this
+/// rotation.
 ///
 /// # Errors
 /// If a length, a modulus, or a constant of the contact law is not positive.
@@ -48,7 +51,7 @@ pub fn snapshots(
 ) -> Result<Vec<Option<StripSnapshot>>, OutOfRange> {
     let problem = FlexureProblem::even(design, common, parameters)?;
     let rotations: Vec<f64> = end_rotations_deg.iter().map(|angle| angle.to_radians()).collect();
-    // Use the resolution of the measures, so that drawings match the reported numbers.
+    // Refine as for the measures, so that drawings agree with the reported numbers.
     let (bent, _) = problem.resolved(&[], &rotations)?;
     let (row, strip) = (&problem.row, bent.path.system());
     Ok(bent
@@ -64,7 +67,7 @@ fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapsho
     let frames = frames(&strip.steps(&state.z), gaps, row);
     let axes: Vec<_> = (0..solved).map(|gap| strip.axis(state, gap, INTERVALS)).collect();
     let contacts = strip.contacts.closed_contacts(state);
-    // A chain is solved as a whole; only the gap of a unit cell is repeated.
+    // Repeat the solved gap of a unit cell; a chain has a single copy.
     let copies = (0..gaps / solved).flat_map(|copy| {
         contacts.iter().map(move |contact| (copy * solved + contact.left, contact))
     });

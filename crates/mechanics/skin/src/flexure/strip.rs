@@ -1,4 +1,4 @@
-//! A bent strip of membrane and scales, as a mixed complementarity system.
+//! System of equations of a bent strip: a mixed complementarity system.
 
 use contact::ContactLaw;
 use geometry::{Body, Vec2};
@@ -16,15 +16,15 @@ use crate::contacts::{Contacts, SkinMode, SkinState, pair_constraints};
 /// └──────── gap 0 and scale 1 ───────┘     └──── gap n − 1 and scale n ────┘
 /// ```
 ///
-/// `interior` stands for the unknowns of the membrane of a gap. They and the positions `x y` are in
-/// the frame of the scale to the left of the gap; the rotation `φ` of a scale is counted from the
-/// first scale.
+/// `interior` stands for the unknowns of the membrane of a gap. The interior unknowns and the
+/// displacements `x y` are in the frame of the scale on the left of the gap. The rotation `φ` of a
+/// scale is relative to the first scale. With friction each contact has two further unknowns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct StripLayout {
     gaps: usize,
-    /// Membrane unknowns per gap.
+    /// Number of membrane unknowns of each gap.
     interior: usize,
-    /// Contact unknowns per gap.
+    /// Number of contact unknowns of each gap.
     pair: usize,
 }
 
@@ -37,17 +37,17 @@ impl StripLayout {
         self.gaps * self.block() + 1
     }
 
-    /// Returns the first unknown of a scale; the first scale has none.
+    /// Returns the index of the first unknown of a scale; `None` for the first scale.
     fn scale(self, scale: usize) -> Option<usize> {
         Some(self.block() * scale.checked_sub(1)? + self.block() - 3)
     }
 
-    /// Returns the rotation unknown of a scale; the first scale has none.
+    /// Returns the index of the unknown rotation of a scale; `None` for the first scale.
     fn rotation(self, scale: usize) -> Option<usize> {
         Some(self.scale(scale)? + 2)
     }
 
-    /// Returns the first membrane unknown of a gap.
+    /// Returns the index of the first membrane unknown of a gap.
     fn membrane(self, gap: usize) -> usize {
         self.block() * gap + self.pair
     }
@@ -56,14 +56,15 @@ impl StripLayout {
         self.block() * (force / self.pair) + force % self.pair
     }
 
-    /// Returns one block per free scale, with the forces towards the next scale.
+    /// Returns the block structure: one block for each free scale.
     ///
-    /// The first block also holds the contacts with the fixed scale. `None` with interior membrane
-    /// unknowns, because blocks would become too large.
+    /// A block holds the displacements of a scale and the contact forces between this scale and the
+    /// next one. The first block also holds the contact forces between the fixed scale and its
+    /// neighbour. `None` with interior membrane unknowns, because blocks would be too large.
     fn blocks(self) -> Option<Blocks> {
         let links: Vec<_> = (1..=self.gaps).filter_map(|scale| self.scale(scale)).collect();
         let starts = [0].into_iter().chain(links.iter().copied().skip(1)).collect();
-        // The moment acts on the last scale, and the block with load and controls must be the root.
+        // The moment and the controls belong to the last scale, so its block must be the root.
         (self.interior == 0).then_some(Blocks { starts, links, root: self.gaps - 1, reach: 1 })
     }
 
@@ -77,32 +78,33 @@ impl StripLayout {
 pub(crate) struct StripExtent {
     /// Number of gaps that are solved for.
     pub(crate) gaps: usize,
-    /// Gaps of the whole strip per solved gap; an integer for a chain.
+    /// Number of gaps of the whole strip divided by `gaps`; 1 for a chain.
     pub(crate) repeats: f64,
-    /// Relative rotation (radians) of the ends at which bending ends.
+    /// Relative rotation (radians) of the ends of the solved part at the end of bending.
     pub(crate) rotation: f64,
-    /// End of the path as a multiple of that rotation.
+    /// Rotation at the end of the path as a multiple of `rotation`.
     ///
-    /// It is 1, except for one of several unequal gaps, which may rotate by more than its fraction.
+    /// It is 1, except for one of several unequal gaps. Such a gap may rotate by more than its
+    /// fraction of the rotation of the whole strip.
     pub(crate) farthest: f64,
 }
 
-/// Gaps in pure bending: the first scale fixed, a moment on the last.
+/// One or several gaps in pure bending: the first scale is fixed, a moment acts on the last scale.
 ///
-/// One gap is the unit cell: in pure bending every cut carries the same moment and no force, so
-/// equal gaps deform alike. Unknowns are in `t` and radians, moment and contact forces in `E_m t³`
-/// and `E_m t²`.
+/// A single gap is the unit cell: in pure bending every cut carries the same moment and no force,
+/// so equal gaps have equal deformations. Lengths are in units of `t`, rotations in radians, the
+/// moment in `E_m t³` and contact forces in `E_m t²`.
 #[derive(Clone, Debug)]
 pub(crate) struct Strip {
     layout: StripLayout,
-    /// Membrane of each gap, or one for all if they are equal.
+    /// One membrane for each gap, or a single one if all gaps are equal.
     membranes: Vec<Membrane>,
     pub(crate) contacts: Contacts,
-    /// Gaps of the whole strip per solved gap.
+    /// Number of gaps of the whole strip divided by the number of solved gaps.
     pub(super) repeats: f64,
     /// Mean pitch `p` of the scales.
     pitch: f64,
-    /// `E_m I_m`, over `E_m t⁴`.
+    /// Bending stiffness `E_m I_m` of the membrane, over `E_m t⁴`.
     bending_stiffness: f64,
     controls: [Control; 3],
     farthest: f64,
@@ -111,9 +113,10 @@ pub(crate) struct Strip {
 }
 
 impl Strip {
-    /// Assembles a strip; `membranes` holds one membrane per gap, or one for all.
+    /// Assembles a strip.
     ///
-    /// All membranes have the same number of unknowns.
+    /// `membranes` holds one membrane for each gap, or a single one for all equal gaps. All
+    /// membranes have the same number of unknowns.
     pub(crate) fn new(
         row: Arrangement,
         membranes: Vec<Membrane>,
@@ -126,15 +129,15 @@ impl Strip {
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
         let forces = (0..layout.pair * gaps).map(|force| layout.force(force)).collect();
         // The round-off of the equations of a fine mesh is proportional to the stiffness of its
-        // elements, so use that as their unit.
+        // elements. The units of these equations, which scale their tolerance, account for this.
         let mut units = vec![1.0; layout.size()];
         for gap in 0..gaps {
             let of_gap = membranes[gap.min(membranes.len() - 1)].units();
             units[layout.membrane(gap)..][..of_gap.len()].copy_from_slice(of_gap.as_slice());
         }
         let last = layout.moment() - 3;
-        // The last scale is placed in the frame of its neighbour, so their pitch is the length
-        // unit.
+        // Displacements of the last scale are relative to its neighbour, so scale them with the
+        // pitch of both.
         let pitch = row.pitch(gaps - 1);
         Self {
             layout,
@@ -144,8 +147,7 @@ impl Strip {
             bending_stiffness: section.bending_stiffness(),
             contacts: Contacts::new(row, Body::default(), law, scales, forces, true),
             blocks: layout.blocks(),
-            // The rotation comes first, because it is the control parameter that bending must
-            // reach.
+            // The first control is the control parameter of the path: the rotation.
             controls: [(2, rotation), (0, pitch), (1, pitch)]
                 .map(|(k, scale)| Control { index: last + k, scale }),
             farthest,
@@ -158,7 +160,7 @@ impl Strip {
         self.layout.gaps
     }
 
-    /// Returns the rotation of the last scale relative to the first, radians.
+    /// Returns the rotation of the last scale relative to the first scale, radians.
     pub(crate) fn rotation(&self, z: &[f64]) -> f64 {
         z[self.controls[0].index]
     }
@@ -173,12 +175,12 @@ impl Strip {
         (self.repeats * self.layout.gaps as f64).round() as usize
     }
 
-    /// Returns `κ*`, from rotation and length of the solved gaps.
+    /// Returns the curvature `κ*`: the rotation of the solved gaps divided by their length.
     pub(crate) fn curvature(&self, z: &[f64]) -> f64 {
         self.rotation(z) / (self.layout.gaps as f64 * self.pitch)
     }
 
-    /// `M*`.
+    /// Returns the moment `M*`.
     pub(crate) fn normalised_moment(&self, z: &[f64]) -> f64 {
         self.moment(z) / self.bending_stiffness
     }
@@ -190,7 +192,7 @@ impl Strip {
         stiffness * self.layout.gaps as f64 * self.pitch / self.bending_stiffness
     }
 
-    /// Returns the pose of the right scale of each gap relative to the left one.
+    /// Returns the pose of the right scale relative to the left scale, for each solved gap.
     pub(crate) fn steps(&self, z: &[f64]) -> Vec<Step> {
         let poses = (1..=self.layout.gaps).map(|scale| self.contacts.pose(z, scale));
         poses.map(|pose| [pose.displacement.x, pose.displacement.y, pose.rotation]).collect()
@@ -220,16 +222,16 @@ impl Strip {
             .fold(0.0, f64::max)
     }
 
-    /// Samples the deformed membrane axis in a gap, in the frame of the left scale.
+    /// Samples points of the deformed membrane axis in a gap, in the frame of its left scale.
     ///
-    /// Each element is divided into `intervals`; points are relative to the node of the left scale.
+    /// Each element is divided into `intervals`. Points are relative to the node of the left scale.
     pub(crate) fn axis(&self, state: &SkinState, gap: usize, intervals: usize) -> Vec<Vec2> {
         self.membrane(gap).axis(&self.acting(state, gap), intervals)
     }
 
-    /// Transfers a state to `finer`, the same strip with more unknowns per gap.
+    /// Transfers a state to `finer`, the same strip with more membrane unknowns.
     ///
-    /// `None` for beam elements, which have no other resolution.
+    /// `None` for co-rotational elements, which are not refined.
     pub(crate) fn transferred(&self, state: &SkinState, finer: &Self) -> Option<SkinState> {
         let mut z = Vec::with_capacity(finer.layout.size());
         for gap in 0..self.layout.gaps {
@@ -239,23 +241,21 @@ impl Strip {
             z.extend(self.membrane(gap).transferred(membrane, finer.membrane(gap))?);
         }
         z.push(state.z[self.layout.moment()]);
-        // Constraints belong to contacts and do not depend on the resolution.
+        // Constraints and modes belong to contacts, so they do not depend on the resolution.
         Some(SkinState { z, active: state.active.clone(), mode: state.mode.clone() })
     }
 
-    /// Returns the condition that the ends keep the relative rotation of `state`.
+    /// Returns the condition that the relative rotation of the ends is the one in `state`.
     pub(crate) fn same_rotation(&self, state: &SkinState) -> Condition {
         Condition::through(vec![(self.controls[0].index, 1.0)], &state.z)
     }
 
-    /// Returns the condition that a moment of this magnitude acts.
-    ///
-    /// It acts in the direction of bending.
+    /// Returns the condition that a moment of magnitude `size` acts in the direction of bending.
     pub(crate) fn under_moment(&self, size: f64) -> Condition {
         Condition::new(vec![(self.layout.moment(), self.direction())], size)
     }
 
-    /// Returns 1, or −1 for bending to the outside.
+    /// Returns 1 with the scales on the inside of the bend, −1 with the scales on the outside.
     pub(crate) fn direction(&self) -> f64 {
         self.controls[0].scale.signum()
     }
@@ -267,19 +267,19 @@ impl Strip {
         }
     }
 
-    /// Counts the leading membrane unknowns of a gap that vanish.
+    /// Counts the membrane unknowns at the start of a gap that vanish because no contact is closed.
     ///
-    /// In pure bending no cut of the strip carries a force. Without contact force the membrane of a
-    /// gap is therefore force-free and bends to an arc.
+    /// In pure bending no cut of the strip carries a force. Without a contact force the membrane of
+    /// a gap therefore carries no force and bends to an arc.
     fn straight(&self, active: &[bool], gap: usize) -> usize {
         let forces = &active[self.layout.pair * gap..][..self.layout.pair];
-        // One flag per constraint of the gap: one contact force is enough to load the membrane.
+        // A single active contact force loads the membrane.
         if forces.contains(&true) { 0 } else { self.membrane(gap).vanishing() }
     }
 
-    /// Returns the membrane state of a gap in the frame of its left scale.
+    /// Returns the membrane unknowns of a gap in the frame of its left scale.
     ///
-    /// Vanishing unknowns are omitted.
+    /// Unknowns that vanish by [`Self::straight`] are omitted.
     fn acting(&self, state: &SkinState, gap: usize) -> Vec<f64> {
         let start = self.layout.membrane(gap);
         let end = start + self.layout.interior + 3;
@@ -303,7 +303,8 @@ impl Strip {
         let Derivatives { gradient, hessian } = self.membrane(gap).derivatives(&acting);
         let last = acting.len() - 1;
         let first = self.layout.membrane(gap) + self.layout.interior + 2 - last;
-        // The membrane sees the rotation of the right scale minus the rotation of the left one.
+        // The membrane depends on the rotation of the right scale minus the rotation of the left
+        // scale, so its equations also contribute to the rotation of the left scale, with sign −1.
         let frame = self.layout.rotation(gap).map(|frame| (frame, last, -1.0));
         let own = (0..=last).map(|k| (first + k, k, 1.0));
         for (unknown, row, sign) in own.chain(frame) {
@@ -325,7 +326,7 @@ impl System for Strip {
     }
 
     fn half_bandwidth(&self) -> usize {
-        // Distance from φ of a scale to φ of the next.
+        // Distance from the unknown `φ` of a scale to `φ` of the next scale.
         self.layout.block()
     }
 
@@ -381,7 +382,7 @@ impl System for Strip {
         for gap in 0..self.layout.gaps {
             self.add_membrane(state, gap, residual, matrix);
         }
-        // The moment works on the last rotation only: `M` balances the gradient of (F1).
+        // The moment `M` acts on the rotation of the last scale only (F1).
         let (moment, turned) = (self.layout.moment(), self.controls[0].index);
         residual.add(turned, -state.z[moment]);
         matrix.add(turned, moment, -1.0);

@@ -1,4 +1,4 @@
-//! Tests of the assembled system: energy balance along a path.
+//! Tests of the energy balance along the path of a strip.
 
 mod gap_by_gap;
 
@@ -11,9 +11,9 @@ use super::{FlexureParameters, Method};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::{Base, Common, Design};
 
-/// Integrates `M dΦ` between two points by Boole's rule.
+/// Integrates `M dΦ` between two points of a path by Boole's rule.
 ///
-/// It uses five equilibria, equidistant in `Φ`.
+/// Evaluates five equilibria at equal distances in `Φ`.
 fn work(path: &mut Continuation<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
@@ -23,11 +23,10 @@ fn work(path: &mut Continuation<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64
     mean * (strip.rotation(&to.state.z) - strip.rotation(&from.state.z))
 }
 
-/// Computes the largest difference between work and energy along a path.
+/// Computes the largest difference between work and stored energy along the path of a strip.
 ///
-/// It is relative to the final energy.
-///
-/// Also returns the axial and the contact fraction of the energy at the end.
+/// The difference is relative to the energy at the end of the path. Also returns the axial energy
+/// of the membrane and the contact energy at the end, as fractions of the whole energy.
 fn balance(design: &Design, common: &Common, parameters: &FlexureParameters) -> [f64; 3] {
     let problem = FlexureProblem::even(design, common, parameters).unwrap();
     let strip = problem.resolved(&[], &[]).unwrap().0.path.system().clone();
@@ -56,7 +55,7 @@ fn work_of_the_moment_equals_stored_energy() {
     for (gap, length, slant_deg) in
         [(0.1, 1.0, 75.0), (0.1, 0.1, 45.0), (0.3, 0.5, 60.0), (1.0, 0.2, 75.0), (0.5, 1.0, 0.0)]
     {
-        // The last contacts are so soft that they store a significant part of the energy.
+        // The contacts of the last case are so soft that they store a large part of the energy.
         for (law, modulus) in
             [(Law::PRINTED, 667.0), (Law::EXCHANGED, 667.0), (Law::EXCHANGED, 1.0)]
         {

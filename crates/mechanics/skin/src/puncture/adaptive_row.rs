@@ -1,8 +1,8 @@
 //! Path of a row that grows as contact spreads.
 //!
-//! Only the scales within reach of contact are unknowns. Beyond the last of them the row is linear,
-//! and its scales follow from the end scale in closed form ([`FarField`]). As contact spreads
-//! the row is extended at the current point of the path.
+//! Only the scales that contact may reach are unknowns. The scales beyond them form a linear chain,
+//! and their displacements follow from the end of the solved row in closed form ([`FarField`]). If
+//! contact spreads, the row is extended at the current point of the path.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use super::row_layout::RowLayout;
 use super::system::Chain;
 use crate::contacts::{SkinPoint, SkinState};
 
-/// Path of a part of a row, which is extended when deformation reaches its ends.
+/// Path of the solved part of a row, which is extended when contact may reach its ends.
 ///
 /// ```text
 /// next ─► solve the next step ─► beyond an end?  no ─► return it
@@ -26,24 +26,27 @@ use crate::contacts::{SkinPoint, SkinState};
 pub(super) struct AdaptiveRowPath<'a> {
     problem: &'a Problem<'a>,
     pub(super) path: Continuation<Chain>,
+    /// Largest number of scales of the solved part.
     longest: usize,
-    /// False if the row had to grow beyond its limit.
+    /// False if the row would have to grow beyond `longest`.
     pub(super) is_long_enough: bool,
-    /// Proximity of the last yielded point to the ends.
+    /// How close the deformation at the last returned point came to each end.
     reach: [Reach; 2],
-    /// Shorter rows that the path has left, in order.
+    /// All previous rows, the shortest first.
     shorter: Vec<Chain>,
-    /// Point at which the row was extended, as it was on the shorter row.
+    /// Last point at which the row was extended: the solution of the shorter row.
+    ///
+    /// It has the unknowns of the longer row, but was not solved again.
     arrived: Option<SkinPoint>,
 }
 
-/// Segment of a path, with all its points on the current row.
+/// Segment of a path between two neighbouring points, both with the unknowns of the current row.
 pub(super) struct Segment {
     pub(super) from: Arc<SkinPoint>,
     pub(super) to: SkinPoint,
-    /// First point before any extension of the row.
+    /// The point `from` as solved before any extension of the row.
     ///
-    /// After an extension the point is solved again.
+    /// If the row was extended at this point, `from` is the new solution on the longer row.
     pub(super) left: Arc<SkinPoint>,
 }
 
@@ -62,7 +65,8 @@ impl<'a> AdaptiveRowPath<'a> {
     /// # Errors
     /// If the scales of a longer row cannot be built.
     pub(super) fn next(&mut self) -> Result<Option<Segment>, OutOfRange> {
-        // Extend before the step if the last one came near an end; few steps are then repeated.
+        // Extend before the step if the last step came near an end, so that fewer steps have to be
+        // repeated.
         let reach = std::mem::replace(&mut self.reach, [Reach::Short; 2]);
         self.lengthen(&self.path.point_shared(), reach)?;
         while self.is_long_enough {
@@ -80,7 +84,7 @@ impl<'a> AdaptiveRowPath<'a> {
         Ok(None)
     }
 
-    /// Continues the path on a longer row, if an end is reached and the row may grow.
+    /// Continues the path on a longer row if contact is near an end and the row may grow.
     fn lengthen(&mut self, from: &SkinPoint, reach: [Reach; 2]) -> Result<(), OutOfRange> {
         if reach == [Reach::Short; 2] {
             return Ok(());
@@ -93,7 +97,7 @@ impl<'a> AdaptiveRowPath<'a> {
         if self.is_long_enough {
             let chain = self.problem.part(longer)?;
             let from = chain.extended(self.path.system(), from);
-            // A row may grow twice at one point: keep the point at which it grew first.
+            // If the row grows twice at one point, keep the solution before the first extension.
             let left = self.arrived.take().map(|left| chain.extended(self.path.system(), &left));
             self.arrived = left.or_else(|| Some(from.clone()));
             self.shorter.push(self.path.continue_with(chain, from));
@@ -101,9 +105,10 @@ impl<'a> AdaptiveRowPath<'a> {
         Ok(())
     }
 
-    /// Extends a yielded point to the current row.
+    /// Converts a point that was returned earlier to the unknowns of the current row.
     ///
-    /// The size of a point identifies its row, because each row is longer than the previous one.
+    /// The number of unknowns identifies the row of the point, because each row is longer than the
+    /// previous one.
     pub(super) fn lengthened(&self, point: &SkinPoint) -> SkinPoint {
         let mut point = point.clone();
         let longer = self.shorter.iter().skip(1).chain([self.path.system()]);
@@ -119,22 +124,26 @@ impl<'a> AdaptiveRowPath<'a> {
 /// Initial number of scales on each side of the punctured one, for an endless row.
 const FIRST_SCALES: usize = 4;
 
-/// Smallest growth of a row in scales, and divisor for proportional growth.
+/// Constant part of the number of scales that an extension adds to a side.
 const GROWTH: usize = 4;
+
+/// Number of scales of the row for each further scale that an extension adds to a side.
 const GROWTH_PART: usize = 8;
 
-/// Decay of displacements over the additional scales of an initial row of bars.
+/// Fraction to which displacements decay over the additional scales of an initial row.
+///
+/// Rows on a neo-Hookean substrate have such additional scales.
 const DECAYED: f64 = 1e-3;
-/// Largest number of additional scales of an initial row of bars.
+
+/// Largest number of additional scales on a side of an initial row.
 const LONGEST_DECAY: usize = 50;
 
 impl RowLayout {
-    /// Chooses the initial row.
+    /// Chooses the layout of the initial row.
     ///
-    /// A scale is coupled with `neighbours` scales on each side.
+    /// The substrate couples a scale with `neighbours` scales on each side.
     pub(super) fn first(far: &FarField, neighbours: usize, law: SubstrateLaw) -> Self {
-        // With full coupling the far field acts on as many scales at an end as a scale is coupled
-        // with.
+        // With full coupling the far field acts on the last `neighbours` scales at each end.
         let least = FIRST_SCALES.max(neighbours.div_ceil(2));
         let side = match law {
             SubstrateLaw::Linear => least,
@@ -148,7 +157,7 @@ impl RowLayout {
         Self { left: self.left.max(side), right: self.right.max(side), ..self }
     }
 
-    /// Adds scales on the sides that are reached, up to the `longest` row.
+    /// Adds scales on each side that contact is near or has reached, up to `longest` in total.
     pub(super) fn grown(self, reach: [Reach; 2], longest: usize) -> Self {
         // Proportional growth keeps the number of extensions logarithmic in the length.
         let more = GROWTH + self.scales() / GROWTH_PART;
@@ -158,7 +167,7 @@ impl RowLayout {
         Self { left: self.left + left.min(room - right), right: self.right + right, ..self }
     }
 
-    /// Intersects this row with another.
+    /// Returns the scales that this row and the `other` row share.
     pub(super) fn within(self, other: Self) -> Self {
         Self { left: self.left.min(other.left), right: self.right.min(other.right), ..self }
     }
@@ -217,7 +226,7 @@ impl Chain {
         for scale in 0..self.layout.scales() {
             let at = self.layout.scale(scale);
             let scale = scale.cast_signed() - added.cast_signed();
-            // Place new scales by the closed form, so that the point stays an equilibrium.
+            // Move new scales by the closed form, so that the point stays an equilibrium.
             extended[at..at + 3].copy_from_slice(&shorter.displacement_anywhere(z, scale));
         }
         for force in 0..self.layout.contacts * (shorter.layout.scales() - 1) {
@@ -230,6 +239,7 @@ impl Chain {
     }
 }
 
+/// Copies `values` to `into`, beginning at index `start`.
 fn copy_to<T: Copy>(into: &mut [T], start: usize, values: &[T]) {
     into[start..start + values.len()].copy_from_slice(values);
 }

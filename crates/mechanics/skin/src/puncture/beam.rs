@@ -1,23 +1,23 @@
 //! A scale as a beam that is clamped at its base: stress, bending and bond tractions (B1–B3).
 //!
-//! The axis of the beam rises from the node along `e = (sin α, cos α)`. Its length is `l = 1/cos α`,
-//! its depth `h = 2a cos α`, its width `b`; sections are perpendicular to `e`. Lengths are over `t`,
-//! forces over `E* t²`, stresses over `E*`.
+//! The axis of the beam leads from the node along `e = (sin α, cos α)`. The beam has the length
+//! `l = 1/cos α`, the depth `h = 2a cos α` and the width `b`. Sections are perpendicular to `e`.
+//! Lengths are in `t`, forces in `E* t²`, stresses in `E*`.
 
 use geometry::{Parallelogram, Vec2};
 
 /// Poisson's ratio of a scale, for its shear modulus `G = E_c/(2 (1 + ν_c))`.
 ///
-/// Glassy polymers have 0.35 to 0.4, ceramics 0.2 to 0.25. It only enters the small part of a
-/// deflection due to shear.
+/// Glassy polymers have 0.35 to 0.4, ceramics 0.2 to 0.25. The ratio only affects the part of a
+/// deflection that is due to shear, which is small.
 const POISSON_RATIO: f64 = 0.35;
 
 /// Shear coefficient of a rectangular section.
 const SHEAR_COEFFICIENT: f64 = 5.0 / 6.0;
 
-/// Distance within which loads act on the same section, over `t`.
+/// Distance along the axis within which two loads act on the same section, in units of `t`.
 ///
-/// Both top corners of an upright scale are at the same height up to round-off.
+/// For example, both top corners of an upright scale have the same height up to round-off.
 const SAME_SECTION: f64 = 1e-9;
 
 /// Force of a contact or of the needle on a scale, in the frame of the scale.
@@ -28,12 +28,12 @@ pub(super) struct Load {
     pub(super) force: Vec2,
 }
 
-/// Resultant of the tractions of a bond or of its substrate.
+/// Tractions between the base of a scale and the substrate, by linear distribution (B3).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct BaseTractions {
-    /// Largest normal traction that pulls at the bond: its mean plus the bending part.
+    /// Largest tensile traction of the bond: mean traction plus the bending part.
     ///
-    /// It is 0 if the whole base is pressed.
+    /// It is 0 if the whole base is in compression.
     pub(super) tension: f64,
     /// Mean shear traction.
     pub(super) shear: f64,
@@ -41,18 +41,19 @@ pub(super) struct BaseTractions {
     pub(super) pressure: f64,
 }
 
-/// Motion of the tip relative to the base, by bending of the scale.
+/// Motion of the tip of a scale relative to its base, by bending (B2).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct TipMotion {
-    /// Deflection perpendicular to the axis, by bending and shear, over `t`.
+    /// Deflection perpendicular to the axis, by bending and shear, in units of `t`.
     pub(super) deflection: f64,
-    /// Rotation of the section at the tip, radians, counter-clockwise.
+    /// Rotation of the section at the tip, radians, positive counter-clockwise.
     pub(super) rotation: f64,
 }
 
 /// A scale as a beam.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beam {
+    /// Unit vector `e` of the axis.
     pub(super) along: Vec2,
     pub(super) length: f64,
     pub(super) depth: f64,
@@ -78,14 +79,14 @@ impl Beam {
         // The bending moment is linear between loads, so its extremes lie at loads and at the base.
         let at_loads = loads.iter().map(|load| load.arm.dot(&self.along));
         let inside = at_loads.filter(|s| (0.0..=self.length).contains(s));
-        // A load at a corner of the tip lies beyond the last section.
+        // A load at a top corner may lie beyond the last section, so check the last section, too.
         let sections = inside.chain([0.0, self.length]);
         sections.map(|s| self.stress_below(loads, s)).fold(0.0, f64::max)
     }
 
-    /// Computes the stress in the section at `s`, just below any load there.
+    /// Computes the stress in the section at `s`, including loads that act on this section.
     fn stress_below(&self, loads: &[Load], s: f64) -> f64 {
-        // Loads at the base do not act on the section there.
+        // A load at the base does not stress the section at the base.
         let beyond = loads.iter().filter(|load| {
             let at = load.arm.dot(&self.along);
             at >= s - SAME_SECTION && at > SAME_SECTION
@@ -99,20 +100,20 @@ impl Beam {
         6.0 * moment.abs() / (area * self.depth) + normal.abs() / area
     }
 
-    /// Computes the stiffness of a section in bending and in shear.
+    /// Computes the stiffness of a section in bending, `E_c I`, and in shear.
     pub(super) fn stiffness(&self, modulus: f64) -> [f64; 2] {
         let bending = modulus * self.width * self.depth.powi(3) / 12.0;
         let shear = modulus / (2.0 * (1.0 + POISSON_RATIO));
         [bending, SHEAR_COEFFICIENT * shear * self.width * self.depth]
     }
 
-    /// Computes the motion of the tip of a scale with this modulus (B2).
+    /// Computes the motion of the tip of a scale with Young's `modulus` (B2).
     pub(super) fn tip_motion(&self, loads: &[Load], modulus: f64) -> TipMotion {
         let [bending, shear] = self.stiffness(modulus);
         let length = self.length;
         let mut tip = TipMotion::default();
         for Load { arm, force } in loads {
-            // Up to the load the moment is `moment − across s`.
+            // Between the base and the load, the bending moment at `s` is `moment − across s`.
             let (moment, across) = (arm.perp(force), self.along.perp(force));
             let end = arm.dot(&self.along).clamp(0.0, length);
             let (square, cube) = (end.powi(2) / 2.0, end.powi(3) / 3.0);
@@ -123,7 +124,7 @@ impl Beam {
         tip
     }
 
-    /// Computes the tractions at the base (B3), which balance the loads.
+    /// Computes the tractions at the base, which are in equilibrium with the loads (B3).
     pub(super) fn base_tractions(&self, loads: &[Load]) -> BaseTractions {
         let (mut force, mut moment) = (Vec2::zeros(), 0.0);
         for load in loads {
@@ -153,7 +154,9 @@ mod tests {
         Beam::new(&Parallelogram::new(half_base, slant_deg).unwrap(), width)
     }
 
-    /// Load at a distance along the axis and an offset from it, with parts along and across.
+    /// Creates a load at the distance `s` along the axis and an `offset` to its left.
+    ///
+    /// The force has components along the axis and across it, to the left.
     fn load(beam: &Beam, [s, offset]: [f64; 2], [along, across]: [f64; 2]) -> Load {
         let side = Vec2::new(-beam.along.y, beam.along.x);
         Load { arm: s * beam.along + offset * side, force: along * beam.along + across * side }
@@ -194,7 +197,7 @@ mod tests {
         }
     }
 
-    /// Round-off must not decide which of two loads at one height is the upper one.
+    /// The stress must not depend on round-off in the order of two loads at the same height.
     #[test]
     fn loads_at_the_same_height_act_on_the_same_section() {
         let beam = beam(0.2, 0.0, 1.0);
@@ -212,7 +215,7 @@ mod tests {
         // Four times the mean stress, as for a column loaded at its edge.
         let stress = 4.0 * 2.0 / (beam.width * beam.depth);
         assert_relative_eq!(beam.stress(&[pushed]), stress, max_relative = 1e-13);
-        // A balanced pair bends the beam between the loads alone, not at the base.
+        // Three loads in equilibrium bend the beam between them, but not at the base.
         let pair = [
             load(&beam, [0.8, 0.0], [0.0, 1.0]),
             load(&beam, [0.5, 0.0], [0.0, -2.0]),
@@ -225,17 +228,17 @@ mod tests {
     }
 
     #[test]
-    fn tractions_of_the_base_are_linear_over_it() {
+    fn tractions_vary_linearly_across_the_base() {
         let beam = beam(0.5, 0.0, 2.0);
         let area = 2.0;
         let pressed = Load { arm: Vec2::new(0.1, 1.0), force: Vec2::new(0.0, -3.0) };
         let base = beam.base_tractions(&[pressed]);
         assert_relative_eq!(base.pressure, 3.0 / area, max_relative = 1e-14);
-        // Within the middle third nothing pulls.
+        // A force within the middle third of the base causes no tension.
         assert_eq!((base.tension, base.shear), (0.0, 0.0));
         let pushed = Load { arm: Vec2::new(0.0, 1.0), force: Vec2::new(3.0, 0.0) };
         let base = beam.base_tractions(&[pushed]);
-        // 6 M/(b (2a)²) with a lever arm of 1.
+        // The tension is 6 M/(b (2a)²) with M = 3, the force times a lever arm of 1.
         assert_relative_eq!(base.tension, 6.0 * 3.0 / 2.0, max_relative = 1e-14);
         assert_relative_eq!(base.shear, 1.5, max_relative = 1e-14);
     }

@@ -1,17 +1,18 @@
 //! Scales that bend under the forces of their neighbours and of a load (B7–B9).
 //!
-//! Each scale is a beam, clamped at its base. The forces `Λ` on it have the complementary energy
-//! `U = ½ Σ C_kl Λ_k Λ_l`. Their positions and directions in the frame of the scale depend on the
-//! unknowns, and so does `C`. With `L = V − Σ Λ g − U`, all equations are derivatives of `L`:
+//! Each scale is a beam, clamped at its base. The forces `Λ` on a scale have the complementary
+//! energy `U = ½ Σ C_kl Λ_k Λ_l` (B7). The flexibilities `C_kl` depend on the unknowns, because the
+//! unknowns determine the positions and directions of the forces in the frame of the scale. With
+//! the substrate energy `V`, all equations are derivatives of one function `L = V − Σ Λ g − U`:
 //!
 //! ```text
-//! contact k           g_k + δ(Λ_k) + ∂U/∂Λ_k = 0                                     (B7)
-//! balance             ∂V/∂u − Σ Λ_k ∇g_k − ∂U/∂u = 0                                 (B8)
+//! contact k           g_k + δ(Λ_k) + ∂U/∂Λ_k = 0
+//! equilibrium         ∂V/∂u − Σ Λ_k ∇g_k − ∂U/∂u = 0                                 (B8)
 //! depth, total tilt   D = D_rigid + ∂U/∂F,   ϑ = φ + ∂U/∂M                           (B9)
 //! ```
 //!
-//! `M` is a moment at the tip, of value 0. The tangent is therefore symmetric, and the work of the
-//! load equals the energy of substrate, contacts and scales.
+//! `M` is a moment at the tip, of value 0. The tangent is symmetric, and the work of the load
+//! equals the energy of substrate, contacts and scales.
 
 mod flexibility;
 
@@ -24,22 +25,22 @@ use super::beam::Beam;
 use super::system::Chain;
 use crate::contacts::SkinState;
 
-/// Unknowns of a free needle on an elastic scale, after the load: depth and total tilt.
+/// Number of unknowns after the load of a free needle on elastic scales: depth and total tilt.
 pub(super) const BENDING_UNKNOWNS: usize = 2;
 
-/// Half-length over which a shear force is distributed, over the depth of the beam.
+/// Half of the length on which a shear force falls to 0 around its load, in beam depths.
 ///
-/// The shear force of a point load jumps. Where two loads pass each other, the energy would have a
-/// kink and the equilibrium a jump.
+/// The shear force of a point load jumps at the load. If two such loads passed each other, the
+/// energy would have a kink and the equilibrium would jump.
 const SPREAD: f64 = 0.25;
 
-/// Fraction by which the end of a path may miss the critical tilt.
+/// Largest relative difference between the end of a complete path and the critical tilt.
 const AT_THE_TILT: f64 = 1e-9;
 
-/// Sums over all loads for one load `k`.
+/// Displacement of the beam at one load `k`, by all loads of its scale.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
-    /// Displacement `Σ C_kl Λ_l` at the load.
+    /// Displacement `Σ C_kl Λ_l` in the direction of load `k`.
     displacement: f64,
     /// First derivative of the displacement with respect to the position of load `k`.
     slope: f64,
@@ -47,8 +48,9 @@ struct Sums {
     curvature: f64,
 }
 
-/// The loads of one scale.
+/// One scale as a beam, with its loads.
 struct BentScale {
+    /// Index of the scale in the row.
     scale: usize,
     beam: Beam,
     section: Section,
@@ -57,18 +59,20 @@ struct BentScale {
 
 /// Loads of a scale with the flexibilities between them, for the tangent.
 ///
-/// Many loads share their unknowns, so entries are added up before they enter the tangent.
+/// Many loads depend on the same unknowns, so their entries are summed in a short row of
+/// `3 nodes + loads` entries before they enter the tangent.
 struct Coupling<'a> {
     loads: &'a [BeamLoad],
-    /// `C_kl` row by row, differentiated first with respect to the position of load `k`.
+    /// `C_kl` row by row; the first derivative is with respect to the position of load `k`.
     flexibilities: Vec<Flexibility>,
-    /// First of the three unknowns of each scale on which the loads depend.
+    /// Index of the unknown `x` of each scale on which the loads depend.
     nodes: Vec<usize>,
-    /// Positions of these unknowns in a row of `3 nodes + loads` entries, for each load.
+    /// Positions in the short row of the six unknowns on which each load depends.
     positions: Vec<[usize; COORDINATES]>,
 }
 
 impl BentScale {
+    /// Computes the flexibilities between all loads of the scale.
     fn coupling(&self) -> Coupling<'_> {
         let loads = &self.loads[..];
         let mut nodes = Vec::with_capacity(3);
@@ -88,12 +92,13 @@ impl BentScale {
         Coupling { loads, flexibilities, nodes, positions }
     }
 
+    /// Computes the displacement at a load `k`, which need not be one of the loads of the scale.
     fn sums(&self, k: &BeamLoad) -> Sums {
         let flexibilities = self.loads.iter().map(|l| self.section.flexibility(k, l));
         summed(&self.loads, flexibilities)
     }
 
-    /// Computes the displacement at `k` and its derivative along a direction of the unknowns.
+    /// Computes the displacement at a load `k`, and its derivative along a direction of unknowns.
     fn moving(&self, k: &BeamLoad, direction: &[f64]) -> [f64; 2] {
         let own = k.along(direction);
         let [mut displacement, mut rate] = [0.0; 2];
@@ -119,7 +124,7 @@ fn summed(loads: &[BeamLoad], flexibilities: impl Iterator<Item = Flexibility>) 
 }
 
 impl Coupling<'_> {
-    /// Counts the entries of a row: motions of scales, then forces of loads.
+    /// Counts the entries of a short row: motions of scales, then forces of loads.
     fn width(&self) -> usize {
         3 * self.nodes.len() + self.loads.len()
     }
@@ -133,14 +138,14 @@ impl Coupling<'_> {
         summed(self.loads, flexibilities)
     }
 
-    /// Adds `value` times the derivative of the coordinate of a load to a row.
+    /// Adds `value` times the derivatives of the coordinate of a load to a short row.
     fn add_slopes(&self, load: usize, value: f64, row: &mut [f64]) {
         for (position, slope) in self.positions[load].into_iter().zip(self.loads[load].slopes) {
             row[position] += value * slope;
         }
     }
 
-    /// Adds a row to the tangent.
+    /// Adds a short row to the tangent.
     fn add_row(&self, row: usize, values: &[f64], matrix: &mut impl Tangent) {
         let (motions, forces) = values.split_at(3 * self.nodes.len());
         for (node, values) in self.nodes.iter().zip(motions.chunks_exact(3)) {
@@ -155,7 +160,7 @@ impl Coupling<'_> {
         }
     }
 
-    /// Adds `sign` times the displacement at the load `k` to the equation of `row`.
+    /// Adds `sign` times the displacement at load `k` to the equation `row`, and to its tangent.
     fn add_displacement(
         &self,
         (row, sign): (usize, f64),
@@ -174,7 +179,7 @@ impl Coupling<'_> {
         self.add_row(row, &values, matrix);
     }
 
-    /// Adds the forces `−∂U/∂u` to the balances.
+    /// Adds the forces `−∂U/∂u` to the equilibrium equations of the scales.
     fn add_balance(&self, residual: &mut Residual, matrix: &mut impl Tangent) {
         let (width, motions) = (self.width(), 3 * self.nodes.len());
         let mut square = vec![0.0; motions * width];
@@ -184,7 +189,7 @@ impl Coupling<'_> {
             for (row, slope) in load.varying() {
                 residual.add(row, -load.force * sums.slope * slope);
             }
-            // The derivative of the force along the coordinate of the load.
+            // The short row holds the derivatives of the force along the coordinate of load `k`.
             row.fill(0.0);
             self.add_slopes(k, -load.force * sums.curvature, &mut row);
             row[motions + k] -= sums.slope;
@@ -213,12 +218,12 @@ impl Coupling<'_> {
 }
 
 impl Chain {
-    /// Returns the unknowns of depth and total tilt of a free needle on elastic scales.
+    /// Returns the indices of depth and total tilt; `None` for rigid scales.
     pub(super) fn bending_unknowns(&self) -> Option<[usize; 2]> {
         self.is_elastic.then(|| [self.layout.load() + 1, self.layout.load() + 2])
     }
 
-    /// Returns a scale without loads.
+    /// Returns a scale as a beam, without its loads.
     fn unloaded(&self, scale: usize) -> BentScale {
         let beam = Beam::new(&self.contacts.arrangement.scale(scale), self.width);
         let [bending, shear_stiffness] = beam.stiffness(self.scale_modulus / self.plane_modulus);
@@ -248,7 +253,7 @@ impl Chain {
         bent
     }
 
-    /// Returns a scale with its loads.
+    /// Returns a scale as a beam, with its loads.
     fn bent_scale(&self, state: &SkinState, scale: usize) -> BentScale {
         let mut bent = self.unloaded(scale);
         if scale == self.layout.left {
@@ -261,7 +266,9 @@ impl Chain {
         bent
     }
 
-    /// Returns the dead load in the frame of the punctured scale, in which it turns.
+    /// Returns the dead load in the frame of the punctured scale.
+    ///
+    /// Its direction in this frame turns as the scale rotates.
     fn free_load(&self, beam: &Beam, state: &SkinState) -> BeamLoad {
         let at = self.layout.scale(self.layout.left);
         let back = contact::Pose::new(0.0, 0.0, -state.z[at + 2]);
@@ -280,12 +287,14 @@ impl Chain {
     }
 
     /// Returns true if a path on elastic scales ended before the critical tilt.
+    ///
+    /// A contact has then reached the end of its edge.
     pub(super) fn ends_at_a_corner(&self, state: &SkinState) -> bool {
         let tilt = self.controls[0];
         self.is_elastic && state.z[tilt.index] / tilt.scale < 1.0 - AT_THE_TILT
     }
 
-    /// Adds the bending of all scales to the equations.
+    /// Adds the bending of all scales to the equations and the tangent.
     pub(super) fn add_bending(
         &self,
         state: &SkinState,
@@ -315,7 +324,8 @@ impl Chain {
             let coupling = scale.coupling();
             coupling.add_balance(residual, matrix);
             for (k, load) in scale.loads.iter().enumerate() {
-                // The condition of the load is the depth of its point, and of the moment the tilt.
+                // The displacement at the needle enters the equation of the depth, at the moment
+                // the equation of the total tilt, and at a contact its own equation.
                 let condition = match load.unknown {
                     Some(row) if row == self.layout.load() => (depth, -1.0),
                     Some(row) => (row, 1.0),
@@ -326,7 +336,7 @@ impl Chain {
         }
     }
 
-    /// Computes the opening of each contact by the bending of both scales.
+    /// Computes the part of the gap of each contact that is due to bending of its two scales.
     pub(super) fn openings(&self, state: &SkinState) -> Vec<f64> {
         let mut openings = vec![0.0; state.mode.contacts.len()];
         let bent = self.bent_scales(state);
@@ -342,9 +352,10 @@ impl Chain {
         openings
     }
 
-    /// Calls `show` with each open contact beside a loaded scale.
+    /// Calls `show` for each open contact of each loaded scale.
     ///
-    /// It receives the contact, the scale, and the load that the contact would exert on it.
+    /// The arguments of `show` are the number of the contact, the scale, and the load that the
+    /// contact would exert on this scale.
     fn for_openings(
         &self,
         state: &SkinState,
@@ -389,11 +400,9 @@ impl Chain {
         });
     }
 
-    /// Computes the opening of a contact by bending, or its rate along a `direction`.
+    /// Computes the part of a gap that is due to bending, or its rate along a `direction`.
     ///
-    /// The contact is given by a constraint.
-    ///
-    /// 0 for constraints other than normal forces.
+    /// The `constraint` is the normal force of the contact; 0 for other constraints.
     pub(super) fn opening_of(
         &self,
         state: &SkinState,
@@ -414,7 +423,7 @@ impl Chain {
         openings.sum()
     }
 
-    /// Computes the strain energy of all scales, over `E* t³`.
+    /// Computes the strain energy of all scales, in `E* t³`; 0 for rigid scales.
     pub(super) fn bending_energy(&self, state: &SkinState) -> f64 {
         if !self.is_elastic {
             return 0.0;
@@ -427,10 +436,11 @@ impl Chain {
         energies.sum()
     }
 
-    /// Returns derivatives of depth and total tilt.
+    /// Returns the derivatives of depth and total tilt.
     ///
-    /// For each, the derivatives with respect to motions and contact forces, then the derivative
-    /// with respect to the conjugate load: the needle force or a moment at the tip.
+    /// Each entry holds the derivatives with respect to motions and contact forces, by unknown, and
+    /// the derivative with respect to the conjugate load. The conjugate load of the depth is the
+    /// needle force, of the tilt a moment at the tip.
     pub(super) fn bending_loads(&self, state: &SkinState) -> [(Vec<(usize, f64)>, f64); 2] {
         let Some(rows) = self.bending_unknowns() else { return Default::default() };
         let mut entries: [Vec<(usize, f64)>; 2] = Default::default();
@@ -457,7 +467,7 @@ impl Chain {
         [(depth, own), (tilt, of_moment)]
     }
 
-    /// Adds the bending to the symmetric stiffness.
+    /// Calls `entry` with row, column and value of each term of bending in the stiffness.
     pub(super) fn for_bending_stiffness(
         &self,
         state: &SkinState,
@@ -473,7 +483,8 @@ impl Chain {
                 if rows.contains(&row) || rows.contains(&column) || column == load {
                     return;
                 }
-                // Contact conditions are derivatives of `−L`.
+                // Contact equations are derivatives of `−L`, and equilibrium equations of `L`. For
+                // a symmetric stiffness, change the sign of the former.
                 let is_condition = forces.iter().any(|edge| edge.unknown == row);
                 entry(row, column, if is_condition { -value } else { value });
             },

@@ -1,19 +1,20 @@
-//! Classification of the end of a puncture path.
+//! Status of a puncture path that ended at a limit point.
 //!
-//! The path has already ended: a free needle at the critical tilt, which is the target of the solver
-//! in `system.rs`; a guided needle at a constraint (`GuidedNeedle::ends` in `needle/touches.rs`). A
-//! critical tilt that follows from friction is set by `Case::punctured` in `study/sweep`.
+//! The criteria that end a path are elsewhere. The path of a free needle ends at the critical tilt,
+//! the target of the solver in `system.rs`. The path of a guided needle ends at a constraint
+//! (`GuidedNeedle::ends` in `needle/touches.rs`). If the critical tilt follows from friction,
+//! `Case::punctured` in `study/sweep` computes it.
 
 use super::PuncturePoint;
 use crate::Status;
 
-/// Refines the stop status reported by the solver.
+/// Replaces a numerical stop after the path has turned back by [`Status::LimitPoint`].
 ///
-/// A needle that prescribes load, depth or tilt, or any of them in turn, cannot follow a path that
-/// turns back in all three: the row snaps. It lands on the path again where one of the three
-/// reaches its previous maximum, however far the load has dropped by then (drops by up to nine
-/// tenths recover). A path that stops numerically before that, for example because sides become
-/// flush in the middle of the fold, has no state to land on and ends at a limit point.
+/// If load, depth and tilt all decrease along a path, the row snaps, whichever of them the needle
+/// prescribes. It snaps to the point where one of the three exceeds its previous maximum; load
+/// drops of up to nine tenths recover in this way. If the path stops numerically before such a
+/// point, for example because sides become flush, the row has no known state to snap to, and the
+/// path ends at a limit point.
 pub(super) fn classify(status: Status, path: &[PuncturePoint]) -> Status {
     match status {
         Status::Stopped(stop) if stop.is_numerical() && has_turned_back(path) => Status::LimitPoint,
@@ -21,11 +22,11 @@ pub(super) fn classify(status: Status, path: &[PuncturePoint]) -> Status {
     }
 }
 
-/// Returns true if load, depth and tilt all end below their maxima.
+/// Returns true if load, depth and tilt at the end are all below their maxima on the path.
 fn has_turned_back(path: &[PuncturePoint]) -> bool {
     let values: [fn(&PuncturePoint) -> f64; 3] =
         [|point| point.force, |point| point.displacement, |point| point.tilt_deg.abs()];
-    // A quantity at its maximum has recovered, or never turned back.
+    // A quantity that ends at its maximum has recovered, or never decreased.
     values.into_iter().all(|value| path.last().map(value) < path.iter().map(value).reduce(f64::max))
 }
 
@@ -62,7 +63,7 @@ mod tests {
             (classify(many, &back), classify(Status::Complete, &back)),
             (many, Status::Complete)
         );
-        // The tilt increases, the load has recovered, or the path has not yet turned.
+        // The tilt has increased, the load has recovered, or no value has decreased.
         for last in [[1.0, 0.9, 6.0], [2.5, 0.9, 4.0], [2.0, 1.0, 5.0]] {
             let path = path(&[[0.0, 0.0, 0.0], [2.0, 1.0, 5.0], last]);
             assert_eq!(classify(stopped, &path), stopped);

@@ -1,4 +1,4 @@
-//! Motion of the scales beyond the solved part, and proximity of contact to its ends.
+//! Motion of the scales beyond the solved part of a row, and extent of contact towards its ends.
 
 use substrate::SurfaceStrip;
 
@@ -6,42 +6,46 @@ use super::row_exterior::{ExteriorSide, mirrored};
 use super::system::Chain;
 use crate::contacts::SkinState;
 
-/// Largest difference of force between a neo-Hookean bar and its spring beyond the solved part.
+/// Largest difference between the forces of a neo-Hookean bar and of a linear spring.
 ///
-/// The bars there count as springs. The force is divided by the stiffness of a scale, hence a
-/// displacement (over `t`).
+/// Beyond the solved part, bars are treated as springs, which this limit permits. The difference is
+/// divided by the stiffness `a α_x` of a scale, so it is a displacement in units of `t`.
 const AS_SPRINGS: f64 = 1e-9;
 
-/// Closed fraction of a clearance above which the row is extended early.
+/// Fraction of a clearance beyond an end that may be closed before the row is extended.
+///
+/// From 1 on, scales may touch, and the step is repeated on the longer row.
 const EARLY: f64 = 0.5;
 
-/// Proximity of the deformation to an end of the solved part.
+/// Extent of contact towards one end of the solved part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reach {
-    /// No contact possible at or beyond the end.
+    /// The end scale is free of contact, and clearances beyond it are less than half closed.
     Short,
-    /// Scales beyond the end may touch soon.
+    /// The end scale is in contact, or a clearance beyond it may be half closed.
     Near,
-    /// Scales beyond the end may touch already.
+    /// A clearance beyond the end scale may be closed completely.
     Beyond,
 }
 
 impl Chain {
-    /// Counts the scales in the row; in a row without ends the solved ones.
+    /// Counts the scales in the row; in a row without ends, counts the solved scales.
     pub(super) fn row_length(&self) -> usize {
         let [left, right] = self.exterior.scales_to_ends();
         left + self.layout.scales() + right
     }
 
-    /// Returns displacements of scales counted from an end, mirrored to a right end.
+    /// Returns a function of the displacements of solved scales, counted from one end.
+    ///
+    /// `side` 0 is the left end. Its displacements are mirrored, as if it were a right end.
     fn at_end<'a>(&'a self, z: &'a [f64], side: usize) -> impl Fn(usize) -> [f64; 3] + 'a {
         let last = self.layout.scales() - 1;
         move |k| mirrored(self.displacement(z, if side == 0 { k } else { last - k }), side)
     }
 
-    /// Computes the displacements of the end scale and of the checked scales beyond.
+    /// Computes the displacements of the end scale and of the checked scales beyond it.
     ///
-    /// They are mirrored to a right end.
+    /// Displacements at the left end (`number` 0) are mirrored, as if it were a right end.
     fn displacements_beyond(&self, z: &[f64], number: usize, side: &ExteriorSide) -> Vec<[f64; 3]> {
         let end = self.at_end(z, number);
         let mut displacements = vec![end(0)];
@@ -49,7 +53,9 @@ impl Chain {
         displacements
     }
 
-    /// Computes the displacement of a scale that may lie beyond an end.
+    /// Computes the displacement of a scale that may lie beyond the solved part.
+    ///
+    /// `scale` 0 is the first solved scale.
     pub(crate) fn displacement_anywhere(&self, z: &[f64], scale: isize) -> [f64; 3] {
         let last = self.layout.scales().cast_signed() - 1;
         let nearest = scale.clamp(0, last);
@@ -59,14 +65,14 @@ impl Chain {
             (Some(side), distance) => {
                 mirrored(side.beyond.far.displacement(self.at_end(z, number), distance), number)
             }
-            // Beyond a row that is solved as a whole, everything is fixed.
+            // A row that is solved as a whole has no scales beyond its ends.
             (None, _) => [0.0; 3],
         }
     }
 
     /// Computes the reaction (force and moment) of the linear substrate on a scale.
     ///
-    /// It opposes the displacement: minus the `F_x, F_y, M` of Eq. (1), or of (S9). Bars are not
+    /// It has the opposite sign of `F_x, F_y, M` in Eq. (1) and (S9). Neo-Hookean bars are not
     /// included.
     pub(crate) fn reaction(&self, z: &[f64], scale: isize) -> [f64; 3] {
         let own = self.displacement_anywhere(z, scale);
@@ -89,7 +95,7 @@ impl Chain {
         reaction
     }
 
-    /// Checks how close a state has come to the left and the right end of a longer row.
+    /// Returns the extent of contact towards the left and the right end of the solved part.
     pub(crate) fn reach(&self, state: &SkinState) -> [Reach; 2] {
         let touching = self.contacts.touching_at_ends(state);
         [0, 1].map(|number| {
@@ -97,16 +103,16 @@ impl Chain {
             match self.part_closed(&state.z, number, side) {
                 1.0.. => Reach::Beyond,
                 EARLY.. => Reach::Near,
-                // A contact at the very end may load the next scale at once.
+                // A contact of the end scale may load the next scale, so extend the row.
                 _ if touching[number] => Reach::Near,
                 _ => Reach::Short,
             }
         })
     }
 
-    /// Computes the largest fraction of a clearance beyond an end that may be closed.
+    /// Computes an upper bound on the closed fraction of the clearances beyond an end.
     ///
-    /// For bars also the largest fraction of the force up to which they count as springs.
+    /// With neo-Hookean bars, the result is at least their excess force over [`AS_SPRINGS`].
     fn part_closed(&self, z: &[f64], number: usize, side: &ExteriorSide) -> f64 {
         let displacements = self.displacements_beyond(z, number, side);
         let size =
@@ -114,17 +120,18 @@ impl Chain {
         let pairs = displacements.windows(2).zip(&side.clearances);
         // Both scales may move straight towards each other, so the sum of their motions is a bound.
         let parts = pairs.map(|(pair, clearance)| (size(pair[0]) + size(pair[1])) / clearance);
-        // With a neo-Hookean substrate the solved part is also extended if a bar outside it leaves
-        // its linear range.
+        // On a neo-Hookean substrate a bar outside the solved part that leaves its linear range
+        // extends the solved part as well.
         let excess = self.largest_excess(&displacements, &side.gaps) / AS_SPRINGS;
         parts.fold(excess, f64::max)
     }
 
     /// Computes the stretches of the gaps outside the solved scales.
     ///
-    /// Each side contributes the gaps next to the solved scales, then one value that bounds all
-    /// farther gaps: the outermost gap of a finite row, or 1 for an infinite row. Stretches of
-    /// farther gaps lie between the last two values. Empty if every scale is solved.
+    /// Each side contributes the stretches of the gaps next to the solved scales, then one value
+    /// for the far end: the stretch of the outermost gap of a finite row, or 1 for an infinite row.
+    /// Stretches of the gaps in between lie between the last two values. The result is empty if
+    /// every scale is solved.
     pub(super) fn stretches_beyond(&self, z: &[f64]) -> Vec<f64> {
         let mut stretches = Vec::new();
         for (number, side) in self.exterior.sides.iter().enumerate() {
@@ -134,7 +141,7 @@ impl Chain {
                 let strip = SurfaceStrip { width, half_base: self.half_base };
                 stretches.push(strip.stretch(pair[0], pair[1]));
             }
-            // Farther gaps lie between the last checked one and this one.
+            // Stretches of gaps in between lie between the last checked and the outermost stretch.
             let last = side.beyond.scales.zip(side.gaps.last());
             stretches.push(last.map_or(1.0, |(scales, &width)| {
                 let [near, far] = [scales - 1, scales].map(|distance| match distance {

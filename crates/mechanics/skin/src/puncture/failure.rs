@@ -15,14 +15,14 @@ use super::system::{Chain, FIRST_LIMIT_MARK};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::PathFunction;
 
-/// Rotation of the tip of a scale above which the scale is not rigid.
+/// Rotation of the tip of a scale relative to its base from which a scale fails by bending.
 ///
-/// It is relative to the base, by bending. Linear beam theory is accurate up to about this angle.
+/// Linear beam theory is accurate up to about this angle.
 const LARGEST_BEND_DEG: f64 = 5.0;
 
-/// Pressure of a rigid punch at which a ductile plate is perforated, over the strength.
+/// Pressure of a rigid punch that perforates a ductile plate, divided by the strength.
 ///
-/// An estimate: the indentation pressure of a rigid–plastic half-space is `3 σ_y`.
+/// This estimate is the indentation pressure of a rigid–plastic half-space, `3 σ_y`.
 const PERFORATION: f64 = 3.0;
 
 /// Mode of failure of a skin.
@@ -43,7 +43,7 @@ pub enum FailureMode {
     Debond,
     /// A round tip perforates a scale.
     Perforate,
-    /// A scale tilts across the row under a load at its side.
+    /// A scale tilts about the axis of the row under a load near its side edge.
     Across,
 }
 
@@ -76,8 +76,9 @@ impl FailureMode {
 
     /// Returns the reason why this mode is not judged; `None` if it is judged.
     ///
-    /// A puncture with these parameters cannot fail in this mode, or a parameter is missing. The
-    /// row across is another puncture, and `across` is true if it is solved.
+    /// A mode is not judged if a puncture with these `parameters` cannot fail in this mode, or if a
+    /// parameter is missing. `across` is true if the row across is solved, which is a separate
+    /// puncture.
     pub fn not_judged(self, parameters: &PunctureParameters, across: bool) -> Option<&'static str> {
         let PunctureParameters { needle, needle_radius, substrate_law, failure, .. } = parameters;
         let Strengths { scale, bond } = failure.unwrap_or_default();
@@ -101,38 +102,42 @@ impl FailureMode {
 /// First failure, and the largest stresses on the path; empty unless requested.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FailureMeasures {
-    /// Mode of the first failure on the path; `None` if the path ends before any.
+    /// Mode of the first failure on the path; `None` if the path ends early without a failure.
     pub mode: Option<FailureMode>,
-    /// `F*` at the first failure.
+    /// Load `F*` at the first failure.
     pub force: Option<f64>,
-    /// Largest bending stress of any scale up to the end of the path, over `E_s`.
+    /// Largest bending stress of any scale up to the end of the path, in units of `E_s`.
     pub scale_stress: Option<f64>,
-    /// Largest deflection of the tip of any scale, over `t`.
+    /// Largest deflection of the tip of any scale, in units of `t`.
     pub scale_deflection: Option<f64>,
-    /// Largest traction at the bond of any scale, in tension or shear, over `E_s`.
+    /// Largest traction at the bond of any scale, in tension or shear, in units of `E_s`.
     pub bond_stress: Option<f64>,
-    /// Largest mean pressure of any base on the substrate, over `E_s`.
+    /// Largest mean pressure of any base on the substrate, in units of `E_s`.
     pub tissue_pressure: Option<f64>,
-    /// Distance between the faces of two neighbours at rest, over `t`.
+    /// Distance between the facing sides of two neighbours at rest, in units of `t`.
     pub clearance: Option<f64>,
 }
 
 impl FailureMeasures {
-    /// Keeps the first failure of a path that ended early.
+    /// Returns only the values that are valid for a path that ended early.
+    ///
+    /// They are the first failure and the clearance; maxima refer to a complete path.
     pub(super) fn without_final_values(self) -> Self {
         Self { mode: self.mode, force: self.force, clearance: self.clearance, ..Self::default() }
     }
 }
 
-/// Modes in which a scale reaches a limit, in the order of their markers.
+/// Modes in which a single scale reaches a limit, in the order of their markers.
 const LIMITS: [FailureMode; 4] =
     [FailureMode::Break, FailureMode::Bend, FailureMode::Debond, FailureMode::Perforate];
 
-/// Position of bending among the limits.
+/// Index of bending in [`LIMITS`].
 const BEND: usize = 1;
 const _: () = assert!(matches!(LIMITS[BEND], FailureMode::Bend));
 
-/// Quantities with a tracked maximum along the path.
+/// Functions with a tracked maximum along the path.
+///
+/// They are the largest bending stress, deflection, bond stress and tissue pressure of any scale.
 pub(super) const MAXIMA: [PathFunction<Chain>; 4] = [
     |chain, state, _| chain.row_values(state).tracked[0],
     |chain, state, _| chain.row_values(state).tracked[1],
@@ -140,22 +145,26 @@ pub(super) const MAXIMA: [PathFunction<Chain>; 4] = [
     |chain, state, _| chain.row_values(state).tracked[3],
 ];
 
-/// Position of the pressure on the tissue in [`MAXIMA`].
+/// Index of the pressure on the tissue in [`MAXIMA`].
 pub(super) const TISSUE_PRESSURE: usize = 3;
 
-/// Fraction by which the end of linear bending may miss its limit, the accuracy of an equilibrium.
+/// Largest relative error of the point at which the limit of linear bending ends a path.
+///
+/// It is the accuracy of an equilibrium.
 const BEND_TOLERANCE: f64 = 1e-10;
 
-/// Fraction by which the located point of a limit may miss it.
+/// Largest relative error of the point at which another limit is located.
 const LIMIT_TOLERANCE: f64 = 2e-12;
 
-/// Evaluations after which a bracket is as narrow as an `f64` allows.
+/// Number of evaluations after which a bracket is as narrow as an `f64` allows.
 const EVALUATIONS: usize = 100;
 
 /// Change of the fastest unknown in the backward difference for the slope at a point.
 const STEP: f64 = 1e-6;
 
-/// Returns the point of a segment at which linear bending of elastic scales ends.
+/// Returns the point of a segment at which an elastic scale reaches the limit of linear bending.
+///
+/// `None` if no scale reaches this limit, and for rigid scales.
 pub(super) fn bent_within(
     path: &mut Continuation<Chain>,
     Segment { from, to, .. }: &Segment,
@@ -164,18 +173,18 @@ pub(super) fn bent_within(
         return None;
     }
     let point = limit_within(path, [from, to], BEND, BEND_TOLERANCE);
-    // The point is no event, even if the segment ends at one.
+    // The point is not an event, even if the segment ends at an event.
     Some(SkinPoint { event: None, ..point.unwrap_or_else(|| SkinPoint::clone(to)) })
 }
 
-/// Computes the excess of the fraction of a limit over 1.
+/// Computes the largest utilisation of a limit by any scale, minus 1.
 fn excess(path: &Continuation<Chain>, point: &SkinPoint, limit: usize) -> f64 {
     path.system().fractions(&point.state)[limit] - 1.0
 }
 
-/// Solves for the equilibrium between two points at which a limit is reached.
+/// Solves for the equilibrium between two points at which a scale reaches a limit.
 ///
-/// `None` if the limit is exceeded at both points.
+/// `None` if the limit is reached at the first point already, or Newton's method fails.
 fn limit_within(
     path: &mut Continuation<Chain>,
     [from, to]: [&SkinPoint; 2],
@@ -190,10 +199,10 @@ fn limit_within(
     let mut point = from.clone();
     for _ in 0..EVALUATIONS {
         let fraction = bracket.secant();
-        // The last point is nearer than the start, so that Newton's method needs fewer iterations.
+        // Start Newton's method from the previous point, which is nearer than `from`.
         point = path.between_from(from, to, fraction, &point)?;
         let off = excess(path, &point, limit);
-        // A bracket that cannot shrink further locates the limit to within round-off.
+        // A bracket of the width of round-off cannot shrink further.
         if off.abs() <= tolerance || bracket.width() < f64::EPSILON {
             return Some(point);
         }
@@ -202,28 +211,28 @@ fn limit_within(
     None
 }
 
-/// Values of a scale, or the largest of a row.
+/// Stresses and deflection of a scale, or their largest values in a row.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ScaleValues {
     /// Bending stress, deflection, bond stress and tissue pressure, in the order of [`MAXIMA`].
     pub(super) tracked: [f64; 4],
-    /// Fraction of each limit, in the order of [`LIMITS`].
+    /// Value divided by its limit, in the order of [`LIMITS`]; failure at 1.
     fractions: [f64; LIMITS.len()],
 }
 
 /// Locates the first failure while a path is followed, and tracks the maxima.
 pub(super) struct FailureObserver {
-    /// Limits that are judged, by their index.
+    /// Indices of the judged modes in [`LIMITS`].
     judged: Vec<usize>,
     maxima: [Peak<SkinMode>; MAXIMA.len()],
-    /// Fraction of each limit at the last point.
+    /// Largest value divided by its limit at the last point, in the order of [`LIMITS`].
     fractions: [f64; LIMITS.len()],
-    /// First failure before the end of the path.
+    /// First failure before the end of the path, with its point.
     pub(super) first: Option<(FailureMode, SkinPoint)>,
 }
 
 impl FailureObserver {
-    /// Starts at the first point of a path; `None` if no failure is requested.
+    /// Creates an observer at the first point of a path; `None` if failure is not requested.
     pub(super) fn new(path: &Continuation<Chain>, parameters: &PunctureParameters) -> Option<Self> {
         parameters.failure?;
         let mut observer = Self {
@@ -256,7 +265,7 @@ impl FailureObserver {
         let mut found: Vec<_> = fold.into_iter().collect();
         for &limit in &self.judged {
             if before[limit] < 1.0 && self.fractions[limit] >= 1.0 {
-                // Where linear bending ends, the path ends at the limit: there is nothing to search.
+                // If the segment ends at the limit, as at the end of linear bending, use its end.
                 let point = if self.fractions[limit] <= 1.0 + BEND_TOLERANCE {
                     Some(SkinPoint::clone(to))
                 } else {
@@ -265,12 +274,13 @@ impl FailureObserver {
                 found.extend(point.map(|point| (LIMITS[limit], point)));
             }
         }
-        // Of several failures within one segment the first one counts.
+        // Keep the first of several failures within one segment.
         self.first = found
             .into_iter()
             .min_by(|(_, a), (_, b)| path.spans(from, a)[0].total_cmp(&path.spans(from, b)[0]));
     }
 
+    /// Evaluates the current point of the path; `from` is the point before it.
     fn visit(&mut self, path: &Continuation<Chain>, from: Option<&Arc<SkinPoint>>) {
         let values = path.system().row_values(&path.point().state);
         self.fractions = values.fractions;
@@ -282,7 +292,7 @@ impl FailureObserver {
         }
     }
 
-    /// Extends the points to a longer row.
+    /// Replaces each stored point by the result of `new`, after the row has been extended.
     pub(super) fn replace_points(&mut self, new: impl Fn(&SkinPoint) -> SkinPoint) {
         if let Some((_, point)) = &mut self.first {
             *point = new(point);
@@ -292,15 +302,15 @@ impl FailureObserver {
         }
     }
 
-    /// Returns the largest value of each quantity on the path, and its location.
+    /// Returns the largest value of each function in [`MAXIMA`] on the path, and its location.
     pub(super) fn summits(
         &self,
         path: &mut Continuation<Chain>,
     ) -> [Option<Summit<SkinMode>>; MAXIMA.len()] {
         std::array::from_fn(|k| {
             let visited = self.maxima[k].at_points()?;
-            // Most quantities are largest at the end and still rise there. The search would solve
-            // for equilibria in the last segment only to confirm it.
+            // Most functions are largest at the end of the path and still rise there. A search for
+            // a maximum within the last segment is then not necessary.
             let is_end = visited.point.state.z == path.point().state.z;
             if is_end && rises(path.system(), &visited.point, MAXIMA[k]) {
                 return Some(visited);
@@ -309,7 +319,7 @@ impl FailureObserver {
         })
     }
 
-    /// Computes the measures; `end` is the mode in which a completed path ended.
+    /// Computes the measures; `end` is the failure mode at the end of a complete path.
     pub(super) fn measures(
         &self,
         path: &mut Continuation<Chain>,
@@ -333,12 +343,12 @@ impl FailureObserver {
     }
 }
 
-/// Computes the fraction of a strength; 0 without one.
+/// Computes a stress divided by its strength; 0 if the strength is `None`.
 fn fraction(stress: f64, strength: Option<f64>) -> f64 {
     strength.map_or(0.0, |strength| stress / strength)
 }
 
-/// Returns true if a function rises along the path where it arrives at a point.
+/// Returns true if a function increases along the path just before a point.
 fn rises(chain: &Chain, point: &SkinPoint, f: PathFunction<Chain>) -> bool {
     let direction = &point.arriving;
     let largest = direction.iter().fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
@@ -356,12 +366,14 @@ impl From<CriticalEvent> for FailureMode {
 }
 
 impl Chain {
-    /// Lists the forces of neighbours and needle on a scale, in its frame.
+    /// Lists the forces of neighbours and needle on a scale, in the frame of the scale.
     pub(super) fn loads(&self, state: &SkinState, scale: usize) -> Vec<Load> {
         self.loads_among(&self.contacts.forces_on_scales(state), state, scale)
     }
 
-    /// Lists the forces on a scale, given the contact forces on all scales.
+    /// Lists the forces on a scale, in its frame, given the contact forces on all scales.
+    ///
+    /// `on_scales` holds the scale, the arm from its node and the force of each contact.
     fn loads_among(
         &self,
         on_scales: &[(usize, [Vec2; 2])],
@@ -385,10 +397,10 @@ impl Chain {
         loads.map(|[arm, force]| Load { arm: back.turn(arm), force: back.turn(force) }).collect()
     }
 
-    /// Computes stresses, deflection and fractions of the strengths of a scale under these loads.
+    /// Computes stresses, deflection and utilisation of the limits of a scale under these loads.
     fn values_under(&self, state: &SkinState, scale: usize, loads: &[Load]) -> ScaleValues {
         let beam = Beam::new(&self.contacts.arrangement.scale(scale), self.width);
-        // Forces are over `E*`, moduli and stresses over `E_s`.
+        // Forces are in units of `E*`, moduli and stresses in units of `E_s`.
         let TipMotion { deflection, rotation } =
             beam.tip_motion(loads, self.scale_modulus / self.plane_modulus);
         let BaseTractions { tension, shear, pressure } = beam.base_tractions(loads);
@@ -410,36 +422,36 @@ impl Chain {
         }
     }
 
-    /// Computes the values of a scale.
+    /// Computes stresses, deflection and utilisation of the limits of a scale.
     pub(super) fn scale_values(&self, state: &SkinState, scale: usize) -> ScaleValues {
         self.values_under(state, scale, &self.loads(state, scale))
     }
 
-    /// Computes the largest mean pressure of any base on the substrate, over `E_s`.
+    /// Computes the largest mean pressure of any base on the substrate, in units of `E_s`.
     pub(super) fn tissue_pressure(&self, state: &SkinState) -> f64 {
         self.row_values(state).tracked[TISSUE_PRESSURE]
     }
 
-    /// Computes the largest fraction of each limit, in the order of [`LIMITS`].
+    /// Computes the largest utilisation of each limit by any scale, in the order of [`LIMITS`].
     pub(super) fn fractions(&self, state: &SkinState) -> [f64; LIMITS.len()] {
         self.row_values(state).fractions
     }
 
-    /// Computes the largest fraction of the limit of a mode.
+    /// Computes the largest utilisation of the limit of a failure mode by any scale.
     ///
-    /// 0 if the mode does not limit a scale.
+    /// 0 if the mode is not one of [`LIMITS`].
     pub(super) fn fraction(&self, state: &SkinState, mode: FailureMode) -> f64 {
         let limit = LIMITS.iter().position(|limit| *limit == mode);
         limit.map_or(0.0, |limit| self.fractions(state)[limit])
     }
 
-    /// Computes the largest values of any scale.
+    /// Computes the largest stresses, deflection and utilisations of any scale.
     fn row_values(&self, state: &SkinState) -> ScaleValues {
         let mut largest = ScaleValues::default();
         let on_scales = self.contacts.forces_on_scales(state);
         for scale in 0..self.layout.scales() {
             let loads = self.loads_among(&on_scales, state, scale);
-            // Most scales of a row touch nothing.
+            // Most scales of a row carry no load.
             if loads.is_empty() {
                 continue;
             }
@@ -456,9 +468,8 @@ impl Chain {
 
     /// Computes the clearance at rest to the right of the punctured scale (B5).
     ///
-    /// It is the distance between the faces of the two scales, over `t`. `None` for a single scale
-    /// and at the end of a row.
-    /// `None` for a single scale and at the end of a row.
+    /// It is the distance between the facing sides of the two scales, in units of `t`. `None` if
+    /// there is no scale on the right.
     pub(super) fn clearance(&self) -> Option<f64> {
         let (contacts, scale) = (&self.contacts, self.layout.left);
         let (arrangement, body) = (&contacts.arrangement, contacts.body);
@@ -471,15 +482,18 @@ impl Chain {
         })
     }
 
-    /// Evaluates the marker of a limit of a scale: the excess of its fraction over 1.
+    /// Evaluates the marker of a limit of a scale: its utilisation minus 1.
+    ///
+    /// `number` counts the limits scale by scale.
     pub(super) fn limit_marker(&self, state: &SkinState, number: usize) -> f64 {
         let (scale, limit) = (number / LIMITS.len(), number % LIMITS.len());
         self.scale_values(state, scale).fractions[limit] - 1.0
     }
 
-    /// Returns the number of the marker that vanishes where a limit is reached.
+    /// Returns the number of the marker that is zero where a scale reaches the limit of a mode.
     ///
-    /// `None` for a mode that is no limit of a scale.
+    /// The scale is the one with the largest utilisation in this `state`. `None` if the mode is not
+    /// one of [`LIMITS`].
     pub(super) fn limit_mark(&self, state: &SkinState, mode: FailureMode) -> Option<usize> {
         let limit = LIMITS.iter().position(|other| *other == mode)?;
         let fractions = (0..self.layout.scales())

@@ -18,7 +18,8 @@ use crate::{Common, Design, PathDetail, Status};
 
 /// Relative difference below which two forces count as equal.
 ///
-/// The two corners of an upright scale are an example. The tolerance of paths leaves about 1e-9.
+/// For example, the forces at both corners of an upright scale are equal. Computed forces have a
+/// relative error of about 1e-9.
 const TIE: f64 = 1e-7;
 
 /// Relative difference below which derivatives count as equal.
@@ -27,15 +28,17 @@ const SAME: f64 = 1e-6;
 /// Result of a puncture at one of several load positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadPosition {
-    /// Position on the top: 0 left, 1 right corner; beyond for a round tip.
+    /// Position on the top: 0 is the left corner, 1 the right corner.
+    ///
+    /// For a round tip it may exceed 1.
     pub position: f64,
-    /// Outcome of the path at this load position.
+    /// Status of the path at this load position.
     pub status: Status,
     /// `F*` at the critical tilt in either direction, or when the needle is through.
     pub force: Option<f64>,
-    /// `u*` at that force.
+    /// Displacement `u*` at this force.
     pub displacement: Option<f64>,
-    /// Tilt of the punctured scale at that force, clockwise, degrees.
+    /// Tilt of the punctured scale at this force, positive clockwise, degrees.
     pub tilt_deg: Option<f64>,
     /// Critical event of a guided needle; `None` for a free needle.
     pub critical_event: Option<CriticalEvent>,
@@ -47,21 +50,21 @@ pub struct LoadPosition {
 
 /// Smallest force over several load positions.
 ///
-/// It is empty if there are none or if one is inconclusive.
+/// Empty if there are no positions, or if the force at one of them is unknown and may be smaller.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Weakest {
     /// `F*` at the weakest position.
     pub force: Option<f64>,
-    /// The weakest position; of several equal ones the leftmost.
+    /// Load position with the smallest force; of several equal forces, the leftmost position.
     pub place: Option<f64>,
 }
 
 impl Weakest {
-    /// Selects the weakest of `places`.
+    /// Selects the weakest of the load positions `places`.
     ///
     /// # Errors
-    /// The status of the first position with a path that ended before it carried as much as the
-    /// weakest other position: the skin may be weaker there.
+    /// If the path at a position ended before its load reached the smallest force of all others,
+    /// because this position may be weaker. The error is the status of the first such position.
     pub fn from_positions(places: &[LoadPosition]) -> Result<Self, Status> {
         let Some(force) = places.iter().filter_map(|place| place.force).reduce(f64::min) else {
             return places.first().map_or(Ok(Self::default()), |place| Err(place.status));
@@ -79,16 +82,16 @@ impl Weakest {
     }
 }
 
-/// Returns true if a position is as weak as the smallest `force`.
+/// Returns true if the force at a position equals the smallest `force`.
 fn is_tied(place: &LoadPosition, force: f64) -> bool {
     place.force.is_some_and(|of| of <= force * (1.0 + TIE))
 }
 
 impl PunctureParameters {
-    /// Returns `count` equally spaced load positions, in units of the top: 0 is its left corner.
+    /// Returns `count` equally spaced load positions: 0 is the left corner of the top, 1 the right.
     pub fn positions(&self, count: usize, design: &Design) -> Vec<f64> {
-        // A round tip may be anywhere. One pitch to the right it is in an equivalent position on
-        // the next scale, so omit that end.
+        // The positions of a round tip span one pitch. Its end is equivalent to its start, on the
+        // next scale, so omit the end.
         let pitch = 1.0 + design.gap / (2.0 * design.half_base());
         // The top is as wide as the base.
         let (last, width) = match self.needle_radius {
@@ -102,7 +105,7 @@ impl PunctureParameters {
     fn at_position(&self, position: f64) -> Self {
         Self {
             load_position: position,
-            // Only the force at the end is compared, so drop all other requests.
+            // Only forces at the end are compared, so remove all other requests.
             tilts_before_deg: None,
             places: None,
             depth: None,
@@ -129,14 +132,17 @@ pub fn load_positions(
     Ok(problem.load_positions(None, None)?.places)
 }
 
-/// Punctures at several load positions, with the path end of each.
+/// Punctures at several load positions, and the ends of their paths.
 pub(super) struct LoadPositions {
     pub(super) places: Vec<LoadPosition>,
-    /// Path ends of critical measures; empty if the punctures started from a similar design.
+    /// Path ends as starts for similar designs.
+    ///
+    /// Empty if the punctures themselves started from a similar design, and unless only critical
+    /// measures are computed.
     pub(super) ends: Vec<PlaceEnd>,
 }
 
-/// A followed path, with its end.
+/// A followed path, and its end if it may be a start for similar designs.
 pub(super) type OwnPath<'a> = (&'a Followed, Option<&'a PunctureEnd>);
 
 impl LoadPosition {
@@ -164,9 +170,9 @@ impl LoadPosition {
 impl Problem<'_> {
     /// Solves the puncture at each requested load position.
     ///
-    /// `own` is the path of the puncture itself, which serves its own load position. Near the end of
-    /// a similar design, positions start from its ends, and positions that carry more there are
-    /// omitted.
+    /// `own` is the path of the puncture itself, which is used at its own load position. If `near`,
+    /// the end of a similar design, is given, each position starts from the end of this design at
+    /// the same position. Positions at which this design is much stronger are then omitted.
     pub(super) fn load_positions(
         &self,
         own: Option<OwnPath>,
@@ -174,7 +180,7 @@ impl Problem<'_> {
     ) -> Result<LoadPositions, OutOfRange> {
         let positions = self.parameters.positions(self.parameters.places.unwrap_or(0), self.design);
         let keeps_ends = near.is_none() && self.common.detail == PathDetail::Critical;
-        // All positions together may take as long as one path.
+        // All positions together may use the work of one path.
         let mut left = self.common.solver.max_work;
         let (mut places, mut ends) = (Vec::new(), Vec::new());
         for position in positions {
@@ -202,13 +208,14 @@ impl Problem<'_> {
         Ok(LoadPositions { places, ends })
     }
 
-    /// Returns true if the path of the puncture itself is the path at a load position.
+    /// Returns true if the path of the puncture itself can be used at a load position.
     fn serves_position(&self, position: f64) -> bool {
-        // Elastic scales end a path where they bend; the other requests locate points only.
+        // A path that was followed for failure modes is not used. Other requests only locate points
+        // of the path.
         position == self.parameters.load_position && self.parameters.failure.is_none()
     }
 
-    /// Finds the end of the path from a known end, or else follows the path from rest.
+    /// Finds the end of the path from `start`; if this fails, follows the path from rest.
     fn follow_from(&self, start: Option<&PunctureEnd>) -> Result<Followed, OutOfRange> {
         match start.map(|start| self.end_near(start)).transpose()?.flatten() {
             Some(found) => Ok(found),
@@ -216,7 +223,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Returns the same problem with other parameters, for the measures of the critical state.
+    /// Returns this problem with other parameters, for the measures of the critical state.
     fn with<'p>(&'p self, parameters: &'p PunctureParameters) -> Problem<'p> {
         let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
         let common = Common { detail: PathDetail::Critical, ..self.common };
@@ -225,9 +232,10 @@ impl Problem<'_> {
 
     /// Differentiates the smallest force over the load positions of a `puncture`.
     ///
-    /// `own` are the derivatives of the puncture itself. Other positions start from `ends`, which may
-    /// belong to a similar design. If several positions are equally weak, a parameter change makes
-    /// one of them the weakest, so the one-sided derivatives differ.
+    /// `own` are the derivatives of the puncture itself. Punctures at other positions start from
+    /// `ends`, which may belong to a similar design. If several positions are equally weak, a
+    /// change of the parameter makes one of them the weakest, so the one-sided derivatives may
+    /// differ.
     pub(super) fn at_weakest(
         &self,
         puncture: &Puncture,
@@ -259,7 +267,7 @@ impl Problem<'_> {
         Ok(weakest)
     }
 
-    /// Differentiates the measures at a load position.
+    /// Differentiates the measures of the puncture at a load position.
     fn slopes_at(
         &self,
         position: f64,
@@ -278,10 +286,10 @@ impl Problem<'_> {
     }
 }
 
-/// Returns the derivative of the minimum of two forces that are equal here.
+/// Returns the derivative of the minimum of two equal forces, given the derivatives of both.
 fn least(one: &Derivative, other: &Derivative) -> Derivative {
     let both = |a: Option<f64>, b: Option<f64>, of: fn(f64, f64) -> f64| Some(of(a?, b?));
-    // Where the parameter decreases, the force with the larger slope becomes the smaller one.
+    // If the parameter decreases, the force with the larger slope becomes the smaller one.
     let left = both(one.left, other.left, f64::max);
     let right = both(one.right, other.right, f64::min);
     let is_smooth = left

@@ -11,7 +11,7 @@ use crate::Remains;
 use crate::common::is_default;
 use crate::record::{Record, Skin};
 
-/// The measures of a puncture; `None` if the value does not exist.
+/// The measures of a puncture; `None` if a value does not exist.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PunctureMeasures {
     /// `F_c* = F (1−ν²)/(E_s L t)` at the critical tilt.
@@ -20,23 +20,23 @@ pub struct PunctureMeasures {
     pub peak_force: Option<f64>,
     /// `u_c* = u/t` of the loaded point at the critical tilt.
     pub critical_displacement: Option<f64>,
-    /// Depth of the deepest base corner of any scale at the critical tilt, over `t`.
+    /// Depth of the deepest base corner of any scale at the critical tilt, in units of `t`.
     pub penetration: Option<f64>,
-    /// Depth of the deepest node at the critical tilt, over `t`.
+    /// Depth of the deepest node at the critical tilt, in units of `t`.
     pub sink: Option<f64>,
-    /// `u*` at the first contact.
+    /// `u*` at the first contact between two scales.
     pub first_contact_displacement: Option<f64>,
-    /// Contacts at the critical tilt.
+    /// Number of closed contacts at the critical tilt.
     pub contacts: Option<usize>,
-    /// Scales that touch a neighbour at the critical tilt.
+    /// Number of scales that touch another scale at the critical tilt.
     pub engaged_scales: Option<usize>,
-    /// Scales in the row.
+    /// Number of scales in the row; in a row without ends, of solved scales.
     pub scales: usize,
     /// `K* = K/(E_s t)` at rest.
     pub initial_stiffness: Option<f64>,
     /// Largest `K*` on the path.
     pub max_stiffness: Option<f64>,
-    /// Secant `K*` at the critical tilt.
+    /// Secant stiffness `K*` at the critical tilt.
     pub secant_stiffness: Option<f64>,
     /// `u*` at the largest `F*`.
     pub peak_displacement: Option<f64>,
@@ -46,9 +46,9 @@ pub struct PunctureMeasures {
     pub stable_under_load: Option<bool>,
     /// True if the row is stable at the critical tilt at constant depth of the load.
     pub stable_under_depth: Option<bool>,
-    /// `F*` up to which the path is stable under load control; `None` if all of it is.
+    /// `F*` up to which the path is stable under load control; `None` if the whole path is.
     pub load_stability_force: Option<f64>,
-    /// `F*` up to which the path is stable under depth control; `None` if all of it is.
+    /// `F*` up to which the path is stable under depth control; `None` if the whole path is.
     pub depth_stability_force: Option<f64>,
     /// Number of snaps under a monotonically descending needle.
     #[serde(default)]
@@ -67,16 +67,16 @@ pub struct PunctureMeasures {
     ///
     /// It is the largest force within the validity of the model.
     pub sound_force: Option<f64>,
-    /// `F*` at the requested depth, or at the critical tilt if that comes first.
+    /// `F*` at the requested depth, or at the critical tilt if the path reaches it first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force_at_depth: Option<f64>,
-    /// Largest mean pressure of any base on the substrate at the requested force, over `E_s`.
+    /// Largest mean pressure of any base on the substrate at the requested force, in `E_s`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tissue_pressure_at_force: Option<f64>,
-    /// Frictional dissipation between scales up to the critical tilt, over `E* t³`.
+    /// Frictional dissipation between scales up to the critical tilt, in `E* t³`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
-    /// True if every event had a single outgoing branch among those examined.
+    /// True if the solver found only one outgoing branch at every event.
     ///
     /// `None` without friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -84,7 +84,7 @@ pub struct PunctureMeasures {
     /// Residual state after unloading.
     #[serde(default, skip_serializing_if = "is_default")]
     pub remains: Remains,
-    /// How a guided needle passed through the row.
+    /// Passage of a guided needle through the row.
     #[serde(default, skip_serializing_if = "is_default")]
     pub passage: Passage,
     /// First failure and largest stresses, if requested.
@@ -104,27 +104,28 @@ pub struct PunctureMeasures {
 /// Smallest critical force on bodies between two radii; empty unless requested.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BetweenMeasures {
-    /// `F*` at the critical tilt on the worst body.
+    /// Smallest `F*` at the critical tilt on any of these bodies.
     pub force: Option<f64>,
-    /// Curvature `t/R` of that body.
+    /// Curvature `t/R` of the body with the smallest force.
     pub curvature: Option<f64>,
 }
 
 /// Critical forces across the row and in the weaker direction; empty unless requested.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AcrossMeasures {
-    /// `F*` at the critical tilt across the row, over the `L` of the row along.
+    /// `F*` at the critical tilt across the row, divided by the `L` of the row along.
     pub force: Option<f64>,
-    /// The smaller of this force and the one along the row.
+    /// The smaller of the forces across and along the row.
     pub any_direction: Option<f64>,
 }
 
 impl PunctureMeasures {
     /// Adds the critical force `across` the row.
     ///
-    /// `along` is the critical force at the weakest position along the row. Both are `None` if a
-    /// path did not reach its end. `largest` is the largest force on the path across. If it exceeds
-    /// `along`, the row fails along first, even if the path across ended early.
+    /// `along` is the critical force at the weakest load position along the row. `across` and
+    /// `along` are `None` if the path in this direction did not reach its end. `largest` is the
+    /// largest force on the path across. If `largest` is at least `along`, the row fails along
+    /// first, even if the path across ended early.
     #[must_use]
     pub fn with_across(
         mut self,
@@ -143,16 +144,14 @@ impl PunctureMeasures {
                 (self.failure.mode, self.failure.force) = (Some(FailureMode::Across), Some(across));
             }
             (None, Some(along)) if largest >= along => {}
-            // An unknown force across may be the smaller one.
+            // An unknown force across may be smaller than the failure force along the row.
             (None, _) => (self.failure.mode, self.failure.force) = (None, None),
             _ => {}
         }
         self
     }
 
-    /// Computes the measures of a completed path.
-    ///
-    /// Stiffness is in `E_s t`, force in `E* t²`.
+    /// Computes the measures at the end of a path, and along it.
     pub(crate) fn new(
         record: &Record<Chain>,
         folds: &[Fold],
@@ -184,8 +183,8 @@ impl PunctureMeasures {
             scales: chain.row_length(),
             initial_stiffness: along_path.then_some(modulus * record.initial_stiffness),
             max_stiffness: max_stiffness.map(|stiffness| modulus * stiffness),
-            // `F*` is divided by `L`, a stiffness is not. A needle that is through at rest has no
-            // secant.
+            // `F*` is divided by `L`, but `K*` is not. A needle that is through at rest has neither
+            // force nor displacement, and no secant stiffness.
             secant_stiffness: Some(modulus * end.force * chain.length / end.displacement)
                 .filter(|stiffness| stiffness.is_finite()),
             peak_displacement: peak.map(|point| point.displacement),
@@ -202,7 +201,7 @@ impl PunctureMeasures {
         }
     }
 
-    /// Keeps only the measures of the start and the peak, for a path that failed.
+    /// Returns only the measures that are valid for a path that did not reach its target.
     pub(crate) fn without_final_values(self) -> Self {
         Self {
             first_contact_displacement: self.first_contact_displacement,
@@ -217,7 +216,7 @@ impl PunctureMeasures {
             fold_force: self.fold_force,
             fold_displacement: self.fold_displacement,
             fold_tilt_deg: self.fold_tilt_deg,
-            // Evaluated along the path and valid however the path ended later.
+            // These two are evaluated before the end of the path, so they remain valid.
             force_at_depth: self.force_at_depth,
             tissue_pressure_at_force: self.tissue_pressure_at_force,
             unique: self.unique,
@@ -228,10 +227,10 @@ impl PunctureMeasures {
     }
 }
 
-/// Returns the first point of largest force.
+/// Returns the first point with the largest force.
 ///
-/// `None` if the path never left its start. Extrema of the load are points of the path, so no
-/// search between points is needed.
+/// `None` if the path has only one point. Extrema of the load are points of the path, so a search
+/// between points is not needed.
 fn peak(path: &[PuncturePoint]) -> Option<&PuncturePoint> {
     path.iter().skip(1).reduce(|best, point| if point.force > best.force { point } else { best })
 }
@@ -241,7 +240,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_row_that_bears_more_across_leaves_the_first_failure_along_the_row() {
+    fn only_a_weaker_row_across_replaces_the_first_failure_along_the_row() {
         let failure = FailureMeasures {
             mode: Some(FailureMode::Tilt),
             force: Some(2.0),

@@ -1,20 +1,21 @@
 //! A needle guided straight down.
 //!
-//! It has a sharp or round tip at a fixed position `X` along the row. The tip touches a face of a
-//! scale with friction, slides to the end of the face, then over the corner or into the notch
-//! formed with the face of a neighbour, and on.
+//! The needle has a sharp or round tip at a fixed position `X` along the row. The tip slides with
+//! friction along a face of a scale. At the end of the face it passes over the corner, or stops in
+//! the notch between the corner and the left face of the next scale.
 //!
-//! The parts that the needle touches, and its friction state there, belong to the discrete state of
-//! the skin (`contacts/needle_mode.rs`).
+//! A tip contact is the contact of the tip with one scale (`Touch`). The touched parts of the
+//! outlines and the friction states belong to the discrete state of the skin
+//! (`contacts/needle_mode.rs`).
 //!
 //! | File | Content |
 //! |---|---|
 //! | `outline.rs` | kinematics of the tip at a face: gap, coordinate along the face, their derivatives |
-//! | `touches.rs` | touches of the tip with the scales of a row, at rest and where the path ends |
-//! | `round.rs` | a tip with a radius: its own conditions and transitions |
-//! | `forces.rs` | equations, tangent, and their validity conditions |
+//! | `touches.rs` | tip contacts at rest and along the path, and constraints that end the path |
+//! | `round.rs` | conditions and transitions of a tip with a radius |
+//! | `forces.rs` | equations and tangent of a tip, conditions under which its state is valid |
 //! | `transition.rs` | next state when a condition is violated |
-//! | `passage.rs` | measures: where the needle touches more than its face, how its path ends |
+//! | `passage.rs` | first contact beyond the initial face, event that ends the path |
 //! | `history.rs` | history variables, and their derivatives with respect to parameters |
 
 mod forces;
@@ -37,52 +38,64 @@ pub(super) use history::{HistoryObserver, HistoryVariable, anchors, event_before
 pub(super) use passage::PassageObserver;
 pub use passage::{CriticalEvent, Passage, TipForces};
 
-/// Number of scales on each side that a guided needle may reach.
+/// Number of scales on each side of the punctured one that a sharp tip may touch.
 ///
-/// It moves by less than its own depth along the row.
+/// The tip moves relative to the row by less than its depth, so it stays within this distance.
 pub(super) const FARTHEST: usize = 8;
 
-/// Largest reach of a round tip, in scales on each side of the punctured one.
+/// Largest number of scales on each side of the punctured one that a round tip may touch.
 const FARTHEST_TOUCH: usize = 64;
 
-/// Scales in reach beyond those below the tip at rest, because rows move sideways.
+/// Number of scales in reach on each side in addition to those below the tip at rest.
+///
+/// The row may move sideways below the tip.
 const PUSHED_ALONG: usize = 2;
 
-/// Number of unknowns per touch.
+/// Number of unknowns of a contact of a sharp tip with a scale.
 ///
-/// `N`, `T`, the forward and backward slip distances, and two unknowns for conditions that never
-/// become active.
+/// They are `N`, `T`, the forward and backward slip distances, and one for each end of the face.
+/// The last two belong to conditions that never become active.
 const UNKNOWNS_PER_TOUCH: usize = 6;
 
-/// Constraints per touch, in this order.
+/// Number of constraints of a contact of a sharp tip with a scale.
 const CONSTRAINTS_PER_TOUCH: usize = 5;
+
+/// Constraint of the normal force, the first of a tip contact.
 const NORMAL: usize = 0;
+/// Constraint of the forward slip distance of a tip contact.
 const FORWARD: usize = 1;
+/// Constraint of the backward slip distance of a tip contact.
 const BACKWARD: usize = 2;
+/// Constraint of a sharp tip at the start of its outline part.
+///
+/// It is violated when a sliding tip reaches the start of its face, or when the force at a corner
+/// reaches the slip limit on the face before the corner.
 const FACE_START: usize = 3;
+/// Constraint of a sharp tip at the end of its outline part, like [`FACE_START`].
 const FACE_END: usize = 4;
 
 /// Number of conditions that end the path: a critical tilt, and passing through.
 ///
-/// They follow the constraints of all touches.
+/// These conditions follow the constraints of all tip contacts.
 const ENDINGS: usize = 2;
 
-/// Unknowns of a guided needle with a sharp tip: depth, two touches, endings.
+/// Number of unknowns of a guided needle with a sharp tip: depth, two tip contacts, endings.
 ///
 /// They follow the load.
 pub(super) const NEEDLE_UNKNOWNS: usize = 1 + SHARP_SLOTS * UNKNOWNS_PER_TOUCH + ENDINGS;
 
-/// Returns the reach of a round tip in scales on each side.
+/// Returns the number of scales on each side of the punctured one that a round tip may touch.
 ///
-/// `None` if it is too large.
+/// `None` if this number is too large.
 pub(super) fn reach(radius: f64, pitch: f64) -> Option<usize> {
     let reach = (radius / pitch).ceil() as usize + PUSHED_ALONG;
     (reach <= FARTHEST_TOUCH).then_some(reach)
 }
 
-/// Counts the unknowns per scale in reach: normal force, condition on position.
+/// Counts the unknowns of a round tip for each scale in reach.
 ///
-/// With friction also the tangential force and the forward and backward slip distances.
+/// They are the normal force, with friction the tangential force and the forward and backward slip
+/// distances, and one for the condition that the tip stays on its outline part.
 fn unknowns_per_scale(has_friction: bool) -> usize {
     if has_friction { 5 } else { 2 }
 }
@@ -95,28 +108,31 @@ pub(super) fn unknowns(reach: usize, has_friction: bool) -> usize {
 /// A guided needle on a row.
 #[derive(Clone, Debug)]
 pub(crate) struct GuidedNeedle {
+    /// Coefficient of friction `μ_n`.
     friction: f64,
-    /// Radius of the tip; 0 for a sharp one.
+    /// Radius of the tip, in units of `t`; 0 for a sharp tip.
     radius: f64,
-    /// Tip at rest, or centre of a round tip, relative to the punctured node.
+    /// Tip or centre of a round tip at rest, relative to the node of the punctured scale.
     pub(super) tip: Vec2,
+    /// Tilt of a touched scale at which the path ends, radians.
     critical_tilt: f64,
     /// Index of the first unknown of the needle, the depth.
     pub(super) depth: usize,
     /// Number of contact constraints, which precede the needle constraints.
     contacts: usize,
-    /// Constraint numbers of the slip distances, which only grow.
+    /// Constraint numbers of the slip distances, which cannot decrease.
     pub(super) slip_distances: Vec<usize>,
-    /// Maximum number of touches.
+    /// Maximum number of simultaneous tip contacts.
     pub(super) slots: usize,
-    /// Number of unknowns per touch, and of constraints among these unknowns.
-    ///
-    /// For a round tip the condition on the position is last.
+    /// Number of unknowns of each tip contact.
     unknowns_per_touch: usize,
-    constraints_per_touch: usize,
-    /// Touches with an anchor that differs from the mode's, and the difference.
+    /// Number of unknowns of each tip contact that are constraints.
     ///
-    /// Set on perturbed neighbours of a row only.
+    /// The last constraint of a round tip states that it stays on its outline part.
+    constraints_per_touch: usize,
+    /// Changes of anchors relative to the discrete state, for derivatives.
+    ///
+    /// Only a row with a perturbed parameter has such changes.
     anchor_shifts: Vec<(Touch, f64)>,
 }
 
@@ -131,9 +147,9 @@ impl GuidedNeedle {
         let radius = parameters.needle_radius.unwrap_or(0.0);
         let (slots, unknowns_per_touch, constraints_per_touch) = if radius > 0.0 {
             let per_scale = unknowns_per_scale(friction > 0.0);
-            // Every unknown except the tangential force has a constraint.
+            // Every unknown except the tangential force is a constraint.
             let constraints = if friction > 0.0 { per_scale - 1 } else { per_scale };
-            // Compute the number of touches from the number of unknowns.
+            // The layout has one set of unknowns for each scale that the tip may touch.
             ((layout.needle - 1 - ENDINGS) / per_scale, per_scale, constraints)
         } else {
             (SHARP_SLOTS, UNKNOWNS_PER_TOUCH, CONSTRAINTS_PER_TOUCH)
@@ -163,19 +179,17 @@ impl GuidedNeedle {
         self.radius > 0.0
     }
 
-    /// Returns the lowest point of the tip.
-    ///
-    /// It is relative to the node of the punctured scale at rest.
+    /// Returns the lowest point of the tip, relative to the punctured node at rest.
     pub(super) fn lowest(&self, z: &[f64]) -> Vec2 {
         self.tip - Vec2::new(0.0, self.radius + z[self.depth])
     }
 
-    /// Returns the number of scales on each side of the punctured one in reach.
+    /// Returns the number of scales on each side that a round tip may touch.
     fn reach(&self) -> usize {
         self.slots / 2
     }
 
-    /// Returns the number of scales on each side that the tip may reach.
+    /// Returns the number of scales on each side that the sharp or round tip may touch.
     pub(super) fn farthest(&self) -> usize {
         if self.is_round() { self.reach() } else { FARTHEST }
     }
@@ -185,10 +199,10 @@ impl GuidedNeedle {
         self.friction > 0.0
     }
 
-    /// Lists the unknowns of the needle constraints in order.
+    /// Lists the indices of the unknowns that are needle constraints, in order.
     pub(super) fn constraints(&self) -> Vec<usize> {
         let behind = self.normal_force(self.slots);
-        // A tangential force that is an unknown in every state is no constraint.
+        // A tangential force, if present, is an unknown in every state and no constraint.
         let tangential_force = |first: usize| {
             (self.constraints_per_touch < self.unknowns_per_touch).then_some(first + 1)
         };
@@ -202,22 +216,22 @@ impl GuidedNeedle {
             .collect()
     }
 
-    /// Returns the unknown of the normal force of a touch.
+    /// Returns the index of the normal force of the tip contact in slot `touch`.
     ///
-    /// The tangential force is the next one.
+    /// The tangential force, if present, has the next index.
     fn normal_force(&self, touch: usize) -> usize {
         self.depth + 1 + self.unknowns_per_touch * touch
     }
 
-    /// Returns the system number of a constraint of a touch.
+    /// Returns the number in the whole system of a `constraint` of the tip contact in a slot.
     fn number(&self, touch: usize, constraint: usize) -> usize {
         self.contacts + self.constraints_per_touch * touch + constraint
     }
 
     /// Returns the constraints that may change together with a constraint.
     ///
-    /// With friction these are normal force and slips: opening a sticking touch also ends its stick
-    /// constraint.
+    /// With friction they are the normal force and both slip distances of the same tip contact: if
+    /// a sticking contact opens, sticking ends as well.
     pub(super) fn coupled(&self, constraint: usize) -> Range<usize> {
         let number = constraint - self.contacts;
         let first = constraint - number % self.constraints_per_touch;
@@ -230,12 +244,14 @@ impl GuidedNeedle {
         }
     }
 
-    /// Returns the number of the tilt constraint, the first one after the touches.
+    /// Returns the number of the tilt constraint among the needle constraints.
+    ///
+    /// It follows the constraints of all tip contacts.
     fn tilt_number(&self) -> usize {
         self.constraints_per_touch * self.slots
     }
 
-    /// Returns the constraints that end a path: critical tilt and passing through.
+    /// Returns the needle constraints that end a path: critical tilt, then passing through.
     fn endings(&self) -> Range<usize> {
         self.tilt_number()..self.tilt_number() + ENDINGS
     }

@@ -1,35 +1,39 @@
-//! Neo-Hookean surface strips between bases, in place of springs along the row.
+//! Neo-Hookean bars between neighbouring bases, which replace the springs along the row.
 
 use solver::{Residual, Tangent};
 use substrate::{SurfaceStrip, neo_hookean};
 
 use super::system::Chain;
 
-/// The bar between two neighbouring scales, minus the linear spring that it replaces:
+/// The bar between two neighbouring scales, minus the linear spring that it replaces.
+///
+/// The energy of this difference is
 ///
 /// ```text
 /// a β_x [ d² w(g) − ½ (x' − x)² ]                                                      (P4b)
 /// ```
 ///
-/// Its axial force acts at the corners of the bases, so it also exerts moments: `∂s/∂φ = a sin φ`.
+/// with the stretch `g = s/d`. The axial force of the bar acts at the corners of the bases, so it
+/// also exerts moments on both scales: `∂s/∂φ = a sin φ`.
 pub(super) struct Bar {
     half_base: f64,
     /// Force of the bar minus force of the spring.
     excess: f64,
     /// Total force of the bar.
     tension: f64,
-    /// Stiffness of the spring and of the bar.
+    /// Stiffness of the replaced spring.
     spring: f64,
+    /// Stiffness of the bar.
     stiffness: f64,
-    /// Rotations of both scales.
+    /// Rotations of the left and the right scale.
     turns: [Turn; 2],
 }
 
-/// Rotation of a scale, as needed by a bar.
+/// Functions of the rotation `φ` of a scale that a bar needs.
 #[derive(Clone, Copy)]
 struct Turn {
     sin: f64,
-    /// `1 − cos φ`, without cancellation.
+    /// `1 − cos φ`, computed without cancellation.
     shortened: f64,
 }
 
@@ -40,7 +44,7 @@ impl Turn {
     }
 }
 
-/// End of a bar: displacement of the scale along the row, and its rotation.
+/// End of a bar: displacement `x` and rotation of its scale.
 type End = (f64, Turn);
 
 fn end([x, _, rotation]: [f64; 3]) -> End {
@@ -53,7 +57,7 @@ impl Chain {
         SurfaceStrip { width: self.contacts.arrangement.gap(scale), half_base: self.half_base }
     }
 
-    /// Calls `show` for each bar from the left, with the first unknowns of its scales.
+    /// Calls `show` for each bar from the left, with the indices of `x` of its two scales.
     ///
     /// A linear substrate has no bars.
     pub(super) fn for_bars(&self, z: &[f64], mut show: impl FnMut([usize; 2], &Bar)) {
@@ -80,10 +84,10 @@ impl Chain {
             .sum()
     }
 
-    /// Computes the largest excess force of bars over their springs.
+    /// Computes the largest difference between the force of a bar and of the replaced spring.
     ///
-    /// The bars have these `widths` and connect scales with the given `displacements`. The result is
-    /// over the stiffness of a scale, hence a displacement.
+    /// Bar `i` connects scales with `displacements` `i` and `i + 1` across a gap of `widths[i]`.
+    /// The difference is divided by the stiffness `a α_x` of a scale, so it is a displacement.
     pub(super) fn largest_excess(&self, displacements: &[[f64; 3]], widths: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
         displacements
@@ -92,8 +96,8 @@ impl Chain {
             .map(|(pair, &width)| {
                 let [near, next] = [pair[0], pair[1]].map(end);
                 let strip = SurfaceStrip { width, half_base: self.half_base };
-                // A bar that is stretched beyond one end of the row would be compressed beyond the
-                // other: take the larger excess.
+                // Take the larger excess for this elongation and for the opposite one, so that the
+                // result does not depend on the sign of the displacements.
                 let [one, other] = [[near, next], [next, near]]
                     .map(|ends| Bar::new(&strip, spring, ends).excess.abs());
                 one.max(other) / self.direct[0]
@@ -121,7 +125,7 @@ impl Bar {
 
     /// Adds forces and tangent of the bar.
     ///
-    /// `nodes` are the first unknowns of its two scales.
+    /// `nodes` are the indices of `x` of its left and its right scale.
     pub(super) fn linearise(
         &self,
         nodes: [usize; 2],
@@ -136,7 +140,7 @@ impl Bar {
         residual.add(left, -self.excess);
         residual.add(right, self.excess);
         for (at, turn) in [left, right].into_iter().zip(self.turns) {
-            // The replaced spring exerts no moment, so the moment follows from the total force.
+            // The replaced spring exerts no moment, so the moment of the total force is added.
             residual.add(at + 2, self.tension * self.half_base * turn.sin);
         }
     }

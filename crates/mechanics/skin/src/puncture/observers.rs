@@ -1,4 +1,4 @@
-//! Observers of the path of a puncture.
+//! Observers that record and locate points while the path of a puncture is followed.
 
 use solver::Continuation;
 
@@ -12,21 +12,23 @@ use super::{At, PunctureParameters};
 use crate::path_location::PointLocator;
 use crate::record::{PathFunction, Record};
 
-/// Everything that is recorded or located along the path of a puncture.
+/// All observers of the path of a puncture.
 pub(super) struct PathObservers {
     pub(super) record: Record<Chain>,
+    /// Stability and snaps.
     pub(super) needle: SnapObserver,
     pub(super) folds: FoldObserver,
-    /// The first failure, if it is requested.
+    /// First failure; `None` unless failure is requested.
     pub(super) failure: Option<FailureObserver>,
     pub(super) history: HistoryObserver,
     pub(super) passage: PassageObserver,
+    /// Points at the tilts at which measures are reported.
     pub(super) tilts: PointLocator<Chain>,
-    /// The additional depth at which the force is measured, if requested.
+    /// Point at the depth at which the force is reported, if requested.
     pub(super) depth: PointLocator<Chain>,
-    /// The force at which the pressure on the tissue is measured, if requested.
+    /// Point at the force at which the pressure on the tissue is reported, if requested.
     pub(super) force: PointLocator<Chain>,
-    /// Points requested by the caller: snapshots, curves, other tilts.
+    /// Points requested by the caller, for snapshots and curves.
     pub(super) requested: PointLocator<Chain>,
 }
 
@@ -59,7 +61,7 @@ impl PathObservers {
         let Segment { from, to, left } = segment;
         self.history.follow(segment);
         self.passage.follow(path.system(), segment);
-        // The record comes last, so that its number of events excludes this segment.
+        // Count the events now, because the record adds the events of this segment below.
         let events_before = self.record.events.len();
         if !path.system().is_critical_only() {
             self.needle.follow(path, [from, to], events_before);
@@ -76,10 +78,10 @@ impl PathObservers {
         self.record.visit(path, left, to);
     }
 
-    /// Extends all recorded points to the final row.
+    /// Converts all recorded points to the unknowns of the final row.
     pub(super) fn lengthen(&mut self, path: &AdaptiveRowPath) {
-        // Every observer that keeps points must be listed here, or its points keep the size of a
-        // shorter row.
+        // List every observer that stores points here. Otherwise its points would keep the unknowns
+        // of a shorter row.
         let SnapObserver { load_limit, depth_limit, .. } = &mut self.needle;
         let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
         let located = [&mut self.tilts, &mut self.depth, &mut self.force, &mut self.requested];

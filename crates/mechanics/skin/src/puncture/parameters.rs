@@ -8,9 +8,9 @@ use super::number_list::NumberList;
 /// Constraint on the needle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Needle {
-    /// A dead load attached to its point of the scale, which it follows sideways.
+    /// A dead load at a fixed point of the scale; it moves sideways with this point.
     ///
-    /// This is the load of Shafiei et al. (2021).
+    /// Shafiei et al. (2021) use this load.
     #[default]
     Free,
     /// A tip guided straight down, with this coefficient of friction.
@@ -49,19 +49,18 @@ pub enum Bending {
 pub enum RowLength {
     /// A row without ends.
     ///
-    /// The scales within reach of contact are unknowns, more as contact spreads along the path; the
-    /// scales beyond follow in closed form as a linear chain. Without such a closed form the row
-    /// grows until its ends move by at most `1e-6`.
+    /// The scales that contact has reached, and a few more, are unknowns. Their number grows as
+    /// contact spreads along the path. The scales beyond follow in closed form as a linear chain.
     Auto,
-    /// This many scales.
+    /// A row of this number of scales.
     ///
-    /// The punctured one is the middle one, or the left of the two middle ones.
+    /// The middle scale is punctured; of an even number, the left one of the two middle scales.
     Scales(usize),
 }
 
-/// Strengths of a skin, over `E_s`.
+/// Strengths of a skin, in units of `E_s`.
 ///
-/// A failure mode without its strength is not judged.
+/// A failure mode is not judged if the strength that it needs is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Strengths {
     /// Strength of the scales in bending; for perforation also their yield stress.
@@ -81,27 +80,27 @@ pub struct PunctureParameters {
     pub scales: RowLength,
     /// Load position on the top of the punctured scale: 0 the left, 1 the right corner.
     ///
-    /// A round tip may be beyond, between two scales.
+    /// A round tip may have a position below 0 or above 1, between two scales.
     pub load_position: f64,
     /// Critical tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,
     /// Constitutive law of the substrate surface between two bases.
     pub substrate_law: SubstrateLaw,
-    /// Smaller critical tilts at which measures are also taken, degrees.
+    /// Tilts below `critical_tilt_deg` at which measures are reported as well, degrees.
     ///
-    /// `critical_tilt_deg` is added to them. `None`: no measures at tilts.
+    /// If given, measures at `critical_tilt_deg` follow in the same list.
     pub tilts_before_deg: Option<NumberList>,
     /// Constraint on the needle.
     pub needle: Needle,
-    /// Tip radius of a guided needle, over `t`; `None` for a sharp one.
+    /// Tip radius of a guided needle, in units of `t`; `None` for a sharp one.
     pub needle_radius: Option<f64>,
-    /// Depth `u*` at which to report the force as well.
+    /// Depth `u*` at which the force is reported as well.
     pub depth: Option<f64>,
-    /// Force `F*` at which to report the pressure on the tissue as well.
+    /// Force `F*` at which the pressure on the tissue is reported as well.
     pub force: Option<f64>,
-    /// True to remove the load again at the end.
+    /// True to remove the load at the end of the path and follow the unloading path.
     pub unload: bool,
-    /// Strengths of scales and bonds, if the first failure is requested.
+    /// Strengths of scales and bonds; `None` if failure is not evaluated.
     pub failure: Option<Strengths>,
     /// Number of load positions to compare, at least two.
     ///
@@ -114,9 +113,9 @@ pub struct PunctureParameters {
 }
 
 impl Default for PunctureParameters {
-    /// Values of Shafiei et al. (2021).
+    /// Returns the values of Shafiei et al. (2021).
     ///
-    /// `E_ct = 3 GPa` on a substrate of `E_s = 310 kPa`.
+    /// The contact modulus is 3 `GPa` on a substrate of 310 kPa.
     fn default() -> Self {
         Self {
             poisson_ratio: 0.5,
@@ -145,7 +144,9 @@ impl PunctureParameters {
         Body { curvature: self.curvature }
     }
 
-    /// Iterates over the measured tilts, degrees, with the critical one last.
+    /// Iterates over the tilts at which measures are reported, degrees; the critical one is last.
+    ///
+    /// Empty if `tilts_before_deg` is `None`.
     pub fn tilts_deg(&self) -> impl Iterator<Item = f64> {
         let before = self.tilts_before_deg.iter().flat_map(NumberList::as_slice).copied();
         before.chain(self.tilts_before_deg.map(|_| self.critical_tilt_deg))

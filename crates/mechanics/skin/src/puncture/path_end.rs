@@ -1,4 +1,4 @@
-//! Ends of paths, from which punctures of neighbouring designs are solved without their paths.
+//! Ends of paths, from which punctures of similar designs are solved without following their paths.
 
 use geometry::OutOfRange;
 use solver::{Continuation, Neighbours, TargetPoint};
@@ -17,62 +17,65 @@ use crate::contacts::{SkinMode, SkinPoint};
 use crate::sensitivity::Derivative;
 use crate::{Design, PathDetail, Status};
 
-/// Least stretch of a gap at a minimum along a path with a usable end.
+/// Smallest stretch at which a gap may stop narrowing on a path with a usable end.
 ///
-/// A gap that almost folds and opens again may fold on the path of a neighbour.
+/// If a gap almost folds and opens again, it may fold on the path of a similar design.
 const LEAST_STRETCH: f64 = 0.05;
 
-/// Least lever of the load at rest, in widths of the top, of a puncture with a usable end.
+/// Smallest magnitude of [`Problem::lever`] of a puncture with a usable end.
 ///
-/// A load above the middle of the base hardly tilts the scale at first. The scale may then tilt
-/// either way, which only the path decides.
+/// A load close to the middle of the base hardly tilts the scale at first. Only the path then shows
+/// the direction in which the scale tilts.
 const LEAST_LEVER: f64 = 0.1;
 
 /// Number of steps from a similar design to the requested one, if one step fails.
 const STEPS: u8 = 8;
 
-/// Force over the force at the weakest load position up to which a position may be the weakest of a
-/// similar design.
+/// Largest force, relative to the weakest load position, of a position that has to be solved.
 ///
-/// In 3,000 random pairs of designs up to 15 % and 6° apart the weakest position was the same.
+/// The force is known for a similar design. A position with a larger force cannot be the weakest
+/// one. In 3,000 random pairs of designs with differences of up to 15 % and 6°, both designs had
+/// the same weakest position.
 const COMPARABLE: f64 = 1.1;
 
-/// A fold is located if the stretch of its gap is below this.
+/// Largest magnitude of the stretch of a gap at a located fold.
 const CLOSE: f64 = 1e-12;
 
-/// Fraction of the critical tilt before which folds are not searched from the end.
+/// Smallest fraction of the critical tilt at which folds are searched from the end of a path.
 ///
-/// Other gaps may fold and open again between an earlier fold and the end.
+/// Between an earlier fold and the end, other gaps may fold and open again.
 const EARLIEST_FOLD: f64 = 0.8;
 
-/// Largest number of Newton steps from the end of a path to a fold before it.
+/// Largest number of Newton steps from the end of a path to a fold before the end.
 const MOST_FOLD_STEPS: usize = 8;
 
-/// End of the path of a completed puncture.
+/// End of the path of a completed puncture, as a start for punctures of similar designs.
 ///
-/// It is a start for punctures of similar designs: their ends follow by Newton's method, without
-/// their paths. Only [`PathDetail::Critical`] has it, because other measures belong to points before
-/// the end. The history of friction, of a guided needle and of failure also needs the whole path.
+/// The ends of similar designs follow by Newton's method, without following their paths. This
+/// requires [`PathDetail::Critical`], because other measures belong to points before the end. It
+/// excludes friction, guided needles and failure modes, which depend on the whole path.
 #[derive(Clone, Debug)]
 pub struct PunctureEnd {
+    /// Layout of the solved part of the row.
     layout: RowLayout,
-    /// Layout of the whole row; `None` if the row has no end.
+    /// Layout of the whole row; `None` for a row without ends.
     whole: Option<RowLayout>,
     point: TargetPoint<SkinMode>,
     design: Design,
     /// [`Problem::lever`] of the load.
     lever: f64,
     stiffness: RowStiffness,
-    /// The punctures at the requested load positions.
+    /// Ends of the punctures at the requested load positions.
     places: Vec<PlaceEnd>,
 }
 
-/// Puncture at one of several load positions, and its end.
+/// Force and path end of a puncture at one of several load positions.
 #[derive(Clone, Debug)]
 pub(super) struct PlaceEnd {
     pub(super) position: f64,
-    /// `F*` at the critical tilt.
+    /// `F*` at the critical tilt; `None` if the path did not reach it.
     pub(super) force: Option<f64>,
+    /// End of the path; `None` if it is not usable.
     pub(super) end: Option<PunctureEnd>,
 }
 
@@ -89,17 +92,17 @@ impl PunctureEnd {
         }
     }
 
-    /// Adds the punctures at the requested load positions.
+    /// Adds the ends of the punctures at the requested load positions.
     pub(super) fn with_places(self, places: Vec<PlaceEnd>) -> Self {
         Self { places, ..self }
     }
 
-    /// Returns the end at a load position.
+    /// Returns the end of the path at a load position; `None` without a usable end.
     pub(super) fn at_place(&self, position: f64) -> Option<&Self> {
         self.places.iter().find(|place| place.position == position)?.end.as_ref()
     }
 
-    /// Returns true if a load position of a similar design may be the weakest.
+    /// Returns true if a load position may be the weakest one of a similar design.
     pub(super) fn may_be_weakest(&self, position: f64) -> bool {
         let forces = self.places.iter().filter_map(|place| place.force);
         let weakest = forces.fold(f64::INFINITY, f64::min);
@@ -107,14 +110,17 @@ impl PunctureEnd {
         place.and_then(|place| place.force).is_none_or(|force| force <= COMPARABLE * weakest)
     }
 
-    /// Returns the end of a path, unless an event before it may change the result of a neighbour.
+    /// Returns the end of a path as a start for similar designs.
+    ///
+    /// `None` if an event before the end may be different on the path of a similar design.
     pub(super) fn new(problem: &Problem, followed: &Followed) -> Option<Self> {
         let Followed { watch, path, status, .. } = followed;
         if !problem.has_end() || *status != Status::Complete {
             return None;
         }
         let folds_for_good = watch.folds.least_dip >= LEAST_STRETCH;
-        // A tilt that reverses may reach its critical value on another branch of a neighbour.
+        // If the tilt reverses on this path, a similar design may reach the critical tilt on
+        // another branch. Require a monotonic tilt.
         let side = problem.lever().signum();
         let tilts_on = watch.record.path.is_sorted_by_key(|point| side * point.tilt_deg);
         if !(folds_for_good && tilts_on) {
@@ -126,9 +132,9 @@ impl PunctureEnd {
 
 /// Solves a puncture like [`solve`](super::solve), but from the `end` of a similar design.
 ///
-/// `None` if the end of the design cannot be found from there, or if an event along its path may
-/// change the result. The measures agree with a solution along the whole path, up to the tolerance
-/// of Newton's method.
+/// `None` if the end of the requested path cannot be found from `end`, or if an event along this
+/// path may change the result. The measures agree with a solution along the whole path up to the
+/// tolerance of Newton's method.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -142,7 +148,7 @@ pub fn solve_near(
 
 /// Solves a puncture like [`solve_near`], and differentiates its measures.
 ///
-/// As [`differentiate`](super::differentiate), but from the `end` of a similar design.
+/// The derivatives are those that [`differentiate`](super::differentiate) returns.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -160,10 +166,10 @@ pub fn differentiate_near(
 }
 
 impl PunctureParameters {
-    /// Returns true if the critical measures depend on the end of the path only.
+    /// Returns true if the critical measures depend only on the end of the path.
     ///
     /// Every measure of [`PathDetail::Critical`] then belongs to the end or to a fold of the
-    /// surface. Without friction, only such punctures have a [`PunctureEnd`].
+    /// surface. Only such punctures, without friction between scales, have a [`PunctureEnd`].
     pub fn depend_on_end_only(&self) -> bool {
         self.needle == Needle::Free
             && self.bending == Bending::Rigid
@@ -176,6 +182,7 @@ impl PunctureParameters {
 }
 
 impl Problem<'_> {
+    /// Returns true if the end of the path may be a start for similar designs.
     fn has_end(&self) -> bool {
         self.common.detail == PathDetail::Critical
             && matches!(self.rows, Rows::Even(_))
@@ -184,18 +191,18 @@ impl Problem<'_> {
             && self.lever().abs() >= LEAST_LEVER
     }
 
-    /// Computes the lever of the load about the middle of the base at rest, in widths of the top.
+    /// Computes the lever of the load about the node at rest, in units of the width of the base.
     ///
-    /// Positive if the load tilts the scale clockwise.
+    /// It is positive if the load tilts the scale clockwise.
     fn lever(&self) -> f64 {
         let Design { slant_deg, .. } = self.design;
         let shift = slant_deg.to_radians().tan() / (2.0 * self.design.half_base());
         shift + self.parameters.load_position - 0.5
     }
 
-    /// Finds the end of the path from the `end` of a similar design.
+    /// Finds the end of the path from the `end` of a similar design; `None` if this fails.
     pub(super) fn end_near(&self, end: &PunctureEnd) -> Result<Option<Followed>, OutOfRange> {
-        // A curved body carries more or fewer scales as their pitch changes.
+        // Rows on curved bodies may differ in their numbers of scales, because pitches differ.
         let tilts_the_same_way = self.lever() * end.lever > 0.0;
         if !self.has_end() || self.whole() != end.whole || !tilts_the_same_way {
             return Ok(None);
@@ -205,7 +212,7 @@ impl Problem<'_> {
             found => found,
         };
         let Some((chain, point)) = found else { return Ok(None) };
-        // The needle only pushes.
+        // A needle cannot pull, so an end with a negative load is not valid.
         let is_valid = chain.force(&point.state) > 0.0
             && Status::audited(&chain, &point.state) == Status::Complete;
         if !is_valid {
@@ -219,7 +226,7 @@ impl Problem<'_> {
         Ok(Some(Followed { watch, passage, path, status }))
     }
 
-    /// Finds the equilibrium at the critical tilt in equal steps of the design.
+    /// Finds the equilibrium at the critical tilt in equal steps from a similar design.
     fn point_in_steps(&self, end: &PunctureEnd) -> Result<Option<(Chain, SkinPoint)>, OutOfRange> {
         let mut near = PunctureEnd {
             point: end.point.clone(),
@@ -230,7 +237,8 @@ impl Problem<'_> {
         for step in 1..STEPS {
             let fraction = f64::from(step) / f64::from(STEPS);
             let design = end.design.towards(self.design, fraction);
-            // Designs in between only provide starting points, so interpolate their substrates.
+            // Designs in between only provide starting points, so interpolate their substrates
+            // instead of computing them.
             let [from, to] = [&end.stiffness, &self.stiffness];
             let stiffness = from.clone() * (1.0 - fraction) + to.clone() * fraction;
             let rows = Rows::Even(design.row()?);
@@ -242,7 +250,7 @@ impl Problem<'_> {
         self.point_near(&near)
     }
 
-    /// Finds the equilibrium at the critical tilt, on a row that is long enough for it.
+    /// Finds the equilibrium at the critical tilt, and extends the row if contact reaches its ends.
     fn point_near(&self, end: &PunctureEnd) -> Result<Option<(Chain, SkinPoint)>, OutOfRange> {
         let (mut chain, mut near) = (self.part(end.layout)?, end.point.clone());
         loop {
@@ -270,16 +278,16 @@ impl Problem<'_> {
         PunctureEnd::at(self, found.path.system().layout, point)
     }
 
-    /// Builds the result of an end that was found from the end of a similar design.
+    /// Builds the result of an end that was `found` from `near`, the end of a similar design.
     fn result_near(&self, found: Followed, near: &PunctureEnd) -> Result<Puncture, OutOfRange> {
         let end = self.moved_end(&found, near);
         self.with_positions(found, Some(end), Some(near))
     }
 
-    /// Finds the first fold of the surface before the end at `point`.
+    /// Finds the first fold of the surface before the end of the path at `point`.
     ///
-    /// `None` if it is far from there. Gaps that fold stay folded, so a surface that is open at the
-    /// end has never folded.
+    /// `None` if this fold is too far from the end. A gap that has folded is assumed to stay
+    /// folded, so a surface without folds at the end has never folded.
     fn folds_before(
         &self,
         chain: &Chain,
@@ -287,7 +295,7 @@ impl Problem<'_> {
         point: &SkinPoint,
     ) -> Option<FoldObserver> {
         let (mut first, mut nearest) = (None, (1.0, point.clone()));
-        // Where one gap folds, another one may have folded already.
+        // At the fold of one gap, another gap may be folded already. Continue with this gap.
         while let Some(pair) =
             chain.gap_below(&nearest.1.state, first.map_or(0.0, |_| -2.0 * CLOSE))
         {
@@ -295,16 +303,16 @@ impl Problem<'_> {
             first = Some(pair);
         }
         let Some(pair) = first else {
-            // Gaps beyond the solved part do not fold unless it grows.
+            // Folds beyond the solved part cannot be located, so reject them.
             let least = chain.gap_stretches(&point.state).map_or(1.0, |stretch| stretch.min);
             return (!is_folded(least)).then(FoldObserver::default);
         };
         Some(FoldObserver::after(chain, pair, nearest.1))
     }
 
-    /// Finds the fold of a gap by Newton's method.
+    /// Finds the fold of a gap by Newton's method, from a later point.
     ///
-    /// Starts from a later point and its fraction of the critical tilt.
+    /// Points are given with their fraction of the critical tilt.
     fn fold_of(
         &self,
         chain: &Chain,

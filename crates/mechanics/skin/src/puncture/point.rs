@@ -1,4 +1,4 @@
-//! Recorded equilibria of a row.
+//! Values recorded at the equilibria of a row.
 
 use super::needle::GuidedNeedle;
 use super::surface_fold::GapStretch;
@@ -6,29 +6,29 @@ use super::system::Chain;
 use crate::contacts::{Contacts, Dissipation, SkinPoint, SkinState};
 use crate::record::Skin;
 
-/// One equilibrium of the path.
+/// Values recorded at one equilibrium of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PuncturePoint {
-    /// `u*` of the loaded point, downward.
+    /// Displacement `u*` of the loaded point, positive downward.
     pub displacement: f64,
-    /// `F*`.
+    /// Load `F*`.
     pub force: f64,
     /// Force of a guided needle along the row; 0 for a free needle.
     ///
     /// It is in units of `F*` and positive to the right.
     pub lateral_force: f64,
-    /// Tilt of the punctured scale, clockwise, degrees.
+    /// Tilt of the punctured scale, positive clockwise, degrees.
     pub tilt_deg: f64,
-    /// Closed contacts.
+    /// Number of closed contacts.
     pub contacts: usize,
-    /// Elastic energy of the substrate, over `E* t³`; NaN unless the whole path is recorded.
+    /// Elastic energy of the substrate, in `E* t³`; NaN unless the whole path is recorded.
     pub substrate_energy: f64,
-    /// Elastic energy of the contacts and of the bending of elastic scales, over `E* t³`.
+    /// Elastic energy of the contacts and of the bending of elastic scales, in `E* t³`.
     ///
-    /// Without friction, substrate and contact energy add up to the work `∫ F du` of the load. NaN
-    /// unless the whole path is recorded.
+    /// Without friction, the sum of substrate and contact energy is the work `∫ F du` of the load.
+    /// NaN unless the whole path is recorded.
     pub contact_energy: f64,
-    /// Frictional dissipation between scales up to here, over `E* t³`.
+    /// Frictional dissipation between scales since the state of rest, in `E* t³`.
     ///
     /// `None` without friction.
     pub friction_work: Option<f64>,
@@ -38,16 +38,16 @@ pub struct PuncturePoint {
     pub gap_stretch: Option<GapStretch>,
 }
 
-/// One scale at the end of the path.
+/// State of one scale of a row in equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaleState {
     /// Number of the scale: 0 is the punctured one, positive to the right.
     pub scale: i64,
-    /// Displacement of the node, over `t`: along the body and normal to it.
+    /// Displacement of the node along the body and normal to it, in units of `t`.
     pub displacement: [f64; 2],
-    /// Rotation from rest, counter-clockwise, degrees.
+    /// Rotation from rest, positive counter-clockwise, degrees.
     pub rotation_deg: f64,
-    /// Vertical reaction of the substrate on the scale, upward, over `E* t²`.
+    /// Vertical reaction of the substrate on the scale, positive upward, in `E* t²`.
     pub reaction: f64,
 }
 
@@ -95,7 +95,7 @@ impl Skin for Chain {
         -state.z[tilt].to_degrees()
     }
 
-    /// Tangent stiffness `dF/du` of the punctured point, over `E* t`.
+    /// Computes the tangent stiffness `dF/du` of the loaded point, in `E* t`.
     fn stiffness(&self, state: &SkinState, direction: &[f64]) -> f64 {
         direction[self.layout.load()] / self.depth_slope(&state.z, direction)
     }
@@ -106,7 +106,8 @@ impl Skin for Chain {
 
     fn interpenetrates(&self, state: &SkinState) -> bool {
         if self.is_elastic {
-            // Poses describe rigid scales, so contacts of bent scales seem to overlap.
+            // The audit intersects rigid scales, which overlap at contacts of bent scales. Permit
+            // this overlap.
             let openings = self.openings(state);
             let overlapping =
                 self.contacts.overlapping(state, |pair| Contacts::pair_slack(&openings, pair));
@@ -124,22 +125,22 @@ impl Skin for Chain {
 }
 
 impl Chain {
-    /// Computes the elastic energy of contacts and scales.
+    /// Computes the elastic energy of contacts and bent scales, in `E* t³`.
     fn energy_of_scales(&self, state: &SkinState) -> f64 {
         self.contacts.energy(state) + self.bending_energy(state)
     }
 }
 
-/// Lists the states of all scales of a row from the left.
+/// Lists the states of all scales of a row, from the left.
 ///
-/// A finite row includes its scales in closed form.
+/// Scales of a finite row beyond its solved part are included; they follow in closed form.
 pub(super) fn scales(chain: &Chain, state: &SkinState) -> Vec<ScaleState> {
     let solved_for = 0..chain.layout.scales().cast_signed();
     let [left, right] = chain.exterior.scales_to_ends().map(usize::cast_signed);
     (-left..solved_for.end + right)
         .map(|i| {
             let [x, y, rotation] = chain.displacement_anywhere(&state.z, i);
-            // Scales in closed form have no other forces, so their net reaction vanishes.
+            // No contact acts on a scale beyond the solved part, so its reaction is zero.
             let is_free = !solved_for.contains(&i);
             ScaleState {
                 scale: i as i64 + chain.layout.number(0),

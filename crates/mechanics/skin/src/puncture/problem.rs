@@ -26,24 +26,26 @@ use crate::path_location::PointLocator;
 use crate::record::{PathFunction, Record};
 use crate::{Common, Design, Status, Unloading};
 
-/// Tilt below which a scale under a guided needle counts as not tilted, degrees.
+/// Tilt below which the punctured scale counts as not tilted, degrees.
 ///
-/// It covers the round-off of a symmetric row.
+/// It is larger than the round-off of a symmetric row.
 const STRAIGHT_DEG: f64 = 1e-6;
 
-/// Factors by which the largest step is reduced, in turn, when a path is followed again.
+/// Factors of the largest step for the second and third attempt to follow a path.
 const FINER_STEPS: [f64; 2] = [0.25, 0.05];
 
-/// Depth, relative to the largest one, below which a path is back at rest.
+/// Final depth, relative to the largest one, up to which a path counts as back at rest.
 const NEAR_REST: f64 = 0.01;
 
-/// Largest distance in pitches of touching scales.
+/// Largest distance between scales that may touch each other, in pitches.
 ///
-/// None beyond 3 were observed, and each pitch adds six unknowns per scale.
+/// Contacts over more than 3 pitches were never observed. Each additional pitch adds six unknowns
+/// for each scale.
 const FARTHEST_CONTACT: usize = 8;
 
 /// A path followed to its end.
 pub(super) struct Followed {
+    /// Points and quantities recorded along the path.
     pub(super) watch: PathObservers,
     pub(super) passage: Passage,
     pub(super) path: Continuation<Chain>,
@@ -51,7 +53,7 @@ pub(super) struct Followed {
 }
 
 impl Followed {
-    /// Returns true if the path ended where it began.
+    /// Returns true if the path turned around and ended close to the state of rest.
     fn is_back_at_rest(&self) -> bool {
         if !matches!(self.status, Status::Stopped(Termination::Unloaded | Termination::Jumps)) {
             return false;
@@ -63,7 +65,7 @@ impl Followed {
 
     /// Builds the result of the puncture.
     ///
-    /// With `unload` also follows the unloading path.
+    /// If `unload` is true and the path is complete, the unloading path is followed as well.
     pub(super) fn puncture(self, unload: bool) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
         let PathObservers { record, needle, folds, failure, tilts, depth, force, .. } = watch;
@@ -88,7 +90,7 @@ impl Followed {
         };
         let chain = path.system();
         let scales = scales(chain, &path.point().state);
-        // Observers record points when the path leaves them, so the last point is missing.
+        // Tip forces are recorded when the path leaves a point, so those at the end are missing.
         let mut tip_forces = at_tip.tip_forces;
         tip_forces.extend(chain.tip_forces(&path.point().state));
         let at_tilts = tilts
@@ -133,7 +135,7 @@ fn add_requested(
     measures.tissue_pressure_at_force =
         loaded.map(|point| path.system().tissue_pressure(&point.state));
     measures.force_at_depth = depth.points.first().and_then(|deep| {
-        // A skin that fails before this depth carries no more than its final force.
+        // If the critical tilt comes before this depth, report the force at the critical tilt.
         let end = Some(path.point()).filter(|_| status == Status::Complete);
         Some(path.system().force(&deep.as_ref().or(end)?.state))
     });
@@ -148,11 +150,12 @@ fn failure_at_end(status: Status, event: Option<CriticalEvent>) -> Option<Failur
     }
 }
 
+/// A puncture to be solved: row, substrate, contact law and parameters.
 pub(super) struct Problem<'a> {
     pub(super) rows: Rows<'a>,
     pub(super) design: &'a Design,
     pub(super) stiffness: RowStiffness,
-    /// Far field beyond the solved part of an endless row, lengths over `t`.
+    /// Far field beyond the solved part of an endless row, lengths in units of `t`.
     ///
     /// `None` for a finite row.
     pub(super) endless: Option<FarField>,
@@ -190,7 +193,9 @@ impl<'a> Problem<'a> {
         Self::new(Rows::Even(design.row()?), design, stiffness.clone(), common, parameters)
     }
 
-    /// Sets up the problem with parameters that may slightly exceed their ranges.
+    /// Sets up the problem without checking the ranges of the parameters.
+    ///
+    /// Difference quotients at the end of a range need values slightly beyond it.
     pub(super) fn unchecked(
         rows: Rows<'a>,
         design: &'a Design,
@@ -232,7 +237,7 @@ impl<'a> Problem<'a> {
 
     /// Builds the result of a path, with the punctures at other load positions.
     ///
-    /// These start from the ends of a similar design in `near`, if possible.
+    /// Each of these punctures starts from the end of a similar design in `near`, if possible.
     pub(super) fn with_positions(
         &self,
         followed: Followed,
@@ -246,24 +251,24 @@ impl<'a> Problem<'a> {
         Ok(Puncture { end: end.map(|end| end.with_places(ends)), places, ..puncture })
     }
 
-    /// Builds the initial system; returns it with the longest row it may grow to.
+    /// Builds the initial system; returns it with the number of scales to which it may grow.
     ///
-    /// A scale may touch up to `contact_reach` scales on its right.
+    /// A scale may touch the nearest `contact_reach` scales on its right.
     pub(super) fn start(&self, contact_reach: usize) -> Result<(Chain, usize), OutOfRange> {
         let contacts = contact_reach * pair_constraints(&self.law);
         let Some(whole) = self.whole() else {
             let first = self.endless.as_ref().map(|far| self.first_layout(far, contacts));
             return Ok((self.part(first.unwrap_or_default())?, LONGEST_ROW));
         };
-        // The far fields of bars and of springs agree only approximately, and far couplings have
-        // no closed form in front of an end.
+        // The far field of a finite row exists only for coupling with direct neighbours, and it
+        // replaces neo-Hookean bars only approximately. Solve the whole row in these cases.
         let is_linear = self.parameters.substrate_law == SubstrateLaw::Linear;
         let far = self.far_field(Some(1)).filter(|_| is_linear);
         let layout = far.map_or(whole, |far| self.first_layout(&far, contacts).within(whole));
         Ok((self.part(RowLayout { contacts, ..layout })?, whole.scales()))
     }
 
-    /// Returns the initial layout in front of a far field.
+    /// Returns the initial layout of the solved part of a row with a far field beyond it.
     fn first_layout(&self, far: &FarField, contacts: usize) -> RowLayout {
         let (neighbours, law) = (self.stiffness.neighbours.len(), self.parameters.substrate_law);
         let layout = RowLayout::first(far, neighbours, law);
@@ -271,7 +276,7 @@ impl<'a> Problem<'a> {
         RowLayout { needle: self.needle_unknowns(), contacts, ..layout }
     }
 
-    /// Counts the unknowns of the needle after the load.
+    /// Counts the unknowns of the needle or of elastic scales, which follow the load.
     fn needle_unknowns(&self) -> usize {
         match self.reach() {
             Some(reach) => needle::unknowns(reach, self.parameters.needle.has_friction()),
@@ -288,35 +293,35 @@ impl<'a> Problem<'a> {
         self.parameters.needle_radius.and_then(|radius| needle::reach(radius, self.pitch()))
     }
 
-    /// Returns the distance of two nodes along the body, over `t`.
+    /// Returns the distance between neighbouring nodes along the body, in units of `t`.
     pub(super) fn pitch(&self) -> f64 {
         2.0 * self.design.half_base() + self.design.gap
     }
 
-    /// Returns the layout of a whole finite row.
+    /// Returns the layout of a whole finite row; `None` for a row without ends.
     ///
-    /// A row ends at the latest where a curved body turns away.
+    /// On a curved body a row ends where its normals turn by more than 80° from the load.
     pub(super) fn whole(&self) -> Option<RowLayout> {
         let on_body = self.parameters.body().scales_beside(self.pitch());
         let sides = match self.parameters.scales {
             RowLength::Scales(scales) => {
-                // With an even number one more scale is on the right.
+                // An even number of scales leaves one more scale on the right than on the left.
                 let left = (scales - 1) / 2;
                 let right = scales - 1 - left;
                 let on_body = on_body.unwrap_or(scales);
                 Some([left.min(on_body), right.min(on_body)])
             }
-            // A body with more scales than the longest row counts as endless.
+            // A row on a body with room for more scales than the longest row counts as endless.
             RowLength::Auto => on_body.filter(|side| 2 * side < LONGEST_ROW).map(|side| [side; 2]),
         };
         let (needle, contacts) = (self.needle_unknowns(), 0);
         sides.map(|[left, right]| RowLayout { left, right, needle, contacts })
     }
 
-    /// Follows the path of the puncture, with smaller steps if it turns around.
+    /// Follows the path of the puncture, again with smaller steps if it returns to rest.
     ///
-    /// Only one branch leaves the state at rest, so a path that returns there has turned around at
-    /// an event, where round-off decided on its direction.
+    /// Only one branch leaves the state at rest, so a path that returns to rest has turned around
+    /// at an event. Round-off then decided on its direction.
     pub(super) fn follow(
         &self,
         functions: &[PathFunction<Chain>],
@@ -360,7 +365,8 @@ impl<'a> Problem<'a> {
                 _ => None,
             };
             match beyond.filter(|&pitches| pitches <= FARTHEST_CONTACT) {
-                // Overlaps found lie beyond the reach, so it grows in every iteration.
+                // The audit finds overlaps only beyond the contact reach, so the reach grows in
+                // every iteration.
                 Some(pitches) => contact_reach = pitches,
                 None => return Ok(followed),
             }
@@ -369,8 +375,8 @@ impl<'a> Problem<'a> {
 
     /// Returns true if the load is in the middle of a scale of an even, upright row.
     ///
-    /// It pushes the scale straight down. Beyond a bifurcation the path may leave the symmetric
-    /// branch, but only by round-off.
+    /// Such a load pushes the scale straight down. At a bifurcation only round-off can make the
+    /// path leave this symmetric branch.
     fn is_balanced(&self) -> bool {
         matches!(self.rows, Rows::Even(_))
             && self.design.slant_deg == 0.0
@@ -401,14 +407,14 @@ impl<'a> Problem<'a> {
                 break;
             }
         }
-        // Extend the points recorded on shorter rows, because they are evaluated on the final row
-        // from here on.
+        // Extend the points recorded on shorter rows: from here on they are evaluated with the
+        // equations of the final row.
         watch.lengthen(&growing);
         let path = growing.path;
         let mut passage = watch.passage.finish(path.system(), &path.point().state);
         let is_untilted = self.is_balanced()
             || (self.parameters.needle.is_guided() && passage.critical_event.is_none());
-        // At some load the path of a scale pushed in its middle bifurcates.
+        // The path of a scale that is pushed straight down may stop at a bifurcation.
         let points = &watch.record.path;
         let is_straight =
             || points.len() > 1 && points.iter().all(|at| at.tilt_deg.abs() < STRAIGHT_DEG);
@@ -431,12 +437,13 @@ impl<'a> Problem<'a> {
             }
             status => ending::classify(status, &watch.record.path),
         };
-        // A load that vanishes at the foot of a face ends the path before the needle is through.
+        // If the load returns to zero as the tip reaches the foot of a face, the path ends early
+        // and the needle is not through.
         passage.critical_event = passage.critical_event.filter(|_| status == Status::Complete);
         Ok(Followed { watch, passage, path, status })
     }
 
-    /// Builds the system of a part of the row.
+    /// Builds the system of the part of the row with this `layout`.
     pub(super) fn part(&self, layout: RowLayout) -> Result<Chain, OutOfRange> {
         let whole = self.whole();
         let scales = [
@@ -455,7 +462,10 @@ impl<'a> Problem<'a> {
         Ok(chain)
     }
 
-    /// Computes the far field of `scales` scales beyond an end, or of an infinite row.
+    /// Computes the far field of the scales beyond one end of the solved part.
+    ///
+    /// `scales` is their number, or `None` for an infinite row. Returns `None` if the far field
+    /// has no closed form.
     pub(super) fn far_field(&self, scales: Option<usize>) -> Option<FarField> {
         match scales {
             // The infinite far field does not depend on the solved part, so it is computed once.
@@ -465,7 +475,9 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Computes the far field with lengths over `t`, of a finite or infinite row.
+/// Computes the far field of `scales` scales, or of an infinite row for `None`.
+///
+/// Lengths are in units of `t`. Returns `None` without a closed form.
 fn far_field(design: &Design, stiffness: &RowStiffness, scales: Option<usize>) -> Option<FarField> {
     stiffness.with_lengths_over(design.half_base()).far_field(scales)
 }

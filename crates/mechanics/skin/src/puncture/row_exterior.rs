@@ -1,4 +1,4 @@
-//! The row beyond the ends of the solved part.
+//! The scales of a row beyond its solved part.
 
 use std::array;
 
@@ -8,10 +8,12 @@ use substrate::{FarField, Relief};
 use super::row_layout::RowLayout;
 use super::rows::Rows;
 
-/// Number of scales beyond an end with gaps to check; farther gaps hardly change.
+/// Number of scales beyond each end of the solved part with gaps that are checked.
+///
+/// Gaps farther away hardly change.
 const CHECKED_SCALES: usize = 12;
 
-/// Far field beyond an end.
+/// Linear motion of the scales beyond one end.
 #[derive(Clone, Debug)]
 pub(super) struct Beyond {
     /// Motion of the scales beyond the end, in closed form.
@@ -20,16 +22,16 @@ pub(super) struct Beyond {
     pub(super) scales: Option<usize>,
 }
 
-/// The row beyond the ends of the solved part.
+/// The scales of a row beyond its solved part.
 ///
 /// Empty for a row that is solved as a whole.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RowExterior {
     /// Beyond the left and the right end.
     pub(super) sides: [Option<ExteriorSide>; 2],
-    /// Reduction of the substrate stiffness by the compliance of the scales beyond.
+    /// Reduction of the substrate stiffness by the motion of the scales beyond.
     ///
-    /// Row and column of the tangent, and entries.
+    /// Each entry holds row and column of a block of the tangent, and its values.
     pub(super) relief: Vec<(usize, usize, [[f64; 3]; 3])>,
     /// Distance of the farthest corner of a scale from its node.
     pub(super) arm: f64,
@@ -45,16 +47,16 @@ pub(super) struct ExteriorSide {
     pub(super) clearances: Vec<f64>,
 }
 
-/// Mirrors a displacement on the left side, so that one far field serves both ends.
+/// Mirrors a displacement if `side` is 0 (left), so that one far field serves both ends.
 pub(super) fn mirrored([x, y, rotation]: [f64; 3], side: usize) -> [f64; 3] {
     if side == 0 { [-x, y, -rotation] } else { [x, y, rotation] }
 }
 
 impl RowExterior {
-    /// Sets up the exterior of a part of the `rows`.
+    /// Sets up the scales beyond the part of `rows` with this `layout`.
     ///
     /// # Errors
-    /// If a sample has no scales there.
+    /// If the scales of a random sample cannot be drawn without overlap.
     pub(super) fn new(
         rows: Rows,
         layout: RowLayout,
@@ -65,7 +67,8 @@ impl RowExterior {
             let scales = side.as_ref().map_or(Some(0), |beyond| beyond.scales);
             scales.map_or(CHECKED_SCALES, |scales| scales.min(CHECKED_SCALES))
         });
-        // A longer row keeps its middle, so its outer scales are the scales beyond the ends.
+        // A longer row has the same scales in its middle, so its additional scales are those beyond
+        // the ends.
         let row = rows.row(RowLayout {
             left: layout.left + left,
             right: layout.right + right,
@@ -96,7 +99,7 @@ impl RowExterior {
     }
 }
 
-/// Maps the relief of both ends to the unknowns of a row.
+/// Returns the stiffness reductions at both ends, with rows and columns of the tangent.
 fn relief(
     layout: RowLayout,
     sides: &[Option<ExteriorSide>; 2],
@@ -109,7 +112,7 @@ fn relief(
             let parts = side.as_ref().map_or(&[][..], |side| &side.beyond.far.relief);
             let unknown =
                 move |scale: usize| layout.scale(if number == 0 { scale } else { last - scale });
-            // Mirroring inverts the entries that couple the vertical with another direction.
+            // Mirroring changes the sign of entries that couple `y` with `x` or `φ`.
             let signs = mirrored([1.0; 3], number);
             parts
                 .iter()

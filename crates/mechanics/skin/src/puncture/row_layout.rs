@@ -9,36 +9,37 @@ use solver::Blocks;
 /// scale 0  upper   lower       punctured                           last
 /// ```
 ///
-/// With friction each contact also has a stick multiplier and a slip distance. The unknowns of a
-/// guided needle follow the load. For a free needle on elastic scales, depth and total tilt follow
-/// it.
+/// With friction each contact also has a stick multiplier and a slip distance. For a guided needle,
+/// its unknowns follow the load. For a free needle on elastic scales, depth and total tilt follow
+/// the load.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct RowLayout {
     /// Scales to the left of the punctured one.
     pub(crate) left: usize,
     /// Scales to the right of the punctured one.
     pub(crate) right: usize,
-    /// Number of unknowns of a guided needle after the load; 0 for a free needle on rigid scales.
+    /// Number of unknowns that follow the load; 0 for a free needle on rigid scales.
     pub(crate) needle: usize,
-    /// Contact unknowns of a scale with scales on its right.
+    /// Number of contact unknowns of a scale with the scales on its right.
     ///
-    /// They are one pair, unless distant scales touch.
+    /// They belong to one pair of scales, or to several pairs if distant scales may touch.
     pub(crate) contacts: usize,
 }
 
 impl RowLayout {
-    /// Counts the unknowns of a scale and of its contacts on the right.
+    /// Counts the unknowns of a scale and of its contacts with scales on its right.
     pub(super) fn block(self) -> usize {
         3 + self.contacts
     }
 
+    /// Returns the number of scales.
     pub(crate) fn scales(self) -> usize {
         self.left + 1 + self.right
     }
 
-    /// Converts an index to the number counted from the punctured scale.
+    /// Converts the index of a scale to its number, counted from the punctured scale.
     ///
-    /// Numbers are positive to the right.
+    /// Numbers of scales to the right are positive.
     pub(crate) fn number(self, scale: usize) -> i64 {
         (scale.cast_signed() - self.left.cast_signed()) as i64
     }
@@ -49,19 +50,21 @@ impl RowLayout {
         self.block() * self.scales() - self.contacts + 1 + self.needle
     }
 
-    /// Returns the first of the three unknowns of a scale.
+    /// Returns the index of the unknown `x` of a scale; `y` and `φ` follow.
     pub(crate) fn scale(self, scale: usize) -> usize {
         self.block() * scale + if scale > self.left { 1 + self.needle } else { 0 }
     }
 
+    /// Returns the index of the load.
     pub(crate) fn load(self) -> usize {
         self.block() * self.left + 3
     }
 
-    /// Returns one block per scale, with the contact forces on the side of the root.
+    /// Returns the blocks of the tangent, one for each scale.
     ///
-    /// The root is the punctured scale, or the last scale if the substrate couples more than direct
-    /// neighbours (`reach`).
+    /// A block also holds the forces between its scale and the next scale towards the root. The
+    /// root is the punctured scale if a scale is coupled with direct neighbours only (`reach` 1),
+    /// otherwise the last scale.
     pub(super) fn blocks(self, reach: usize) -> Blocks {
         let scales = 0..self.scales();
         let root = if reach == 1 { self.left } else { self.left + self.right };
@@ -84,7 +87,7 @@ impl RowLayout {
 
     /// Returns the units of the equations.
     ///
-    /// They are the direct stiffness for balances, 1 elsewhere.
+    /// Equilibrium equations of a scale have its `direct` stiffness as the unit, all others 1.
     pub(super) fn units(self, direct: [f64; 3]) -> Vec<f64> {
         let mut units = vec![1.0; self.size()];
         for scale in 0..self.scales() {
@@ -93,10 +96,11 @@ impl RowLayout {
         units
     }
 
-    /// Returns the unknown of a contact force.
+    /// Returns the index of the unknown of contact force number `force`.
     ///
-    /// Forces are numbered along the row: with reach 1 and no friction, pair `i`, `i + 1` starts at
-    /// `6 i`, the three of the upper contact first.
+    /// Forces are numbered along the row. If only direct neighbours may touch, without friction,
+    /// the pair of scales `i` and `i + 1` has the numbers `6 i` to `6 i + 5`: three forces of the
+    /// upper contact, then three of the lower one.
     pub(crate) fn force(self, force: usize) -> usize {
         let left = force / self.contacts;
         let behind_load = if left >= self.left { 1 + self.needle } else { 0 };

@@ -1,4 +1,4 @@
-//! Rows of scales from which a puncture takes the scales that it solves.
+//! Sources of the row of scales of a puncture: equal, one perturbed, or a random sample.
 
 use geometry::{OutOfRange, Row};
 
@@ -10,12 +10,16 @@ use crate::arrangement::Arrangement;
 /// Source of rows of any length.
 #[derive(Clone, Copy)]
 pub(super) enum Rows<'a> {
+    /// Equal scales at equal gaps.
     Even(Row),
+    /// Equal scales at equal gaps, except one.
     Odd(Row, PerturbedScale),
+    /// Scales with random gaps and slants.
     Sample(&'a Sample),
 }
 
 impl Rows<'_> {
+    /// Returns the scales of the part of the row with this `layout`.
     pub(super) fn row(self, layout: RowLayout) -> Result<Arrangement, OutOfRange> {
         Ok(match self {
             Self::Even(row) => Arrangement::Even(row),

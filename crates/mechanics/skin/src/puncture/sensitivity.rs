@@ -32,26 +32,29 @@ pub struct PunctureInput {
     pub stiffness: RowStiffness,
     /// Contact law and solver settings.
     pub common: Common,
-    /// The other parameters.
+    /// All other parameters.
     pub parameters: PunctureParameters,
-    /// A single perturbed scale, if any.
+    /// One scale that deviates from the others, if any.
     pub odd: Option<PerturbedScale>,
 }
 
-/// Functions with a maximum that is a measure, in addition to the stiffness.
+/// Functions with a tracked maximum along the path, in addition to the stiffness.
 const FOLLOWED: [PathFunction<Chain>; 1] = [|chain, state, _| chain.force(state)];
+
+/// Index of the load in [`FOLLOWED`].
 const LOAD: usize = 0;
 
-/// Name of the force at the critical tilt; the weakest position has its own.
+/// Name of the measure of the force at the critical tilt.
 pub(super) const CRITICAL_FORCE: &str = "critical_force";
 
-/// Name of the force at the first failure.
+/// Name of the measure of the force at the first failure.
 const FAILURE_FORCE: &str = "failure_force";
 
 /// Solves a puncture like [`solve`](super::solve), and differentiates its measures.
 ///
-/// Returns the derivatives with respect to the parameter of each variation; none if the path ended
-/// neither at its target nor at the end of linear bending.
+/// Each of the `variations` holds the input with a smaller and a larger value of one parameter. The
+/// list of derivatives is empty if the path ended neither at its target nor at the limit of linear
+/// bending.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -69,14 +72,14 @@ pub fn differentiate(
     Ok((puncture, derivatives))
 }
 
-/// Force over the depth of the needle.
+/// Coordinates of the curve of the force against the depth of the loaded point.
 const FORCE_OVER_DEPTH: Curve<Chain> =
     [|chain, state, _, _| chain.depth(&state.z), |chain, state, _, _| chain.force(state)];
 
-/// Computes the force at given `displacements`, with derivatives by variation.
+/// Computes the force at given `displacements`, and its derivatives for each variation.
 ///
 /// Follows the path beyond the critical tilt if necessary. Each value belongs to the first point at
-/// that displacement; `None` if the path does not reach it.
+/// its displacement; `None` if the path does not reach this displacement.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -87,8 +90,8 @@ pub fn force_curve(
 ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
     let at: Vec<_> = displacements.iter().copied().map(At::Displacement).collect();
     with_path(input, &at, |problem, mut followed| {
-        // The critical tilt scales the control parameter, so use the same tilt for the perturbed
-        // inputs.
+        // The critical tilt is the scale of the control parameter and may have been raised, so use
+        // the same tilt for the perturbed inputs.
         let tilt = problem.parameters.critical_tilt_deg;
         let variations = Neighbours::map_all(variations, |input| {
             let parameters = PunctureParameters { critical_tilt_deg: tilt, ..input.parameters };
@@ -100,8 +103,8 @@ pub fn force_curve(
 
 /// Computes the force at given `displacements` while the load is removed, without derivatives.
 ///
-/// Unloading begins where the displacement is `turn`. `None` below the residual displacement, or if
-/// the path does not reach `turn`.
+/// Unloading begins at the displacement `turn`. An entry is `None` if its displacement is smaller
+/// than the residual displacement, and all are `None` if the path does not reach `turn`.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -139,14 +142,14 @@ fn with_path<T>(
 }
 
 impl Problem<'_> {
-    /// Computes the curve at the requested points.
+    /// Computes the force and its derivatives at the requested points of the path.
     fn curve(
         &self,
         followed: &mut Followed,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
         let Followed { watch, path, .. } = followed;
-        // Perturbed rows get the final layout of the path, so that their unknowns match.
+        // Perturbed rows get the final layout of the path, so that all rows have the same unknowns.
         let layout = path.system().layout;
         let variations = Neighbours::map_all(variations, |input| input.chain(layout))?;
         let anchors = anchors(path, &watch.history.segments, &variations);
@@ -157,8 +160,7 @@ impl Problem<'_> {
             .iter()
             .map(|found| {
                 let point = found.as_ref()?;
-                // With history variables, perturbed rows reach these points with histories of their
-                // own.
+                // Perturbed rows have their own values of the history variables at this point.
                 let varied = with(&anchors, &point.state, &variations);
                 let known = varied.as_deref().unwrap_or_default();
                 let mut on_curve =
@@ -171,7 +173,7 @@ impl Problem<'_> {
 
     /// Differentiates the measures of a path.
     ///
-    /// There are none unless the path ended at its target or where linear bending ends.
+    /// The result is empty unless the path ended at its target or at the limit of linear bending.
     pub(super) fn derivatives(
         &self,
         followed: &mut Followed,
@@ -189,10 +191,10 @@ impl Problem<'_> {
         // Build the perturbed rows once for all points with the same history variables.
         for spots in group_by_history(self.measured_points(watch, path, is_bent)) {
             let state = spots.iter().find_map(|spot| Some(&spot.point.as_ref()?.state));
-            // Without a known point there is no derivative.
+            // A group without any located point has no derivatives.
             let Some(state) = state else { continue };
             let system = path.system();
-            // Each perturbed row reaches these points with a different history.
+            // Perturbed rows have their own values of the history variables at these points.
             found.extend(match with(&anchors, state, &variations) {
                 Some(varied) => derivatives(system, spots, &varied, &self.common.solver),
                 None => missing(system, &spots, variations.len()),
@@ -201,9 +203,10 @@ impl Problem<'_> {
         Ok(found)
     }
 
-    /// Lists the points of the path at which measures are taken.
+    /// Lists the points of the path to which measures belong.
     ///
-    /// A path that `is_bent` has no measures of its end besides the failure force.
+    /// A path that `is_bent` ended at the limit of linear bending. It has no measures at its end
+    /// except the failure force.
     fn measured_points(
         &self,
         watch: &PathObservers,
@@ -229,7 +232,7 @@ impl Problem<'_> {
         let failed = failed
             .and_then(|(mode, point)| chain.limit_at(point, *mode).or_else(|| folded.clone()));
         let (mut at_end, at_fold) = at_end_and_fold(folded.is_some(), is_bent);
-        // A path that ends before this depth reports its final force instead.
+        // If the path ends before this depth, the measure is the force at its end.
         if !is_bent && !marked.points.is_empty() && deep.is_none() {
             at_end.push(force("force_at_depth"));
         }
@@ -239,7 +242,8 @@ impl Problem<'_> {
         let mut passing =
             vec![force("passing_force"), depth("passing_displacement"), tilt("passing_tilt_deg")];
         if chain.needle.is_some() {
-            // The shift belongs to the first touch beyond the initial face, or else to the end.
+            // The shift belongs to the first contact beyond the initial face, or to the end of the
+            // path without such a contact.
             let at_shift = if passage.passed.is_some() { &mut passing } else { &mut at_end };
             at_shift.push(quantity("needle_shift", |chain, state, _, _| {
                 chain.shift(state).unwrap_or(f64::NAN)
@@ -264,7 +268,7 @@ impl Problem<'_> {
 
     /// Locates the maxima of load, stiffness and stresses along the path.
     ///
-    /// `bent` is the limit of linear bending at which a path that `is_bent` ends.
+    /// For a path that `is_bent`, `bent` is its end, anchored to the limit of linear bending.
     fn summits(
         &self,
         watch: &PathObservers,
@@ -278,7 +282,7 @@ impl Problem<'_> {
         let stiffest = if has_end { record.stiffness_summit(path) } else { None };
         let stiffest = sensitivity::summit(stiffest, path, Chain::stiffness, settings);
         let highest = match (record.highest_point(LOAD), bent) {
-            // The limit of bending anchors the end of the path.
+            // The load is largest at the end of the path, which the limit of bending anchors.
             (Some(highest), Some(bent)) if highest.point.state.z == bent.state.z => {
                 Some(bent.clone())
             }
@@ -306,24 +310,24 @@ impl Problem<'_> {
     }
 }
 
-/// Maxima along a path, with their measures.
+/// Points of the maxima along a path, with the measures at each point.
 struct Summits {
-    /// The largest load: its value, and its displacement and tilt.
+    /// Point of the largest load, for the load itself, then for displacement and tilt.
     load: [MeasuredPoint<Chain>; 2],
     stiffness: MeasuredPoint<Chain>,
     stresses: Vec<MeasuredPoint<Chain>>,
 }
 
-/// Returns the first marked point of a path, if the path reaches it.
+/// Returns the first located point, anchored to the marker `mark`; `None` without such a point.
 fn first_marked(points: &[Option<SkinPoint>], mark: usize) -> Option<AnchoredPoint<SkinMode>> {
     let point = points.iter().flatten().next()?;
     Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark)))
 }
 
 impl Chain {
-    /// Lists the turning points of the load and of the depth of a guided needle.
+    /// Lists the points at which stability under load control and depth control is lost.
     fn limits_of_needle(&self, watch: &PathObservers) -> [MeasuredPoint<Self>; 2] {
-        // A point that is no event has no guard to hold it when a parameter changes.
+        // A point that is not an event has no guard as an anchor when a parameter changes.
         let load = watch.needle.load_limit.as_ref().filter(|point| point.event.is_some());
         let load = load.and_then(|point| sensitivity::turn(self, point, LOAD_RATE));
         let depth = watch.needle.depth_limit.as_ref();
@@ -334,9 +338,9 @@ impl Chain {
         ]
     }
 
-    /// Returns the state at rest with its measures.
+    /// Returns the state at rest with its measures; `None` if there are none.
     ///
-    /// Includes the clearance if failures are judged.
+    /// `has_failures` includes the clearance.
     fn point_at_rest(&self, has_failures: bool) -> Option<MeasuredPoint<Self>> {
         let mut quantities = Vec::new();
         if !self.is_critical_only() {
@@ -357,10 +361,10 @@ impl PunctureInput {
     /// Builds the system of a row with this layout.
     fn chain(&self, layout: RowLayout) -> Result<Chain, OutOfRange> {
         let Self { design, stiffness, common, parameters, odd } = self;
-        // The perturbed neighbour of an upright design leans to the left.
+        // An upright design with a perturbed slant may lean to the left.
         let row = design.leaning_row()?;
         let rows = odd.map_or(Rows::Even(row), |odd| Rows::Odd(row, odd));
-        // At the end of a parameter range one neighbour lies beyond it.
+        // At the end of a parameter range, a perturbed value lies outside the range.
         let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;
         problem.part(layout)
     }
@@ -380,44 +384,42 @@ fn group_by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<C
 }
 
 impl Chain {
-    /// Anchors the end of a path to its cause.
-    ///
-    /// It is the critical tilt, or a constraint of a guided needle.
+    /// Anchors the end of a path to the critical tilt, or to a constraint of a guided needle.
     fn end_of(&self, point: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let ended = self.needle.as_ref().and_then(|n| n.ended_at(self, &point.state));
         AnchoredPoint { anchor: ended.map_or(point.anchor, PathAnchor::Guard), ..point }
     }
 
-    /// Anchors a point to the limit of a scale; `None` if the mode is no such limit.
+    /// Anchors a point to the limit of a failure mode; `None` if no single scale has this limit.
     fn limit_at(&self, point: &SkinPoint, mode: FailureMode) -> Option<AnchoredPoint<SkinMode>> {
         let mark = self.limit_mark(&point.state, mode)?;
         Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark)))
     }
 
-    /// Anchors a point like the end of the path if the point is that end.
+    /// Anchors a point like the end of the path if it is the end; other points keep their anchor.
     fn end_of_target(&self, point: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         if point.anchor == PathAnchor::Target { self.end_of(point) } else { point }
     }
 
-    /// Anchors the point of largest load to its zero load rate.
+    /// Anchors the point of largest load to the zero rate of the load.
     ///
-    /// If an event or the target fixes the point, it keeps that anchor.
+    /// A point that an event or the target fixes keeps its anchor.
     fn extremum(&self, point: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let held = sensitivity::is_held(self, point);
         let anchor = if held { point.anchor } else { PathAnchor::Stationary(LOAD_RATE) };
         AnchoredPoint { anchor, ..point.clone() }
     }
 
-    /// Anchors an equilibrium to the vanishing stretch of a gap.
+    /// Anchors the equilibrium at a fold to the zero stretch of its gap.
     fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<SkinMode> {
         let pair = (fold.left_scale as isize + self.layout.left.cast_signed()).cast_unsigned();
         AnchoredPoint::arriving(point, PathAnchor::Marker(pair))
     }
 }
 
-/// Measures quantities at a point.
+/// Creates a measured point from a point and its quantities.
 ///
-/// At a smooth reversal they depend on the path direction.
+/// At a smooth extremum, the point and its quantities depend on the direction of the path.
 fn at_turn<const N: usize>(
     point: Option<AnchoredPoint<SkinMode>>,
     quantities: [MeasuredQuantity<Chain>; N],
@@ -428,8 +430,9 @@ fn at_turn<const N: usize>(
 
 /// Lists the quantities at the critical tilt and at the first fold.
 ///
-/// The largest valid force belongs to the earlier of the two points. If the path ended earlier,
-/// because a scale `is_bent` beyond linear theory, only the quantities at the fold remain.
+/// The largest valid force (`sound_force`) belongs to the fold if the surface `folds`, otherwise to
+/// the critical tilt. If the path ended early because a scale `is_bent` up to the limit of linear
+/// bending, only the quantities at the fold exist.
 fn at_end_and_fold(
     folds: bool,
     is_bent: bool,
@@ -448,7 +451,8 @@ fn tilt(measure: &'static str) -> MeasuredQuantity<Chain> {
 }
 
 fn critical() -> Vec<MeasuredQuantity<Chain>> {
-    // Each scale has a gap, too; the last index stands for all gaps beyond the solved part.
+    // The index `i` of a scale also denotes the gap on its right. The index of the last scale
+    // denotes all gaps beyond the solved part.
     vec![
         force(CRITICAL_FORCE),
         depth("critical_displacement"),
@@ -486,14 +490,15 @@ fn tissue_pressure(measure: &'static str) -> MeasuredQuantity<Chain> {
     largest(measure, |chain, state, _, i| chain.scale_values(state, i).tracked[TISSUE_PRESSURE])
 }
 
-/// Measures the largest value of any scale.
+/// Creates the measure of the largest value of any scale.
 fn largest(measure: &'static str, value: ValueOf<Chain>) -> MeasuredQuantity<Chain> {
     MeasuredQuantity { extreme: Some(f64::max), ..quantity(measure, value) }
 }
 
-/// Returns the stretch of a gap.
+/// Returns the stretch of a gap; the index after the last gap denotes those in closed form.
 ///
-/// Beyond the last gap it is the extreme stretch of the gaps in closed form, or NaN.
+/// Of the gaps in closed form, beyond the solved part, `outer` selects the extreme stretch. NaN if
+/// there are no such gaps.
 fn stretch(chain: &Chain, state: &SkinState, gap: usize, outer: fn(f64, f64) -> f64) -> f64 {
     if gap < chain.layout.scales() - 1 {
         return chain.gap_stretch(state, gap);
@@ -516,7 +521,7 @@ fn stiffness(measure: &'static str) -> MeasuredQuantity<Chain> {
     MeasuredQuantity { turns: true, ..quantity }
 }
 
-/// Creates the extreme of a quantity over all scales, and over their gaps.
+/// Creates the measure of the extreme value over all scales, or over all gaps.
 fn extreme(
     measure: &'static str,
     value: ValueOf<Chain>,

@@ -1,22 +1,22 @@
-//! A single perturbed scale in a row of equal ones.
+//! One perturbed scale in a row of equal scales.
 
 use geometry::{OutOfRange, Parallelogram, Row, UnevenRow};
 
 use super::row_layout::RowLayout;
 
-/// Perturbation of one scale of a row.
+/// Deviations of one scale in a row of equal scales.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PerturbedScale {
-    /// Number of the scale, counted from the punctured one to the right.
+    /// Number of the scale, counted from the punctured scale; positive to the right.
     pub place: i32,
-    /// Change of the gap on the right of the scale, over `t`.
+    /// Change of the gap on the right of the scale, in units of `t`.
     pub gap: f64,
     /// Change of the slant of the scale, degrees.
     pub slant_deg: f64,
 }
 
 impl PerturbedScale {
-    /// Cuts a `layout` out of an endless `row` with one perturbed scale.
+    /// Returns the scales of a `layout`, taken from an endless `row` with this perturbed scale.
     ///
     /// # Errors
     /// If the scale would overlap its neighbours.

@@ -1,4 +1,4 @@
-//! Stability along a path under load or depth control, and snap-through.
+//! Stability along a path under load control and depth control, and snap-through.
 
 use solver::{Bracket, Continuation, Event};
 
@@ -8,27 +8,28 @@ use super::{At, PunctureMeasures, PuncturePoint};
 use crate::contacts::SkinPoint;
 use crate::record::Skin;
 
-/// Tolerance on the rate of the depth at its maximum, relative to the rates at the segment ends.
+/// Largest rate of the depth at its maximum, relative to the rates at the ends of the segment.
 const FLAT: f64 = 1e-9;
+
 /// Maximum number of evaluations in the search for a maximum of the depth.
 const EVALUATIONS: usize = 60;
 
-/// Halvings of a segment in which to search for an early dip of the depth.
+/// Maximum number of bisections towards the start of a segment to find a decrease of the depth.
 ///
-/// The dip starts at the first point.
+/// The depth decreases from the first point of the segment and recovers before its end.
 const HALVINGS: i32 = 20;
 
 /// Snap-through under a monotonically descending needle.
 ///
-/// The needle leaves the path at a maximum of the depth, and returns to it where the depth reaches
-/// that maximum again.
+/// The needle leaves the path at a maximum of the depth. It returns to the path where the depth
+/// reaches this maximum again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Snap {
     /// Equilibrium at the maximum of the depth.
     pub point: PuncturePoint,
-    /// `F*` at the maximum of the depth minus `F*` where the path reaches that depth again.
+    /// `F*` at the maximum of the depth minus `F*` where the path reaches this depth again.
     ///
-    /// `None` if the path ends first.
+    /// `None` if the path ends before it reaches this depth again.
     pub drop: Option<f64>,
     /// Number of contact events before the maximum.
     pub events_before: usize,
@@ -37,11 +38,11 @@ pub struct Snap {
 /// Tracks stability and snaps along a path.
 #[derive(Debug, Default)]
 pub(super) struct SnapObserver {
-    /// True if the load has decreased; before that the row is stable.
+    /// True if the load has decreased; until then the row is stable.
     has_unloaded: bool,
-    /// Instability at every point that the path has left.
+    /// Instability at every point of the path except the last one.
     instability: Vec<Instability>,
-    /// Point at which stability under load control is lost.
+    /// First point that is unstable under load control.
     pub(super) load_limit: Option<SkinPoint>,
     /// First maximum of the depth.
     pub(super) depth_limit: Option<SkinPoint>,
@@ -51,9 +52,9 @@ pub(super) struct SnapObserver {
 impl SnapObserver {
     /// Processes a path segment.
     ///
-    /// On a path from a stable state the load increases as long as the stiffness has an even number
-    /// of negative eigenvalues. Before the first decrease of the load there are none, so none are
-    /// counted.
+    /// `events_before` is the number of contact events before the segment. On a path from a stable
+    /// state the load increases while the stiffness has an even number of negative eigenvalues.
+    /// Before the first decrease of the load this number is 0, so it is not computed.
     pub(super) fn follow(
         &mut self,
         path: &mut Continuation<Chain>,
@@ -65,9 +66,10 @@ impl SnapObserver {
         self.follow_depth(path, from, to, events_before);
     }
 
-    /// Records the instability of `from`.
+    /// Records the instability at `from`.
     ///
-    /// At a singular point it is evaluated half-way to the next.
+    /// The stiffness is singular at an extremum of the load, where the instability of the
+    /// equilibrium half-way to `to` is recorded instead.
     fn count(&mut self, path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) {
         if !self.has_unloaded {
             return self.instability.push(Instability::default());
@@ -81,12 +83,12 @@ impl SnapObserver {
         }
     }
 
-    /// Counts the instability of a point; at a singular point repeats the previous one.
+    /// Computes the instability at a point; if it is singular, returns the previous instability.
     fn at(&self, chain: &Chain, point: &SkinPoint) -> Instability {
         let SkinPoint { state, leaving, .. } = point;
         if chain.is_nonconservative(state) {
-            // With friction the stiffness is not symmetric, so instability is only detected by
-            // decreasing load or depth.
+            // With friction the stiffness is not symmetric. Only a decreasing load or depth then
+            // shows an instability.
             let rates = [leaving[chain.layout.load()], chain.depth_slope(&state.z, leaving)];
             let [load, depth] = rates.map(|rate| usize::from(rate < 0.0));
             return Instability { load, depth, tilt: 0 };
@@ -96,6 +98,7 @@ impl SnapObserver {
             .unwrap_or_else(|| self.instability.last().copied().unwrap_or_default())
     }
 
+    /// Detects snaps on a segment, and the return of the last snap to the path.
     fn follow_depth(
         &mut self,
         path: &mut Continuation<Chain>,
@@ -103,7 +106,8 @@ impl SnapObserver {
         to: &SkinPoint,
         events_before: usize,
     ) {
-        // Before a snap has landed, the needle is off the path and meets no reversal.
+        // Until the last snap returns to the path, the needle is off the path. Ignore further
+        // maxima of the depth.
         if self.open_snap().is_none()
             && let Some(turned) = turning_point(path, from, to)
         {
@@ -111,18 +115,18 @@ impl SnapObserver {
             self.snaps.push(Snap { point, drop: None, events_before });
             self.depth_limit.get_or_insert(turned);
         }
-        // A snap may land on the segment on which it started.
+        // A snap may return to the path on the segment on which it started.
         if let Some(snap) = self.open_snap() {
             snap.land(path, from, to);
         }
     }
 
-    /// Returns the snap that has not returned to the path yet.
+    /// Returns the last snap if it has not returned to the path yet.
     fn open_snap(&mut self) -> Option<&mut Snap> {
         self.snaps.last_mut().filter(|snap| snap.drop.is_none())
     }
 
-    /// Adds the stability measures; returns instabilities of all points and snaps.
+    /// Adds the stability measures; returns the instability at all points, and the snaps.
     pub(super) fn finish(
         mut self,
         path: &Continuation<Chain>,
@@ -134,13 +138,13 @@ impl SnapObserver {
             Instability::default()
         };
         self.instability.push(end);
-        // After a decrease, an increasing load is inconclusive with friction: two modes may be
-        // unstable.
+        // With friction, a load that increases again after a decrease does not prove stability:
+        // two modes may be unstable.
         let is_known = !self.has_unloaded
             || end.load > 0
             || !path.system().is_nonconservative(&path.point().state);
         measures.stable_under_load = is_known.then_some(end.load == 0);
-        // After a snap without landing the needle is off the path.
+        // If the last snap has not returned to the path, the needle never reaches its end.
         measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
         let limit = self.load_limit.as_ref();
         measures.load_stability_force = limit.map(|point| path.system().force(&point.state));
@@ -151,7 +155,9 @@ impl SnapObserver {
 }
 
 impl Snap {
-    /// Finds the point within a segment at which the depth reaches its value at the snap again.
+    /// Finds the point of a segment at which the depth reaches its value at the snap again.
+    ///
+    /// Sets the drop of the force if there is such a point.
     fn land(&mut self, path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) {
         let depth = self.point.displacement;
         if path.system().depth(&to.state.z) < depth {
@@ -160,7 +166,7 @@ impl Snap {
         let below = if path.system().depth(&from.state.z) < depth {
             Some(from.clone())
         } else {
-            // The depth turns back at the first point and recovers before the second.
+            // The depth decreases from the first point and recovers before the second point.
             (1..HALVINGS).find_map(|k| {
                 let point = path.between(from, to, 0.5_f64.powi(k))?;
                 (path.system().depth(&point.state.z) < depth).then_some(point)
@@ -168,13 +174,13 @@ impl Snap {
         };
         let location = At::Displacement(depth).location();
         let landed = below.and_then(|below| location.between(path, &below, to));
-        // Ignore a dip lost in round-off.
+        // Without a detectable decrease of the depth, use the end of the segment.
         let landed = landed.as_ref().unwrap_or(to);
         self.drop = Some(self.point.force - path.system().force(&landed.state));
     }
 }
 
-/// Finds the maximum of the depth within a segment or at its start.
+/// Finds the maximum of the depth within a segment or at its start; `None` without a maximum.
 fn turning_point(
     path: &mut Continuation<Chain>,
     from: &SkinPoint,
@@ -182,8 +188,8 @@ fn turning_point(
 ) -> Option<SkinPoint> {
     let leaving = path.system().depth_slope(&from.state.z, &from.leaving);
     let arriving = path.system().depth_slope(&to.state.z, &to.arriving);
-    // At a kink the depth decreases right from the point; otherwise the previous segment would have
-    // shown it.
+    // At a kink the depth decreases from the first point on. A smooth maximum at this point would
+    // have been found on the previous segment.
     if leaving < 0.0 {
         return Some(from.clone());
     }

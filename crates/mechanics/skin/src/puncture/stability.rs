@@ -5,20 +5,20 @@ use solver::{SkylineMatrix, System};
 use super::system::Chain;
 use crate::contacts::SkinState;
 
-/// Index of an unknown that is not part of the stiffness matrix.
+/// Placeholder for the row of an unknown that is not part of the stiffness matrix.
 const LEFT_OUT: usize = usize::MAX;
 
 /// Numbers of negative eigenvalues of the tangent stiffness of a row.
 ///
-/// Each one is an independent motion that releases energy. An equilibrium is stable if there are
-/// none.
+/// Each negative eigenvalue is an independent motion that releases energy. An equilibrium is stable
+/// if there are none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Instability {
-    /// At constant load, as from a weight.
+    /// Number at constant load, for example of a weight.
     pub load: usize,
-    /// At constant depth of the loaded point, as from a screw.
+    /// Number at constant depth of the loaded point, for example of a screw.
     pub depth: usize,
-    /// At constant tilt of the punctured scale.
+    /// Number at constant tilt of the punctured scale.
     pub tilt: usize,
 }
 
@@ -27,11 +27,11 @@ impl Chain {
     ///
     /// `None` if the stiffness is exactly singular, or not symmetric because of friction.
     ///
-    /// With the stiffness `K` of the loaded row and the load vector `p`, the gradient of the depth,
-    /// a constant depth removes one negative eigenvalue if `pᵀ K⁻¹ p < 0`, i.e. `du/dF < 0`, and a
-    /// constant tilt removes one if its compliance `eᵀ K⁻¹ e` is negative (P5). Corners that meet
-    /// on a ridge of the energy are held together by their contact, not by the energy, and count as
-    /// one more.
+    /// `K` is the stiffness of the loaded row, `p` the gradient of the depth and `e` the unit tilt.
+    /// A constant depth removes one negative eigenvalue if `pᵀ K⁻¹ p < 0`, i.e. `du/dF < 0`. A
+    /// constant tilt removes one if its compliance `eᵀ K⁻¹ e` is negative (P5). Two corners in
+    /// contact on a ridge of the energy add one: the constraint of their contact keeps them
+    /// together, and so hides this unstable motion from `K`.
     pub(super) fn instability(&self, state: &SkinState) -> Option<Instability> {
         if self.is_nonconservative(state) {
             return None;
@@ -42,7 +42,7 @@ impl Chain {
             index[unknown] = kept_index;
         }
         let factors = self.stiffness_matrix(state, kept.len(), &index).factorise().ok()?;
-        // All other unknowns are forces.
+        // All unknowns of the stiffness except these motions are forces.
         let motions = 3 * self.layout.scales() + usize::from(self.needle.is_some());
         let forces = kept.len() - motions;
         // Each force unknown is a multiplier, which adds one negative eigenvalue without a motion.
@@ -71,9 +71,9 @@ impl Chain {
         Some(Instability { load, depth, tilt })
     }
 
-    /// Lists the unknowns of the stiffness: displacements, contact and needle forces.
+    /// Lists the unknowns of the stiffness: displacements, contact forces, needle forces.
     ///
-    /// Forces are kept because their contacts may be rigid.
+    /// Forces are not eliminated, because the compliance of a contact may be zero.
     fn kept(&self, state: &SkinState) -> Vec<usize> {
         let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
         let mut kept: Vec<usize> = scales.flat_map(|at| at..at + 3).collect();
@@ -83,6 +83,7 @@ impl Chain {
         kept
     }
 
+    /// Assembles the symmetric stiffness; `index` maps each unknown to its row.
     fn stiffness_matrix(&self, state: &SkinState, size: usize, index: &[usize]) -> SkylineMatrix {
         let mut entries = Vec::new();
         let mut entry =
@@ -92,7 +93,7 @@ impl Chain {
         if self.needle.is_some() {
             self.for_needle_stiffness(state, &mut entry);
         } else {
-            // The arm of a dead load turns with the scale, which contributes to the stiffness.
+            // The arm of a dead load rotates with the scale, which changes its moment.
             let turn = self.layout.scale(self.layout.left) + 2;
             entry(turn, turn, -state.z[self.layout.load()] * self.loaded_arm(&state.z).y);
         }

@@ -1,4 +1,4 @@
-//! Stretch of the surface gaps along the path, and locations of folding.
+//! Stretch of the gaps of the surface along the path, and points at which the surface folds.
 
 use solver::{Bracket, Continuation, dip};
 use substrate::shortening;
@@ -8,21 +8,21 @@ use super::system::Chain;
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::Skin;
 
-/// A gap counts as closed if its stretch is at most this.
+/// Largest stretch at which a gap counts as closed.
 ///
 /// While the corners of two bases touch, the stretch is zero up to round-off.
 const CLOSE: f64 = 1e-12;
 
-/// A gap closes if its stretch falls faster than this along the path.
+/// Rate of the stretch along the path up to which a gap does not count as narrowing.
 const NO_RATE: f64 = 1e-9;
 
-/// Evaluations after which a bracket is as narrow as an `f64` allows.
+/// Number of evaluations after which a bracket is as narrow as an `f64` allows.
 const EVALUATIONS: usize = 100;
 
 /// Stretch of the tightest and of the widest gap of a row (V1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapStretch {
-    /// Smallest stretch; the surface is folded where it is not positive.
+    /// Smallest stretch; the surface is folded if it is zero or negative.
     pub min: f64,
     /// Largest stretch.
     pub max: f64,
@@ -31,9 +31,9 @@ pub struct GapStretch {
 /// Folding or unfolding of the surface in a gap, where two bases cross (V2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fold {
-    /// Path point at which the gap vanishes, located between recorded points.
+    /// Equilibrium at which the gap has zero width, located between recorded points.
     pub point: PuncturePoint,
-    /// Left scale of the gap: 0 is the punctured one, positive to the right.
+    /// Number of the scale on the left of the gap: 0 is the punctured one, positive to the right.
     pub left_scale: i64,
     /// True if the surface folds over, false if it unfolds.
     pub folds: bool,
@@ -50,20 +50,22 @@ impl Fold {
 
 /// Sign change of the stretch of a gap within a path segment.
 struct FoldCrossing {
-    /// Left scale of the gap.
+    /// Index of the scale on the left of the gap.
     pair: usize,
+    /// True if the gap folds, false if it unfolds.
     folds: bool,
-    /// Fractions of the segment that bracket the sign change, with the stretch there.
+    /// Fractions of the segment on both sides of the sign change, with the stretch at each.
     bracket: Bracket,
 }
 
-/// Folds along a path, and the equilibrium at the first one.
+/// Finds the folds of the surface while a path is followed.
 pub(super) struct FoldObserver {
     pub(super) folds: Vec<Fold>,
+    /// Equilibrium at the first fold.
     pub(super) first: Option<SkinPoint>,
     /// Smallest stretch at which a gap stopped narrowing, folded or not.
     ///
-    /// Infinite if there is none.
+    /// Infinite if no gap stopped narrowing.
     pub(super) least_dip: f64,
 }
 
@@ -74,20 +76,20 @@ impl Default for FoldObserver {
 }
 
 impl FoldObserver {
-    /// Finds the folds on a path segment; `events_before` contact events precede it.
+    /// Finds the folds on a path segment; `events_before` contact events precede the segment.
     pub(super) fn follow(
         &mut self,
         path: &mut Continuation<Chain>,
         [from, to]: [&SkinPoint; 2],
         events_before: usize,
     ) {
-        // Measures need only the first fold, so a sweep does not solve for the others.
+        // Unless the whole path is recorded, only the first fold is needed.
         let is_known = self.first.is_some() && !path.system().is_recorded_whole();
         if is_known && !path.system().is_critical_only() {
             return;
         }
-        // The end of the path may start similar designs unless a gap opens again later, so critical
-        // measures watch all gaps to the end.
+        // With critical measures, watch all gaps up to the end of the path. If a gap almost folds
+        // and opens again, this end is not used as a start for similar designs.
         let crossings = self.crossings(path, from, to);
         if is_known {
             return;
@@ -106,7 +108,7 @@ impl FoldObserver {
         }
     }
 
-    /// Starts with a known first fold, of the gap to the right of scale `pair`.
+    /// Creates an observer with a known `first` fold, of the gap to the right of scale `pair`.
     pub(super) fn after(chain: &Chain, pair: usize, first: SkinPoint) -> Self {
         let (left_scale, point) = (chain.layout.number(pair), chain.path_point(&first));
         let fold = Fold { point, left_scale, folds: true, events_before: 0 };
@@ -115,8 +117,8 @@ impl FoldObserver {
 
     /// Finds the sign changes of all gap stretches between two neighbouring points.
     ///
-    /// If both ends have the same sign, the slopes indicate whether the stretch dips through zero in
-    /// between.
+    /// If the stretch has the same sign at both points, its slopes indicate whether it passes zero
+    /// twice in between.
     fn crossings(
         &mut self,
         path: &mut Continuation<Chain>,
@@ -144,11 +146,12 @@ impl FoldObserver {
                 crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket });
                 continue;
             }
-            // `dip` detects minima towards zero from above, so invert the sign for a folded gap.
+            // `dip` detects minima below zero of positive functions, so change the sign of the
+            // stretch of a folded gap.
             let sign = if is_folded(start) { -1.0 } else { 1.0 };
             let falling =
                 sign * spans[0] * chain.gap_stretch_rate(&from.state, &from.leaving, pair);
-            // The slope at the end matters only if the stretch dips at the start.
+            // Compute the slope at the end only if the stretch decreases at the start.
             if falling >= 0.0 {
                 continue;
             }
@@ -157,7 +160,7 @@ impl FoldObserver {
             let Some(fraction) = dip(ends, [falling, rising]) else { continue };
             let Some(inside) = path.between(from, to, fraction) else { continue };
             let stretch = path.system().gap_stretch(&inside.state, pair);
-            // The slopes only suggest a dip; the equilibrium there decides.
+            // The slopes only suggest a sign change. Solve for the equilibrium to confirm it.
             if is_folded(stretch) != is_folded(start) {
                 let inside = (fraction, stretch);
                 let [before, after] = [bracket((0.0, start), inside), bracket(inside, (1.0, end))];
@@ -168,7 +171,9 @@ impl FoldObserver {
         crossings
     }
 
-    /// Records the stretch of a gap that stops narrowing, within or beyond a segment.
+    /// Records the stretch of a gap that stops narrowing within a segment or at its end.
+    ///
+    /// `stretch` holds its values at both ends.
     fn note_dip(
         &mut self,
         chain: &Chain,
@@ -190,12 +195,13 @@ impl FoldObserver {
 /// Position of a base along the row, relative to its position at rest.
 #[derive(Clone, Copy)]
 struct BasePosition {
+    /// Displacement of the node along the row.
     x: f64,
     /// [`shortening`] of each half of the base.
     shortened: f64,
 }
 
-/// Returns the positions of a base at both ends of a segment.
+/// Returns the positions of the base of a scale at both ends of a segment.
 fn base_positions(chain: &Chain, ends: [&SkinPoint; 2], scale: usize) -> [BasePosition; 2] {
     ends.map(|point| {
         let [x, _, rotation] = chain.displacement(&point.state.z, scale);
@@ -203,22 +209,24 @@ fn base_positions(chain: &Chain, ends: [&SkinPoint; 2], scale: usize) -> [BasePo
     })
 }
 
+/// Returns true if a gap with this stretch is folded.
 pub(super) fn is_folded(stretch: f64) -> bool {
     stretch <= CLOSE
 }
 
-/// Brackets the closing or opening of a gap by two fractions of a segment.
+/// Brackets the closing or opening of a gap between two points of a segment.
 ///
-/// Each comes with the stretch there.
+/// Each point is a fraction of the segment with the stretch at this fraction.
 fn bracket(low: (f64, f64), high: (f64, f64)) -> Bracket {
-    // A closed gap may be open by round-off; false position needs opposite signs, or a zero.
+    // The stretch of a closed gap may be positive by round-off, but false position needs opposite
+    // signs or a zero.
     let [low, high] =
         [low, high].map(|(fraction, g)| (fraction, if g.abs() <= CLOSE { 0.0 } else { g }));
     Bracket::new(low, high)
 }
 
 impl FoldCrossing {
-    /// Solves for the equilibrium with zero gap, and its fraction of the segment.
+    /// Solves for the equilibrium with zero gap; returns its fraction of the segment, too.
     ///
     /// If Newton's method fails, returns the last equilibrium found.
     fn locate(
@@ -231,7 +239,7 @@ impl FoldCrossing {
         let mut near = (0.0, from.clone());
         for _ in 0..EVALUATIONS {
             let fraction = bracket.secant();
-            // Start from the last equilibrium, the nearest one known.
+            // Start from the previous equilibrium, which is the nearest known one.
             let Some(point) = path.between_from(from, to, fraction, &near.1) else { break };
             let stretch = path.system().gap_stretch(&point.state, self.pair);
             near = (fraction, point);
@@ -251,12 +259,12 @@ impl Chain {
         self.strip(scale).stretch(left, right)
     }
 
-    /// Returns the first gap with a stretch of at most `limit`, by its left scale.
+    /// Returns the first gap with a stretch of at most `limit`: the scale on its left.
     pub(super) fn gap_below(&self, state: &SkinState, limit: f64) -> Option<usize> {
         (0..self.layout.scales() - 1).find(|&pair| self.gap_stretch(state, pair) <= limit)
     }
 
-    /// Computes the derivative of [`Chain::gap_stretch`] along a direction.
+    /// Computes the derivative of [`Chain::gap_stretch`] along a direction of the unknowns.
     pub(super) fn gap_stretch_rate(
         &self,
         state: &SkinState,

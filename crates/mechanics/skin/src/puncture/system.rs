@@ -1,4 +1,4 @@
-//! A row of scales on springs under a needle, as a mixed complementarity system.
+//! Equations of a row of scales on springs under a needle: a mixed complementarity system.
 
 use std::array;
 
@@ -15,87 +15,98 @@ use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, NeedleMode, SkinMode, SkinState};
 use crate::{Design, PathDetail};
 
-/// Depth unit of a guided needle as the control parameter, over `t`.
+/// Largest scale of the depth of a guided needle as the control parameter, in units of `t`.
 ///
-/// It is about the depth at a tilt of 10°, but at most a few tops of a scale: steps are fractions
-/// of it, and a needle soon leaves a narrow top.
+/// Steps of the solver are fractions of this scale. A scale tilts by about 10° at this depth.
 const DEPTH: f64 = 0.5;
+
+/// Largest scale of the depth of a guided needle, divided by the length of the top of a scale.
+///
+/// A needle soon leaves a narrow top, which requires smaller steps.
 const TOPS: f64 = 4.0;
 
-/// Depth at which the path of a guided needle ends at the latest.
+/// Largest depth of a guided needle, in units of `t`; the path ends there at the latest.
 const DEEPEST: f64 = 2.0;
 
-/// Number of the marker that vanishes at the requested depth; others are gaps.
+/// Number of the marker that is zero at the requested depth.
 pub(super) const DEPTH_MARK: usize = usize::MAX;
 
-/// Number of the marker that vanishes at the requested force.
+/// Number of the marker that is zero at the requested force.
 pub(super) const FORCE_MARK: usize = usize::MAX - 1;
 
-/// Numbers of the markers that vanish where a strength is reached; smaller numbers are gaps.
+/// Smallest number of the markers that are zero where a failure limit is reached.
+///
+/// Smaller numbers are markers of gaps, numbered by the scale on their left.
 pub(super) const FIRST_LIMIT_MARK: usize = usize::MAX / 2;
 
-/// Numbers of the rates that vanish where load and depth turn back.
+/// Number of the rate that is zero at an extremum of the load.
 pub(super) const LOAD_RATE: usize = 0;
+
+/// Number of the rate that is zero at an extremum of the depth.
 pub(super) const DEPTH_RATE: usize = 1;
 
 /// A row of scales on a substrate under a needle, as [`System`].
 ///
-/// Unknowns are the displacements and rotations, the contact forces, and the load `F`.
+/// The unknowns are the displacements and rotations of the scales, the contact forces, and the
+/// load `F`. Lengths are in `t`, forces in `E* t²`.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
     pub(crate) layout: RowLayout,
     pub(crate) contacts: Contacts,
-    /// `L/t`.
+    /// Length of a scale, `L/t`.
     pub(crate) length: f64,
-    /// `b/t`.
+    /// Width of a scale out of the plane, `b/t`.
     pub(super) width: f64,
-    /// `E_c/E_s` of the scales as beams.
+    /// Young's modulus of the scales in bending, `E_c/E_s`.
     pub(super) scale_modulus: f64,
     /// True if the scales bend under the forces on them.
     pub(super) is_elastic: bool,
     pub(super) strengths: Strengths,
+    /// Tip radius of a guided needle, in units of `t`; `None` for a sharp one.
     pub(super) needle_radius: Option<f64>,
-    /// `E*/E_s`, the unit conversion of stiffness.
+    /// `E*/E_s`, to convert a stiffness in units of `E*` to units of `E_s`.
     pub(crate) plane_modulus: f64,
+    /// Half-width of a base, `a/t`.
     pub(super) half_base: f64,
-    /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
+    /// Springs of a scale in `x`, `y` and `φ`: `a α_x, a α_y, a³ α_φ`.
     pub(super) direct: [f64; 3],
-    /// `a² r_0` of (S21), on a layer.
+    /// Coupling of `x` and `φ` of the same scale, `a² r_0` of (S21); 0 on a half-space.
     pub(super) roll: f64,
     /// Coupling with the neighbours on one side, the nearest first.
     ///
-    /// `−a β_x, −a β_y, −a³ β_φ`; with full coupling `a K_x, a K_y, a³ K_φ, a² c` of (S9) and
-    /// `a l`, `a² r` of (S21).
+    /// With nearest coupling the entries are `−a β_x, −a β_y, −a³ β_φ`, with full coupling
+    /// `a K_x, a K_y, a³ K_φ, a² c` of (S9). A layer adds `a l` and `a² r` of (S21).
     pub(super) neighbours: Vec<Neighbour>,
-    /// `a β_x`, the stiffness of the bars that replace the springs along the row.
+    /// Stiffness `a β_x` of the neo-Hookean bars that replace the springs along the row.
     ///
     /// `None` for a linear substrate.
     pub(super) bars: Option<f64>,
-    /// The row beyond the ends, if this is a part of a longer row; same units.
+    /// The scales beyond the solved part of a longer row.
     pub(super) exterior: RowExterior,
     /// Vector from the node of the punctured scale to the loaded point.
     pub(super) load_arm: Vec2,
-    /// Additional depth at which the force is measured.
+    /// Depth, in units of `t`, at which the force is to be reported.
     marked_depth: Option<f64>,
-    /// Force at which the pressure on the tissue is measured.
+    /// Force `F*` at which the pressure on the tissue is to be reported.
     marked_force: Option<f64>,
-    /// `None` for a free needle, which is a load.
+    /// Guided needle; `None` for a free needle, which only adds the load to the equations.
     pub(super) needle: Option<GuidedNeedle>,
-    /// Unknowns of the contact forces, and of the constraints of a guided needle.
+    /// Unknowns that are constraints: contact forces, then unknowns of a guided needle.
     constraints: Vec<usize>,
-    /// Constraint numbers that only grow.
+    /// Numbers of the constraints with unknowns that cannot decrease: the slip distances.
     monotone: Vec<usize>,
     pub(super) controls: Vec<Control>,
     /// [`Common::detail`](crate::Common::detail).
     pub(super) detail: PathDetail,
-    /// Blocks of the tangent; `None` if couplings exceed the block structure.
+    /// Block structure of the tangent; `None` if it has entries outside such blocks.
     blocks: Option<Blocks>,
+    /// Unit of each equation, for the convergence criterion (N2).
     units: Vec<f64>,
 }
 
-/// Part of the substrate stiffness.
+/// Part of the substrate stiffness matrix.
 ///
-/// Consecutive entries along a diagonal, or a full block of two scales.
+/// A part holds consecutive entries along a diagonal, or a full block that couples two scales.
 #[derive(Clone, Copy)]
 enum Part<'a> {
     Diagonal(&'a [f64]),
@@ -104,7 +115,8 @@ enum Part<'a> {
 
 /// Returns the control parameters of a path: the tilt and the displacements of the punctured scale.
 ///
-/// The depth of a guided needle precedes them. `top` is the length of the top of the scale.
+/// For a guided needle, its depth is the first of them. `top` is the length of the top of the
+/// scale, in units of `t`.
 fn controls(
     parameters: &PunctureParameters,
     layout: RowLayout,
@@ -118,7 +130,8 @@ fn controls(
         .map(|(k, scale)| Control { index: punctured + k, scale })
         .to_vec();
     if parameters.bending == Bending::Elastic {
-        // The load acts on the bent tip, so its rotation is part of the tilt.
+        // The tilt is the rotation of the bent tip under the load, the second unknown after the
+        // load, and not the rotation of the base.
         controls[0].index = layout.load() + 2;
     }
     if is_guided {
@@ -128,9 +141,9 @@ fn controls(
     controls
 }
 
-/// Creates the needle of a row with this number of contact constraints.
+/// Creates the guided needle of a row; `None` for a free needle.
 ///
-/// `None` for a free one.
+/// `contacts` is the number of contact constraints. The constraints of the needle follow them.
 fn guided_needle(
     parameters: &PunctureParameters,
     load_arm: Vec2,
@@ -154,10 +167,11 @@ fn bar_stiffness(law: SubstrateLaw, neighbours: &[Neighbour]) -> Option<f64> {
     }
 }
 
-/// Returns the blocks of the tangent; `None` if couplings exceed the block structure.
+/// Returns the block structure of the tangent; `None` if it has entries outside such blocks.
 ///
-/// A round tip couples several scales across blocks, and contacts may reach farther than the
-/// substrate, which couples a scale with `neighbours` on each side. Band elimination handles both.
+/// The substrate couples a scale with the nearest `neighbours` scales on each side. A round tip
+/// couples more scales, and so do contacts between distant scales. The solver then eliminates the
+/// tangent as a band matrix.
 fn tangent_blocks(
     parameters: &PunctureParameters,
     layout: RowLayout,
@@ -170,7 +184,7 @@ fn tangent_blocks(
 }
 
 impl Chain {
-    /// Assembles the solved part of a row of this `design`.
+    /// Sets up the equations of the solved part of a row of this `design`.
     pub(crate) fn new(
         arrangement: Arrangement,
         stiffness: &RowStiffness,
@@ -237,17 +251,17 @@ impl Chain {
         }
     }
 
-    /// Returns true if only the measures of [`PathDetail::Critical`] are taken.
+    /// Returns true if only the measures of [`PathDetail::Critical`] are computed.
     pub(super) fn is_critical_only(&self) -> bool {
         self.detail == PathDetail::Critical
     }
 
-    /// Returns true if everything that path tables and drawings show is recorded.
+    /// Returns true if all data of path tables and drawings are recorded.
     pub(super) fn is_recorded_whole(&self) -> bool {
         self.detail == PathDetail::Whole
     }
 
-    /// Returns the three displacements of a scale.
+    /// Returns the displacements `x` and `y` and the rotation `φ` of a scale.
     pub(crate) fn displacement(&self, z: &[f64], scale: usize) -> [f64; 3] {
         let at = self.layout.scale(scale);
         [z[at], z[at + 1], z[at + 2]]
@@ -268,12 +282,12 @@ impl Chain {
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
     }
 
-    /// Computes the deformed arm from the punctured node to the loaded point.
+    /// Computes the vector from the node of the rotated punctured scale to its loaded point.
     pub(crate) fn loaded_arm(&self, z: &[f64]) -> Vec2 {
         self.contacts.pose(z, self.layout.left).turn(self.load_arm)
     }
 
-    /// Computes the derivative of [`Chain::depth`] along a direction.
+    /// Computes the derivative of [`Chain::depth`] along a `direction` of the unknowns.
     pub(crate) fn depth_slope(&self, z: &[f64], direction: &[f64]) -> f64 {
         if let Some(needle) = &self.needle {
             return direction[needle.depth];
@@ -286,7 +300,7 @@ impl Chain {
         -(direction[at + 1] + arm.x * direction[at + 2])
     }
 
-    /// Computes the depth of a scale's deeper base corner below its rest position.
+    /// Computes the depth of the deeper base corner of a scale below its rest position.
     pub(crate) fn base_depth(&self, z: &[f64], scale: usize) -> f64 {
         let [_, y, rotation] = self.displacement(z, scale);
         self.half_base * rotation.sin().abs() - y
@@ -300,12 +314,12 @@ impl Chain {
 
     /// Calls `part` for each part of the substrate stiffness.
     ///
-    /// It receives row and column of the first entry.
+    /// The arguments of `part` are row and column of the first entry, and the entries.
     fn for_spring_parts(&self, mut part: impl FnMut(usize, usize, Part)) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
             part(at, at, Part::Diagonal(&self.direct));
-            // Zero on a half-space; skip it there.
+            // This coupling is zero on a half-space.
             if self.roll != 0.0 {
                 part(at, at + 2, Part::Diagonal(&[self.roll]));
                 part(at + 2, at, Part::Diagonal(&[self.roll]));
@@ -326,27 +340,28 @@ impl Chain {
                 part(left, right, parts[1]);
             }
         }
-        // Scales beyond an end are compliant, which reduces the stiffness at the end.
+        // The direct springs hold for fixed neighbours. Scales beyond an end move, which reduces
+        // the stiffness at the end.
         for (row, column, values) in &self.exterior.relief {
             part(*row, *column, Part::Block(values));
         }
     }
 
-    /// Returns the needle and the number of one of its constraints.
+    /// Returns the guided needle and the number of `constraint` among its own constraints.
     ///
-    /// `None` for contact constraints.
+    /// `None` for a contact constraint.
     fn of_needle(&self, constraint: usize) -> Option<(&GuidedNeedle, usize)> {
         self.needle.as_ref().zip(constraint.checked_sub(self.contacts.forces.len()))
     }
 
-    /// `F*`.
+    /// Returns the dimensionless load `F* = F/(E* L t)`.
     pub(crate) fn force(&self, state: &SkinState) -> f64 {
         state.z[self.layout.load()] / self.length
     }
 
-    /// Computes the elastic energy of springs and bars over `E* t³`.
+    /// Computes the elastic energy of springs and bars, in `E* t³`.
     ///
-    /// The exterior is included.
+    /// The energy of the scales beyond the solved part is included.
     pub(crate) fn substrate_energy(&self, state: &SkinState) -> f64 {
         let mut twice = 0.0;
         self.constant_tangent(&mut |row: usize, column: usize, value: f64| {
@@ -364,8 +379,8 @@ impl System for Chain {
     }
 
     fn half_bandwidth(&self) -> usize {
-        // Distance from x of a scale to φ of the last scale coupled with it, with the load in
-        // between. A guided needle is coupled with all scales in reach.
+        // The band reaches from x of a scale to φ of the farthest scale coupled with it, with the
+        // unknowns of load and needle in between. A guided needle couples all scales in its reach.
         let coupled = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
         let touched = if self.is_elastic { 2 } else { 1 } * self.contacts.reach;
         let coupled = self.neighbours.len().max(touched).max(coupled);
@@ -376,9 +391,11 @@ impl System for Chain {
         self.blocks.as_ref()
     }
 
-    /// A guided needle fits the blocks as long as it touches only the punctured scale.
+    /// Returns true if the tangent has no entries outside its blocks.
     ///
-    /// An elastic scale couples the neighbours on both of its sides as soon as they touch it.
+    /// A guided needle adds such entries if it touches scales other than the punctured one. An
+    /// elastic scale adds such entries if it has closed contacts, because the forces of its two
+    /// neighbours then act on the same bent scale.
     fn is_in_blocks(&self, state: &SkinState) -> bool {
         if self.is_elastic && Contacts::closed(state) > 0 {
             return false;
@@ -390,14 +407,16 @@ impl System for Chain {
         self.layout.load()
     }
 
-    /// Without an ending constraint, the path of a guided needle ends at twice the
-    /// thickness.
+    /// Returns the value of the control parameter at which the path ends.
+    ///
+    /// A guided needle stops at the depth [`DEEPEST`] if no constraint has ended its path before.
     fn target(&self) -> f64 {
         if self.needle.is_some() { DEEPEST / self.controls[0].scale } else { 1.0 }
     }
 
     fn ends(&self, state: &SkinState, constraint: usize) -> bool {
-        // At the end of an edge both corners would carry force, and an elastic scale would jump.
+        // At the end of an edge two corners share the force. The beam model gives them different
+        // positions, so an elastic scale would jump there.
         if self.is_elastic && self.contacts.contact_of_own_force(constraint).is_none() {
             return true;
         }
@@ -432,8 +451,8 @@ impl System for Chain {
 
     fn coordinates(&self) -> Vec<usize> {
         let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
-        // Displacements over `t` and rotations in radians have comparable magnitudes; forces do
-        // not.
+        // Displacements in units of `t` and rotations in radians have comparable magnitudes. Forces
+        // have other magnitudes, so leave them out.
         scales.flat_map(|at| at..at + 3).collect()
     }
 
@@ -476,7 +495,7 @@ impl System for Chain {
         } else {
             let at = self.layout.scale(self.layout.left);
             let arm = self.loaded_arm(z);
-            // The load pushes down, with the sign of the spring forces.
+            // The residual is spring forces minus applied forces, so a downward load is positive.
             residual.add(at + 1, z[load]);
             residual.add(at + 2, z[load] * arm.x);
             matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);
@@ -537,9 +556,10 @@ impl System for Chain {
         slopes[number]
     }
 
-    /// Evaluates a marker: stretch of a gap, or excess over the requested depth or a strength.
+    /// Evaluates a marker: the stretch of a gap, or the excess over a requested value or a limit.
     ///
-    /// A gap is numbered by its left scale. A vanishing stretch means that the surface folds over.
+    /// Requested values are a depth and a force; limits belong to failure modes. A gap has the
+    /// number of the scale on its left. Where its stretch is zero, the surface begins to fold.
     fn marker(&self, state: &SkinState, number: usize) -> f64 {
         match number {
             DEPTH_MARK => self.marked_depth.map_or(f64::NAN, |depth| self.depth(&state.z) - depth),
@@ -563,7 +583,7 @@ impl System for Chain {
             return self.needle_transition(needle, state, change);
         }
         let valid = self.contacts.transition(state, change);
-        // The contact that formed a notch may have changed.
+        // The change may have opened the contact that holds the tip in a notch.
         self.release_notch(needle, state);
         valid
     }

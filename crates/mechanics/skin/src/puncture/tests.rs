@@ -30,33 +30,35 @@ use crate::contacts::{SkinPoint, SkinState, pair_constraints};
 use crate::record::Skin;
 use crate::{Base, Common, Design, Status};
 
-/// Steep row: contacts open, close, slide to corners and exchange corner and edge.
+/// Steep row in which contacts open, close, and slide past corners to other edges.
 const LIVELY: Design =
     Design { gap: 0.1, length: 1.0, slant_deg: 75.0, base: Base::TwoL, width: 1.0 };
 
-/// So steep and long that sides become flush with a base, and tips carry contacts.
+/// Row of scales so steep and long that sides become flush with bases, and tips touch bases.
 const FOLDING: Design =
     Design { gap: 0.2, length: 2.8, slant_deg: 79.5, base: Base::TwoL, width: 1.0 };
 
-/// Steep row of short scales: a tip slides to a base end and on to its corner.
+/// Steep row of short scales in which a tip slides along a base to its end and past its corner.
 const SLIDING: Design =
     Design { gap: 0.05, length: 0.2, slant_deg: 82.0, base: Base::TwoL, width: 1.0 };
 
-/// Steep row that snaps and loses contact with the needle before it tilts by 40°.
+/// Steep row that snaps, and returns to zero load before the tilt reaches 40°.
 const STEEP: Design = Design { gap: 0.6, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
 
+/// Row of upright cubes.
 const BLOCKS: Design = Design { gap: 0.1, length: 1.0, slant_deg: 0.0, base: Base::L, width: 1.0 };
 
+/// Row of thin steep scales, in which contact spreads over many scales.
 const DOMINO: Design = Design { gap: 0.1, length: 0.1, slant_deg: 75.0, base: Base::L, width: 1.0 };
 
-/// `E_ct/E*` of the reference study.
+/// Contact modulus `E_ct/E*` of Shafiei et al. (2021).
 const HARD: f64 = 9677.0 * 0.75;
 
 fn law(design: &Design, law: Law, modulus: f64) -> ContactLaw {
     ContactLaw::new(law, design.length, design.width, modulus).unwrap()
 }
 
-/// Starts the path of a row of 21 scales to a tilt of 10°.
+/// Starts the path of a row of 21 scales to a tilt of 10°, with nearest coupling.
 fn path(design: &Design, law: ContactLaw, load_position: f64) -> Continuation<Chain> {
     path_on(
         &(&calibrate(&design.footprint(0.5).unwrap()).unwrap()).into(),
@@ -66,12 +68,13 @@ fn path(design: &Design, law: ContactLaw, load_position: f64) -> Continuation<Ch
     )
 }
 
-/// Starts the path of a row with full coupling, rotations included.
+/// Starts the path of a row of 21 scales with full coupling.
 fn coupled_path(design: &Design, law: ContactLaw, load_position: f64) -> Continuation<Chain> {
     let stiffness = RowStiffness::compute(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
     path_on(&stiffness, design, law, load_position)
 }
 
+/// Starts the path of a row of 21 scales on a substrate with this stiffness.
 fn path_on(
     stiffness: &RowStiffness,
     design: &Design,
@@ -85,7 +88,7 @@ fn path_on(
     Continuation::new(chain, rest, Settings::default())
 }
 
-/// Builds a row with nothing beyond its ends.
+/// Builds a row that is solved as a whole.
 fn whole(
     stiffness: &RowStiffness,
     design: &Design,
@@ -109,7 +112,7 @@ fn for_segments(
     }
 }
 
-/// Names the state of a contact.
+/// Returns the name of the state of a contact.
 fn name(contact: CornerContact) -> &'static str {
     match contact {
         CornerContact::Open => "open",
@@ -124,7 +127,8 @@ fn tangent_matches_finite_differences_in_every_contact_state() {
     let mut seen = HashSet::new();
     for constants in [Law::PRINTED, Law::EXCHANGED] {
         for design in [LIVELY, FOLDING, SLIDING] {
-            // Half-way between points: at events forces vanish, where the contact law has a kink.
+            // Compare half-way between points. At events some contact forces are zero, and the
+            // contact law has a kink there.
             for_segments(path(&design, law(&design, constants, HARD), 1.0), |path, from, to| {
                 let state = path.between(from, to, 0.5).unwrap().state;
                 seen.extend(state.mode.contacts.iter().copied().map(name));
@@ -135,7 +139,7 @@ fn tangent_matches_finite_differences_in_every_contact_state() {
     assert_eq!(seen, ["open", "edge", "corner", "flush"].into());
 }
 
-/// Active flags and mode of a state agree on the acting contact forces.
+/// The active flags of a state must mark the contact forces that act in its mode.
 #[test]
 fn active_flags_match_contact_modes() {
     for design in [LIVELY, FOLDING, SLIDING] {
@@ -162,7 +166,7 @@ fn slopes_of_inactive_conditions_match_finite_differences() {
         });
         for constraint in 0..chain.constraints().len() {
             let difference = (high[constraint] - low[constraint]) / 2e-7;
-            // The condition of a force that cannot become active next is constant.
+            // Conditions of forces that cannot become active next are constant; leave them out.
             if !state.active[constraint] && difference != 0.0 {
                 let slope = chain.slope(&state, constraint, &from.leaving);
                 assert_relative_eq!(slope, difference, epsilon = 1e-6, max_relative = 1e-6);
@@ -174,8 +178,6 @@ fn slopes_of_inactive_conditions_match_finite_differences() {
 }
 
 /// Integrates `F du` between two points by Boole's rule on five equilibria.
-///
-/// `u'` is the derivative of the polynomial through them.
 fn work(path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
@@ -183,16 +185,20 @@ fn work(path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64
     integral(states.map(|state| [state.z[chain.load()], chain.depth(&state.z)]))
 }
 
-/// Work and energies along a path.
+/// Work and energies at the end of a path.
 #[derive(Default)]
 struct Balance {
+    /// Work of the load.
     work: f64,
+    /// Energy of the substrate.
     springs: f64,
+    /// Energy of the contacts.
     contacts: f64,
-    /// Largest difference so far.
+    /// Largest difference between work and energy at any point of the path.
     off: f64,
 }
 
+/// Follows a path to its end, and compares the work of the load with the stored energy.
 fn balance(path: Continuation<Chain>) -> Balance {
     let mut balance = Balance::default();
     for_segments(path, |path, from, to| {
@@ -228,7 +234,7 @@ fn tangent_of_a_coupled_row_matches_differences_and_is_symmetric_at_rest() {
         points += 1;
     });
     assert!(points > 10);
-    // At rest only the substrate contributes.
+    // At rest the tangent contains only the substrate.
     let path = coupled_path(&BLOCKS, law(&BLOCKS, Law::PRINTED, HARD), 1.0);
     let (chain, state) = (path.system(), &path.point().state);
     let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
@@ -241,7 +247,8 @@ fn tangent_of_a_coupled_row_matches_differences_and_is_symmetric_at_rest() {
             coupled += usize::from(value != 0.0);
         }
     }
-    // 21 scales with up to 8 neighbours per side: 3 direct and 2 cross terms each.
+    // 21 scales with 3 direct terms each, and pairs of scales up to 8 apart. Each pair has 3 direct
+    // and 2 cross terms in both triangles.
     let pairs: usize = (1..=8).map(|k| 21 - k).sum();
     assert_eq!(coupled, 3 * 21 + 2 * pairs * 5);
 }
@@ -271,17 +278,17 @@ fn one_neighbour_without_cross_coupling_matches_the_paper() {
             let solved = super::solve(&design, stiffness, &Common::default(), &parameters);
             solved.unwrap().measures.critical_force.unwrap()
         });
-        // One stiffness is computed on the default mesh, up to 2e-4 off; the other comes from the
-        // table.
+        // The stiffness of the first row has the error of the default mesh, up to 2e-4. The
+        // stiffness of the second row comes from the table.
         assert_relative_eq!(ours, paper, max_relative = 2e-4);
         assert_ne!(full, paper);
     }
 }
 
-/// (S11): eight neighbours on each side against sixteen.
+/// Compares eight with sixteen coupled neighbours on each side, the truncation (S11).
 #[test]
 fn doubling_the_neighbours_changes_less_than_half_a_percent() {
-    // The slant does not change the footprint.
+    // The slant does not change the footprint, so one stiffness serves all slants.
     let rows = [substrate::NEIGHBOURS, 2 * substrate::NEIGHBOURS].map(|neighbours| {
         RowStiffness::solve(&BLOCKS.footprint(0.5).unwrap(), neighbours).unwrap()
     });
@@ -300,7 +307,7 @@ fn doubling_the_neighbours_changes_less_than_half_a_percent() {
     }
 }
 
-/// The contacts are so soft that they store a significant part of the energy.
+/// Contacts with a small modulus must store more than 2 % of the work.
 #[test]
 fn soft_contacts_store_part_of_the_work() {
     for (design, constants, modulus) in [
@@ -379,14 +386,13 @@ fn parameters_out_of_range_are_rejected() {
     }
 }
 
-/// Bound on finite eigenvalues: contacts are softer than this, unless rigid.
+/// Magnitude above which an eigenvalue of the dense stiffness belongs to a rigid contact.
 const RIGID: f64 = 1e6;
 
 /// Computes the dense stiffness with respect to the displacements of scales and needle.
 ///
-/// Contact forces are eliminated from the tangent.
-///
-/// Rigid contacts get a tiny compliance.
+/// Contact forces are eliminated from the tangent. For this, rigid contacts get a compliance of
+/// 1e-8.
 fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
     chain.tangent(state, &mut tangent);
@@ -398,12 +404,12 @@ fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     let constraints = chain.constraints().iter().zip(&state.active);
     let mut forces: Vec<usize> =
         constraints.filter(|(_, active)| **active).map(|(&f, _)| f).collect();
-    // Depth of a guided needle, and the force that keeps a tip from sliding.
+    // For a guided needle, add the depth, and the tangential force of a tip that does not slide.
     let depth = chain.needle.as_ref().map(|needle| needle.depth);
     coordinates.extend(depth);
     let of_needle = chain.needle_in_stiffness(state).into_iter();
     forces.extend(of_needle.filter(|f| Some(*f) != depth && !chain.constraints().contains(f)));
-    // The balance of the needle itself has the opposite sign.
+    // The equilibrium equations of needle and scales have opposite signs.
     if let Some(row) = depth {
         dense.row_mut(row).neg_mut();
     }
@@ -418,7 +424,7 @@ fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     on_coordinates.select_columns(&coordinates) - on_coordinates.select_columns(&forces) * by_forces
 }
 
-/// Counts the negative eigenvalues of a dense stiffness orthogonal to a direction.
+/// Counts the negative eigenvalues of a dense stiffness, for motions orthogonal to `held`.
 fn negative_eigenvalues(stiffness: &DMatrix<f64>, held: Option<&DVector<f64>>) -> usize {
     let symmetric = 0.5 * (stiffness + stiffness.transpose());
     let n = symmetric.nrows();
@@ -428,12 +434,15 @@ fn negative_eigenvalues(stiffness: &DMatrix<f64>, held: Option<&DVector<f64>>) -
     );
     let eigenvalues = (&projection * symmetric * &projection).symmetric_eigenvalues();
     let largest = eigenvalues.amax();
-    // A tiny compliance of either sign stands for a rigid contact, so huge eigenvalues are no
-    // motions.
+    // The small compliance of a rigid contact gives a huge eigenvalue of either sign, which is not
+    // an unstable motion.
     eigenvalues.iter().filter(|value| (-RIGID..-1e-13 * largest).contains(*value)).count()
 }
 
-/// Compares half-way between points, because eigenvalues vanish at load extrema.
+/// Compares `Chain::instability` with the dense stiffness along a path.
+///
+/// The points are half-way between points of the path, because an eigenvalue is zero at a load
+/// extremum. `compared` collects the numbers of negative eigenvalues.
 fn compare_instability(path: Continuation<Chain>, compared: &mut HashSet<(usize, usize, usize)>) {
     for_segments(path, |path, from, to| {
         let Some(point) = path.between(from, to, 0.5) else { return };
@@ -462,14 +471,15 @@ fn compare_instability(path: Continuation<Chain>, compared: &mut HashSet<(usize,
     });
 }
 
-/// Paths to 40° pass through snaps.
+/// Covers stable and unstable states on paths to 40°, which contain snaps.
 ///
-/// They run on finite rows and on a part of an endless one, with nearest and full coupling. The
-/// contacts are soft enough for an accurate dense stiffness.
+/// The rows are finite, or part of a row without ends, with nearest and full coupling. The contacts
+/// are soft enough for an accurate dense stiffness.
 #[test]
 fn negative_eigenvalues_match_the_dense_stiffness() {
     let mut compared = HashSet::new();
-    // Solve each design on a finite and on an endless row; two designs have full coupling.
+    // Solve each design on a finite and on an endless row: one of them with nearest coupling, the
+    // other with full coupling.
     for (design, modulus, is_full) in
         [(LIVELY, 30.0, true), (FOLDING, HARD, false), (SLIDING, 300.0, true), (STEEP, HARD, false)]
     {
@@ -497,7 +507,7 @@ fn negative_eigenvalues_match_the_dense_stiffness() {
     }
 }
 
-/// The record assumes zero counts until the load turns back.
+/// `SnapObserver` relies on this and counts no negative eigenvalues before the load decreases.
 #[test]
 fn a_row_is_stable_until_the_load_decreases() {
     for design in [LIVELY, FOLDING, SLIDING, STEEP, DOMINO] {

@@ -1,8 +1,8 @@
-//! Measures at each of several critical tilts of a path.
+//! Measures of one path at each of several critical tilts.
 //!
-//! This module does not end the path. The largest critical tilt does: it is the target of the solver
-//! in `system.rs`, or for a guided needle a constraint in `needle/forces.rs`. `Case::punctured` in
-//! `study/sweep` derives the tilts of a free needle from its friction.
+//! The path ends at the largest critical tilt, which is the target of the solver in `system.rs`, or
+//! for a guided needle a constraint in `needle/forces.rs`. `Case::punctured` in `study/sweep`
+//! derives the tilts of a free needle from its friction.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,11 +12,11 @@ use crate::contacts::SkinState;
 /// Measures of a puncture at one of several critical tilts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TiltMeasures {
-    /// `F*`.
+    /// Load `F*`.
     pub force: f64,
-    /// `u*` of the loaded point.
+    /// Depth `u*` of the loaded point.
     pub displacement: f64,
-    /// Depth of the deepest base corner of any scale, over `t`.
+    /// Depth of the deepest base corner of any scale, in units of `t`.
     pub penetration: f64,
 }
 

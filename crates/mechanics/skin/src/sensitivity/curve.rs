@@ -9,23 +9,25 @@ use crate::record::Skin;
 /// A point of a curve `y(x)` at a chosen `x`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurvePoint {
-    /// `y`.
+    /// Value `y` of the curve.
     pub value: f64,
-    /// `dy/dx` along the curve.
+    /// Slope `dy/dx` along the curve.
     pub slope: f64,
-    /// `∂y/∂q` at constant `x` per variation; `None` if unknown.
+    /// Derivative `∂y/∂q` at constant `x` for each parameter `q`; `None` if unknown.
     ///
-    /// At a kink it is the mean of both sides.
+    /// At a kink it is the mean of both one-sided derivatives.
     pub rates: Vec<Option<f64>>,
 }
 
-/// A curve: `x` and `y` as functions of system and state.
+/// A curve `y(x)` along a path: the functions that evaluate `x` and `y` at a state.
 pub(crate) type Curve<S> = [ValueOf<S>; 2];
 
-/// Fraction of a path unit over which the slope of a curve is differenced.
+/// Multiple of the path direction, to each side, over which the slope of a curve is differenced.
 const ALONG: f64 = 1e-5;
 
-/// Evaluates a curve at an equilibrium, with derivatives for `variations`.
+/// Evaluates a curve at an equilibrium.
+///
+/// The result holds one derivative for each parameter in `variations`.
 pub(crate) fn curve_point<S: Skin>(
     system: &S,
     point: &SkinPoint,
@@ -35,19 +37,19 @@ pub(crate) fn curve_point<S: Skin>(
 ) -> CurvePoint {
     let Equilibrium { state, arriving, .. } = point;
     let [rise_x, rise_y] = curve.map(|f| {
-        // At a kink the point belongs to the incoming segment.
+        // At a kink of the path the point belongs to the incoming segment.
         let [before, after] =
             [-ALONG, ALONG].map(|by| f(system, &state.moved(by, arriving), arriving, 0));
         after - before
     });
     let slope = rise_y / rise_x;
-    // Anchor the point to its section of the path, where it moves little even at turning points of
-    // the curve; then correct along the curve to the same `x`.
+    // Keep the point in a section across the path, so that it moves little even where the curve
+    // turns back. The slope of the curve then corrects the change of `y` to constant `x`.
     let anchored = AnchoredPoint::arriving(point, PathAnchor::Still);
     let point =
         MeasuredPoint::new(Some(anchored), [quantity("x", curve[0]), quantity("y", curve[1])]);
     let found = derivatives(system, vec![point], variations, settings);
-    // At a singular tangent there are no derivatives at all.
+    // At a singular tangent `found` is empty, and all rates remain `None`.
     let mut rates = vec![None; variations.len()];
     let (of_x, of_y) = found.split_at(found.len() / 2);
     for (rate, (x, y)) in rates.iter_mut().zip(of_x.iter().zip(of_y)) {

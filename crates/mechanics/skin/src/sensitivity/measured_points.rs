@@ -1,4 +1,4 @@
-//! Points of a path at which measures are taken.
+//! Points of a path at which measures are evaluated: start, end, first contact, maxima.
 
 use solver::{
     AnchoredPoint, Change, Continuation, Equilibrium, Event, Newton, PathAnchor, Settings, State,
@@ -8,14 +8,14 @@ use solver::{
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 
-/// Guards (N5) smaller than this have vanished.
+/// Magnitude below which a guard (N5) counts as zero.
 const VANISHED: f64 = 1e-8;
 
-/// Returns the start of a path.
+/// Returns the start of a path, the state of rest.
 pub(crate) fn rest<S: System>(system: &S) -> AnchoredPoint<S::Mode> {
     let control = system.controls()[0];
     let mut direction = vec![0.0; system.size()];
-    // The direction only chooses the section; the linearisation computes the actual one.
+    // This direction only defines the section; the linearisation computes the path direction.
     direction[control.index] = control.scale;
     AnchoredPoint { state: State::at_rest(system), direction, anchor: PathAnchor::Still }
 }
@@ -26,38 +26,39 @@ pub(crate) fn end<S: System>(path: &Continuation<S>) -> AnchoredPoint<S::Mode> {
     AnchoredPoint { state, direction: leaving, anchor: PathAnchor::Target }
 }
 
-/// Returns the first contact.
+/// Returns the state at first contact, with all contacts still open.
 ///
-/// It ends the part of the path with all contacts open.
+/// `None` if no contact closes at `point`, or if the needle changes there, too.
 pub(crate) fn first_contact<S: Skin>(
     system: &S,
     point: &SkinPoint,
 ) -> Option<AnchoredPoint<S::Mode>> {
     let Some(Event::Changed(changes)) = &point.event else { return None };
     let contacts = &system.contacts().forces;
-    // One guard anchors the point; contacts that close simultaneously show up as violated.
+    // The guard of one closing contact anchors the point. Other contacts that close simultaneously
+    // are found as violated constraints.
     let constraint = changes.iter().find(|change| change.activated)?.constraint;
     if changes.iter().any(|change| change.constraint >= contacts.len()) {
-        // The needle changes together with the contact, and its previous state is unknown here.
+        // The needle changes together with the contact. Its state before the event is unknown here.
         return None;
     }
-    // The recorded point has the state after the event. Restore the state before it: all contacts
-    // open, with the gap as guard.
+    // The recorded point has the state after the event. Restore the state before the event: all
+    // contacts are open, and the guard of the closing contact is its gap.
     let mut state = SkinState::at_rest(system);
     state.z.clone_from(&point.state.z);
     for &force in contacts {
         state.z[force] = 0.0;
     }
-    // Only contacts between scales are undone; the needle keeps its state.
+    // Only contacts between scales are reset; the needle keeps its state.
     state.mode.needle = point.state.mode.needle.clone();
     state.active[contacts.len()..].copy_from_slice(&point.state.active[contacts.len()..]);
     let direction = point.arriving.clone();
     Some(AnchoredPoint { state, direction, anchor: PathAnchor::Guard(constraint) })
 }
 
-/// Returns the point of the largest value of a function on a path.
+/// Returns the point at which a function `f` has its maximum on a path, with its anchor.
 ///
-/// `None` if its location is unknown.
+/// `None` if `summit` is `None` or the point cannot be anchored.
 pub(crate) fn summit<S: Skin>(
     summit: Option<&Summit<S::Mode>>,
     path: &mut Continuation<S>,
@@ -67,26 +68,25 @@ pub(crate) fn summit<S: Skin>(
     let summit = summit?;
     let Equilibrium { state, arriving, leaving, event } = &*summit.point;
     let control = path.system().controls()[0];
-    // At the end of the path the target, or a constraint that ends it, anchors the point instead of
-    // an extremum.
+    // A maximum at the target of the path is anchored by the target, not by a vanishing slope.
     let is_target = *event == Some(Event::Target)
         || ((state.z[control.index] / control.scale).abs() - 1.0).abs() < VANISHED;
     let still = AnchoredPoint::arriving(&summit.point, PathAnchor::Still);
     match (event, &summit.before) {
-        // Between points the function is smooth, so refine the point until it is stationary.
+        // Between points the function is smooth, so refine the point until its slope vanishes.
         _ if summit.is_inside => still.stationary(path.system(), &f, settings),
-        // Only the start of a path has no previous point.
+        // A point without a previous point is the start of the path.
         (_, None) => Some(AnchoredPoint { direction: leaving.clone(), ..still }),
         _ if is_target => Some(AnchoredPoint { anchor: PathAnchor::Target, ..still }),
         (Some(Event::Changed(changes)), Some(before)) => {
             let [arrives, leaves] = [arriving, leaving].map(|v| f(path.system(), state, v));
-            // The larger value is after the event, so use the outgoing state.
+            // The outgoing direction gives the larger value, so use the state after the event.
             if leaves >= arrives {
                 let anchor = PathAnchor::Guard(vanished(path.system(), state, changes)?);
                 return Some(AnchoredPoint { direction: leaving.clone(), anchor, ..still });
             }
-            // The larger value is before the event. The recorded point has lost that active set, so
-            // solve for the equilibrium again.
+            // The incoming direction gives the larger value. The recorded point has the active set
+            // after the event, so solve for the equilibrium with the active set before the event.
             let Equilibrium { state, arriving, .. } = path.between(before, &summit.point, 1.0)?;
             let anchor = PathAnchor::Guard(vanished(path.system(), &state, changes)?);
             Some(AnchoredPoint { state, direction: arriving, anchor })
@@ -95,10 +95,10 @@ pub(crate) fn summit<S: Skin>(
     }
 }
 
-/// Returns the point at which a quantity turns back.
+/// Returns the point of a path at which a quantity has an extremum, with its anchor.
 ///
-/// It is anchored to the contact that changes there, or else to the vanishing rate with this
-/// `number`.
+/// If a contact changes at the point, the anchor is the guard of this contact. Otherwise it is the
+/// vanishing [rate](System::rate) with this `number`.
 pub(crate) fn turn<S: Skin>(
     system: &S,
     point: &SkinPoint,
@@ -112,21 +112,22 @@ pub(crate) fn turn<S: Skin>(
     Some(AnchoredPoint { state: state.clone(), direction: leaving.clone(), anchor })
 }
 
-/// Returns true if the target or a contact change fixes a point.
+/// Returns true if the position of a point on the path is fixed by a condition.
 ///
-/// Otherwise the point is a smooth maximum, which a parameter moves along the path.
+/// Conditions are the target, a marker, a vanishing rate or a contact change. Returns false for a
+/// point that only stays in its section.
 pub(crate) fn is_held<S: Skin>(system: &S, point: &AnchoredPoint<S::Mode>) -> bool {
     match point.anchor {
         PathAnchor::Still => false,
         PathAnchor::Target | PathAnchor::Marker(_) | PathAnchor::Stationary(_) => true,
-        // A nonzero guard is only a section through the path.
+        // A guard that is not zero at the point only defines a section across the path.
         PathAnchor::Guard(constraint) => {
             Newton::guards(system, &point.state)[constraint].abs() < VANISHED
         }
     }
 }
 
-/// Finds the vanishing guard at an event, among the changed contacts.
+/// Finds the constraint of a changed contact with a vanishing guard at an event.
 pub(crate) fn vanished<S: Skin>(
     system: &S,
     state: &SkinState,
@@ -136,7 +137,7 @@ pub(crate) fn vanished<S: Skin>(
         && !change.activated
         && system.monotone().contains(&change.constraint)
     {
-        // Slip stops where its rate vanishes, which is no guard.
+        // A contact stops slipping where its slip rate vanishes, and this rate is not a guard.
         return None;
     }
     let guards = Newton::guards(system, state);
@@ -144,11 +145,11 @@ pub(crate) fn vanished<S: Skin>(
     let vanished = (0..guards.len())
         .filter(|&constraint| {
             let (contact, _) = contacts.contact_of(constraint);
-            // A change of one force may make another force of the same contact vanish.
+            // The vanishing guard may belong to another force of a contact that changed.
             changes.iter().any(|change| contacts.contact_of(change.constraint).0 == contact)
         })
         .filter(|&c| guards[c].abs() < VANISHED);
-    // A slip distance that starts at the event has an origin that moves with the event.
+    // Skip a slip distance: it counts from the event, so its guard is zero wherever the event is.
     let known = vanished.filter(|&c| !contacts.slips(state, c));
     known.min_by(|&a, &b| {
         let friction_last = contacts.is_friction(a).cmp(&contacts.is_friction(b));

@@ -1,4 +1,4 @@
-//! The assembled chain against the unit cell.
+//! Compares the assembled chain of all gaps with the unit cell of one gap.
 
 use approx::assert_relative_eq;
 use contact::Law;
@@ -8,9 +8,7 @@ use skin::{Base, Common, Design, Status};
 
 use crate::samples::{LAWS, forty, with_law};
 
-/// End rotations of the comparison in degrees, over the whole path.
-///
-/// Some are just after the contacts.
+/// End rotations in degrees at which states are compared; some are just after a contact closes.
 const AT: [f64; 12] = [1.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0, 175.0, 180.0];
 
 fn compare(design: &Design, law: Law) -> usize {
@@ -62,9 +60,10 @@ fn chain_and_unit_cell_have_equal_measures() {
     }
 }
 
-/// Gaps of a chain far above its membrane snap back and forth one by one, without progress.
+/// In a chain with its bases far above the membrane, gaps open and close in turn, so that the
+/// rotation makes no progress.
 #[test]
-fn a_chain_that_goes_to_and_fro_ends() {
+fn a_chain_without_progress_stops_as_locked() {
     let design = Design {
         gap: 0.028_267_519_146_269_48,
         length: 1.347_354_718_232_657,

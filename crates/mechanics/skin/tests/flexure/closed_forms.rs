@@ -1,4 +1,4 @@
-//! Bending up to the first contact, against [`analytical::upright_blocks`].
+//! Compares bending up to first contact with the closed forms of [`analytical::upright_blocks`].
 
 use analytical::upright_blocks::{
     CONTACT_MOMENT, contact_curvature, contact_moment_of_polygon, moment_over_curvature,
@@ -10,7 +10,7 @@ use skin::{Base, Common, ContactChange};
 use crate::samples::{design, forty, in_small_steps};
 
 #[test]
-fn before_contact_the_moment_is_the_curvature_times_pitch_over_gap() {
+fn the_moment_before_contact_is_the_curvature_times_pitch_divided_by_gap() {
     let mut compared = 0;
     for design in forty() {
         let pitch = design.row().unwrap().pitch();
@@ -28,7 +28,9 @@ fn before_contact_the_moment_is_the_curvature_times_pitch_over_gap() {
     assert!(compared > 400, "{compared}");
 }
 
-/// Upright blocks on a strip short enough for contact, with this mesh in each gap.
+/// Bends upright blocks on a strip of length 4, with the given membrane mesh in each gap.
+///
+/// On this short strip the blocks touch before the end of bending.
 fn blocks(gap: f64, length: f64, elements_per_gap: MembraneMesh) -> Flexure {
     let parameters = FlexureParameters {
         membrane_length: 4.0,

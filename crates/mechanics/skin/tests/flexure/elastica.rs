@@ -1,6 +1,7 @@
-//! Bending against reference strips, solved as extensible elastica by collocation.
+//! Compares bending with reference strips with a membrane that is an extensible elastica.
 //!
-//! `tests/reference/elastica.csv` contains the values and describes their computation.
+//! A separate program solved the reference strips by collocation. `tests/reference/elastica.csv`
+//! contains the values and describes their computation.
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
@@ -66,7 +67,7 @@ fn seventy_designs_match_the_elastica() {
     });
 }
 
-/// The error of the elements is proportional to the square of their length.
+/// Checks that the error of co-rotational elements is proportional to the square of their length.
 #[test]
 fn elements_converge_quadratically() {
     for reference in references().iter().step_by(7) {
@@ -79,9 +80,9 @@ fn elements_converge_quadratically() {
     }
 }
 
-/// `(d, L, gaps, C_f*, M* at the end)` for designs with a slant of 75°.
+/// Tuples `(d, L, gaps, C_f*, M* at the end)` for designs with a slant of 75°.
 ///
-/// One element per gap, the former default, on whole gaps.
+/// The values were computed with one co-rotational element in each gap.
 const ONE_ELEMENT: [(f64, f64, usize, f64, f64); 6] = [
     (0.2, 0.6, 125, 0.000_043_226_402_372_231_1, 896.124_183_604_776_7),
     (0.4, 0.2, 167, 0.000_567_246_544_534_441_5, 26.581_881_174_697_386),
@@ -92,7 +93,7 @@ const ONE_ELEMENT: [(f64, f64, usize, f64, f64); 6] = [
 ];
 
 #[test]
-fn one_element_reproduces_the_first_tables() {
+fn results_with_one_element_match_stored_values() {
     for (gap, length, gaps, compliance, end_moment) in ONE_ELEMENT {
         let design = Design { gap, length, slant_deg: 75.0, base: Base::L, width: 1.0 };
         let parameters = FlexureParameters {

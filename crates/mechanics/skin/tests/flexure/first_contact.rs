@@ -1,4 +1,4 @@
-//! Curvature of first contact: closed form against solved strips.
+//! Compares the closed form of the curvature of first contact with solved strips.
 
 use proptest::prelude::*;
 use skin::flexure::{self, FlexureParameters, contact_curvature};
@@ -9,7 +9,7 @@ fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
 }
 
 #[test]
-fn upright_scales_touch_where_the_radius_is_their_height() {
+fn upright_scales_touch_when_the_bend_radius_equals_their_height() {
     for (membrane_axis_offset, curvature) in [(0.0, 0.1 / 1.1), (0.25, 0.1 / 1.25 / 1.1)] {
         let parameters = FlexureParameters { membrane_axis_offset, ..Default::default() };
         let touching = contact_curvature(&design(0.1, 1.0, 0.0), &parameters).expect("a design");
@@ -29,9 +29,9 @@ fn a_slight_slant_hardly_changes_first_contact() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// On a strip long enough for contact, scales touch at the closed-form curvature.
+    /// On short strips all scales touch, at the curvature of the closed form.
     ///
-    /// On the default strip they touch there or never.
+    /// On the long default strip they touch at this curvature, or bending ends before contact.
     #[test]
     fn closed_form_matches_the_first_contact_of_solved_strips(
         gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0, offset in 0.0_f64..0.3,
@@ -55,9 +55,9 @@ proptest! {
         }
     }
 
-    /// Bending to the outside opens the gaps, so only the membrane bends.
+    /// If the strip bends with its scales on the outside, gaps open and only the membrane bends.
     #[test]
-    fn bending_to_the_outside_opens_the_gaps(gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0) {
+    fn bending_with_scales_on_the_outside_opens_the_gaps(gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0) {
         let design = design(gap, length, slant);
         let parameters = FlexureParameters { max_end_rotation_deg: -180.0, ..Default::default() };
         let solved = flexure::solve(&design, &Common::default(), &parameters).expect("a strip");

@@ -1,4 +1,6 @@
-//! Strips with friction, against two penalty programs with return mapping.
+//! Compares strips with friction with two independent programs, and checks related special cases.
+//!
+//! The independent programs model contact by penalty springs, and friction by return mapping.
 
 use approx::assert_relative_eq;
 use skin::flexure::{FlexureInput, FlexureParameters, MembraneMesh, solve, unloading_curve};
@@ -7,9 +9,9 @@ use solver::Settings;
 
 use crate::samples::design;
 
-/// Moments at the end of bending, with one linear element per gap.
+/// Compares moments at the end of bending, with one co-rotational element in each gap.
 ///
-/// In all cases but the last contacts slip at the end.
+/// In all cases with friction but the last, contacts slip at the end.
 #[test]
 fn end_moments_with_friction_match_two_programs() {
     let moments = [
@@ -50,9 +52,9 @@ fn unloading_curves_lie_on_the_unloading_path() {
     }
 }
 
-/// Corners of upright scales that meet with friction may stick without a closing event.
+/// With friction, corners of upright scales that meet may stick without a closing event.
 #[test]
-fn meeting_corners_with_friction_are_a_contact() {
+fn corners_that_meet_with_friction_count_as_contact() {
     for (gap, length, friction) in [(0.0208, 0.165, 0.24), (0.2533, 3.391, 0.17)] {
         for max_step in [0.2, 0.1, 0.05, 0.04, 0.02] {
             let solver = Settings { max_step, ..Settings::default() };

@@ -1,4 +1,4 @@
-//! Strips with unequal gaps: gap by gap against the assembled chain.
+//! Compares separately solved gaps of imperfect strips with the assembled chain.
 
 use contact::Law;
 use skin::flexure::{self, BentSample, FlexureParameters, MembraneMesh};
@@ -13,7 +13,9 @@ struct Uneven {
     imperfection: Imperfection,
 }
 
-/// Scales as long as thick, gaps a tenth; nine gaps bent until all are closed.
+/// Returns a strip of nine gaps that is bent until all gaps are closed.
+///
+/// Its scales are as long as thick, and its gaps a tenth of the thickness.
 fn slanted() -> Uneven {
     let design = Design { gap: 0.1, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
     let parameters = FlexureParameters {
@@ -26,7 +28,7 @@ fn slanted() -> Uneven {
 }
 
 impl Uneven {
-    /// Bends a sample gap by gap, and as a chain.
+    /// Bends a sample with separately solved gaps, and as a chain.
     fn bent(&self, seed: u64) -> [BentSample; 2] {
         let Self { design, common, parameters, imperfection } = self;
         let sample = imperfection.sample(design, seed, 1).unwrap();
@@ -36,7 +38,7 @@ impl Uneven {
     }
 }
 
-/// Computes the largest relative difference of any measure but the dissipation.
+/// Computes the largest relative difference of all measures except the dissipation.
 fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
     let [ours, theirs] = [gaps, chain].map(|bent| {
         let m = bent.measures;
@@ -60,18 +62,18 @@ fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// The seeds were not used for tuning.
+/// Solver parameters were not tuned with the seeds of this test.
 #[test]
-fn gap_by_gap_matches_the_chain() {
+fn separately_solved_gaps_match_the_chain() {
     let slanted = slanted();
     let Uneven { design, parameters, .. } = slanted;
     let steep = Design { gap: 0.1, length: 0.1, slant_deg: 75.0, ..design };
     let cases = [
         Uneven { imperfection: Imperfection { gap_cv: 0.2, slant_sd_deg: 0.0 }, ..slanted },
         Uneven { imperfection: Imperfection { gap_cv: 0.0, slant_sd_deg: 0.5 }, ..slanted },
-        // All gaps close at the same moment.
+        // Upright scales: all gaps close at the same moment.
         Uneven { design: Design { slant_deg: 0.0, ..design }, ..slanted },
-        // Corners pass each other.
+        // Steep scales: corners pass each other.
         Uneven {
             design: steep,
             parameters: FlexureParameters { max_end_rotation_deg: 30.0, ..parameters },
@@ -88,7 +90,7 @@ fn gap_by_gap_matches_the_chain() {
             },
             ..slanted
         },
-        // Nothing touches when bending to the outside.
+        // Bending with scales on the outside: no contact.
         Uneven {
             parameters: FlexureParameters { max_end_rotation_deg: -18.0, ..parameters },
             ..slanted
@@ -98,8 +100,7 @@ fn gap_by_gap_matches_the_chain() {
         for seed in [3, 71] {
             let [gaps, chain] = case.bent(seed);
             assert_eq!([gaps.status, chain.status], [Status::Complete; 2], "{number} {seed}");
-            // Guards against the fallback to the chain, which is used if gaps cannot be solved
-            // separately.
+            // Equal numbers of points would mean that `bend_sample` fell back to the chain.
             assert_ne!(gaps.points, chain.points, "{number} {seed}");
             let difference = difference([&gaps, &chain]);
             assert!(difference < 1e-8, "{number} {seed}: {difference:e}");
@@ -107,9 +108,9 @@ fn gap_by_gap_matches_the_chain() {
     }
 }
 
-/// Dissipation and stick–slip transitions agree within the resolution of the steps.
+/// Dissipation and stick–slip transitions agree up to the error of the step size.
 #[test]
-fn gap_by_gap_with_friction_matches_the_chain() {
+fn separately_solved_gaps_with_friction_match_the_chain() {
     let slanted = slanted();
     let solver = solver::Settings { first_step: 0.02, max_step: 0.02, ..slanted.common.solver };
     for friction in [0.1, 0.25] {
@@ -126,16 +127,16 @@ fn gap_by_gap_with_friction_matches_the_chain() {
     }
 }
 
-/// Falls back to the assembled chain, whatever its result.
+/// If gaps cannot be solved separately, the result is the result of the chain, complete or not.
 #[test]
-fn interacting_gaps_fall_back_to_the_chain() {
+fn strips_that_cannot_be_solved_separately_fall_back_to_the_chain() {
     let slanted = slanted();
     let unloading = FlexureParameters { unload: true, ..slanted.parameters };
     let [gaps, chain] = Uneven { parameters: unloading, ..slanted }.bent(3);
     assert_eq!(gaps.measures, chain.measures);
     assert!(gaps.measures.remains.loop_work.is_some());
-    // Initially soft contacts that stiffen soon: the strip is stiffest between events. Steep scales
-    // slide off each other, so the moment decreases.
+    // Soft contacts that stiffen under load: the strip is stiffest between two events. In the
+    // second case steep scales slide off each other, so the moment decreases.
     let steep = Design { gap: 0.2, length: 0.5, slant_deg: 80.0, ..slanted.design };
     let far = FlexureParameters { max_end_rotation_deg: 80.0, ..slanted.parameters };
     let soft = Common { law: Law::EXCHANGED, ..slanted.common };

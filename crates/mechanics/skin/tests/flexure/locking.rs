@@ -1,6 +1,6 @@
-//! Strips locked by friction, and a beam with plates on torsional springs.
+//! Compares the locking of strips by friction with a beam that carries plates on torsional springs.
 //!
-//! The beam is [`analytical::rotating_plates`].
+//! [`analytical::rotating_plates`] models this beam.
 
 use analytical::rotating_plates;
 use skin::flexure::{FlexureParameters, solve};
@@ -8,12 +8,13 @@ use skin::{Base, Common};
 
 use crate::samples::design;
 
-/// Increasing coefficients of friction, starting with smooth plastic.
+/// Increasing coefficients of friction; the smallest one is the value of smooth plastic.
 const FRICTIONS: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.5];
 
-/// Checks the trend shared by both models: more friction locks earlier.
+/// Checks that more friction locks a strip or beam earlier, as both models predict.
 ///
-/// Above some coefficient of friction, scales lock at first contact.
+/// `locks` are the curvatures (or angles) of locking for [`FRICTIONS`], and `touch` is the value at
+/// first contact. Above some coefficient of friction, scales lock at first contact.
 #[track_caller]
 fn locks_earlier(locks: &[Option<f64>], touch: f64) {
     let found: Vec<f64> = locks.iter().copied().skip_while(Option::is_none).flatten().collect();

@@ -1,4 +1,4 @@
-//! Every design of the reference study completes bending.
+//! Bending of all designs of the reference study, and strips that stop early.
 
 use rayon::prelude::*;
 use skin::flexure::{FlexureParameters, MembraneMesh, solve};
@@ -7,7 +7,7 @@ use skin::{Base, Common, Status};
 use crate::samples::{BASES, LAWS, design, in_small_steps, reference_study, with_law};
 
 #[test]
-fn the_reference_study_completes_with_either_law() {
+fn every_design_of_the_reference_study_completes_with_both_contact_laws() {
     for base in BASES {
         for law in LAWS {
             let touching: usize = reference_study(base)
@@ -24,7 +24,7 @@ fn the_reference_study_completes_with_either_law() {
     }
 }
 
-/// The three gaps rotate until a corner slides beyond the upper end of a side.
+/// The gaps of this strip rotate until a corner slides beyond the upper end of a side.
 #[test]
 fn a_contact_beyond_its_edge_fails_the_audit() {
     let parameters = FlexureParameters { gaps: Some(3), ..FlexureParameters::default() };
@@ -34,11 +34,10 @@ fn a_contact_beyond_its_edge_fails_the_audit() {
     assert_eq!(flexure.measures.max_moment, None);
 }
 
-/// A strip locked by flush sides has no compliance.
+/// Steep scales on a membrane far below their bases rotate until a side lies flush with a base.
 ///
-/// On a membrane far below their bases steep scales rotate until a side is flush with a base. There
-/// the moment grows without rotation, so the compliance is undefined and the path stops before the
-/// moment of contact.
+/// There the moment grows without rotation, so the compliance is undefined. The last recorded point
+/// lies shortly before the `moment` at which the side becomes flush.
 #[test]
 fn a_strip_locked_by_flush_sides_has_no_compliance() {
     for (design, gaps, moment) in [
@@ -47,9 +46,9 @@ fn a_strip_locked_by_flush_sides_has_no_compliance() {
     ] {
         let parameters = FlexureParameters {
             gaps: Some(gaps),
-            // Resolution matters here: with four elements or the elastica the tip of the first
-            // strip never reaches the neighbour's corner, so the strip bends to the end; the second
-            // becomes flush at another moment.
+            // The result depends on the resolution. With four elements or the elastica, the first
+            // strip bends to the end without flush sides, and the second strip becomes flush at
+            // another moment.
             elements_per_gap: MembraneMesh::Elements(1),
             membrane_axis_offset: 1.0,
             ..FlexureParameters::default()

@@ -1,4 +1,4 @@
-//! The compliance does not depend on the step size.
+//! Checks that the compliance does not depend on step size and tolerance.
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
@@ -25,7 +25,7 @@ fn steps_ten_times_smaller_give_the_same_compliance() {
     }
 }
 
-/// The requested tolerance is at round-off: Newton's method must detect stagnation.
+/// Newton's method cannot reach this tolerance, so it must stop when residuals stagnate.
 #[test]
 fn a_tolerance_at_round_off_gives_the_same_compliance() {
     let loose = Settings::default();

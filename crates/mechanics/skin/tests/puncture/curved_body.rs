@@ -1,4 +1,4 @@
-//! Rows on convex and concave bodies.
+//! Tests of rows on convex and concave bodies.
 
 use approx::assert_relative_eq;
 use geometry::Body;
@@ -36,7 +36,7 @@ fn critical_force(design: &Design, parameters: &PunctureParameters) -> f64 {
 
 #[test]
 fn forces_agree_with_two_independent_programs() {
-    // A path follower and energy minimisation agree on these values.
+    // Two independent programs, a path follower and an energy minimisation, agree on these values.
     let radii = [f64::INFINITY, 32.0, 16.0, 8.0, 4.0];
     for (design, expected) in [
         (design(0.1, 1.0, 0.0), [0.118, 0.105, 0.092, 0.076, 0.076]),
@@ -48,8 +48,8 @@ fn forces_agree_with_two_independent_programs() {
             assert!((force - expected).abs() < 5.1e-4, "{design:?} R = {radius}: {force}");
         }
     }
-    // On a concave body the faces close. Many scales share the load there, so the force depends on
-    // the length of the row: 3.76 with all scales of the body.
+    // On a concave body gaps are narrow and many scales share the load, so the force depends on the
+    // length of the row. With all scales of the body it is 3.76.
     let design = design(0.1, 0.2, 60.0);
     let flat = critical_force(&design, &on_body(0.0));
     let scales = RowLength::Scales(31);
@@ -59,7 +59,7 @@ fn forces_agree_with_two_independent_programs() {
 }
 
 #[test]
-fn an_isolated_scale_does_not_feel_the_curvature() {
+fn an_isolated_scale_does_not_depend_on_the_curvature() {
     let design = design(0.3, 0.5, 40.0);
     let alone =
         PunctureParameters { scales: RowLength::Scales(1), ..PunctureParameters::default() };
@@ -70,16 +70,16 @@ fn an_isolated_scale_does_not_feel_the_curvature() {
     }
 }
 
-/// The nearest corners of two upright blocks lie symmetrically beside the line between them.
+/// By symmetry the nearest points of two upright blocks on an arc are a pair of corners.
 #[test]
-fn faces_of_upright_blocks_are_apart_as_on_the_arc() {
+fn the_clearance_of_upright_blocks_on_an_arc_matches_a_closed_form() {
     let (gap, length) = (0.3, 0.6);
     let failure = Some(Strengths::default());
     for radius in [16.0_f64, -16.0] {
         let parameters = PunctureParameters { failure, ..on_body(1.0 / radius) };
         let measures = solve(&design(gap, length, 0.0), &parameters).measures;
         let half = 0.5 * (gap + length) / radius.abs();
-        // The nearest corners are the bases on a convex body, and the tops on a concave body.
+        // The nearest corners are at the bases on a convex body, and at the tops on a concave body.
         let corners = if radius > 0.0 { radius } else { -radius - 1.0 };
         let expected = 2.0 * (corners * half.sin() - 0.5 * length * half.cos());
         assert_relative_eq!(measures.failure.clearance.unwrap(), expected, max_relative = 1e-12);
@@ -105,8 +105,8 @@ fn a_vanishing_curvature_converges_to_the_flat_row() {
 }
 
 #[test]
-fn mirrored_loads_need_equal_forces() {
-    // An upright row is its own mirror image.
+fn loads_at_mirrored_positions_need_equal_forces() {
+    // An upright row is symmetric about the middle of the punctured scale.
     let design = design(0.1, 0.6, 0.0);
     for needle_radius in [None, Some(0.1)] {
         for curvature in [0.1, -0.02] {
@@ -120,9 +120,9 @@ fn mirrored_loads_need_equal_forces() {
     }
 }
 
-/// Integrates a function that is given at points, by cubic polynomials through four points each.
+/// Integrates a function given at points `[x, y]`, by cubic polynomials through four points each.
 ///
-/// `breaks` are the abscissas at which derivatives jump; no polynomial spans them.
+/// `breaks` are the abscissas at which derivatives jump; no polynomial extends across a break.
 fn integral(points: &[[f64; 2]], breaks: &[f64]) -> f64 {
     let mut sum = 0.0;
     for k in 0..points.len() - 1 {
@@ -133,7 +133,7 @@ fn integral(points: &[[f64; 2]], breaks: &[f64]) -> f64 {
         let first = if k == 0 || breaks.contains(&from) { k } else { k - 1 };
         let last = if k + 2 == points.len() || breaks.contains(&to) { k + 1 } else { k + 2 };
         let near = &points[first..=last];
-        // Two Gauss points are exact for cubic polynomials.
+        // Two Gauss points integrate a cubic polynomial exactly.
         for side in [-1.0, 1.0] {
             let x = 0.5 * (from + to) + side * 0.5 * (to - from) / 3.0_f64.sqrt();
             sum += 0.5 * (to - from) * lagrange(near, x);
@@ -142,7 +142,7 @@ fn integral(points: &[[f64; 2]], breaks: &[f64]) -> f64 {
     sum
 }
 
-/// Evaluates the polynomial through all points.
+/// Evaluates at `x` the polynomial through all points (Lagrange interpolation).
 fn lagrange(points: &[[f64; 2]], x: f64) -> f64 {
     let mut sum = 0.0;
     for (i, own) in points.iter().enumerate() {
@@ -183,18 +183,21 @@ fn the_work_of_the_load_equals_the_stored_energy() {
     }
 }
 
-/// Two upright blocks on an arc, the left one loaded at its top right corner.
+/// Closed form of two upright blocks on an arc; the left block is loaded at its top right corner.
 ///
-/// Without contact, the springs of two blocks decouple by direction, and the condensed stiffness of
-/// the loaded block is `α − β²/α`. The moment equation gives the force of a tilt.
+/// Before contact the directions decouple, and the stiffness of the loaded block after elimination
+/// of its neighbour is `α − β²/α`. The balance of moments gives the force at a tilt.
 struct TwoBlocks {
+    /// Half-width of a block.
     half: f64,
-    /// Condensed stiffness of the loaded block: vertical, rotation.
+    /// Stiffness of the loaded block after elimination of the neighbour: vertical, rotation.
     stiffness: [f64; 2],
-    /// Displacement of the neighbour over the displacement of the loaded block: vertical, rotation.
+    /// Displacement of the neighbour divided by the displacement of the loaded block: vertical,
+    /// rotation.
     follows: [f64; 2],
-    /// Node of the neighbour, and the angle of its frame.
+    /// Position of the node of the neighbour.
     node: [f64; 2],
+    /// Angle of the frame of the neighbour, radians.
     angle: f64,
 }
 
@@ -218,7 +221,7 @@ impl TwoBlocks {
         }
     }
 
-    /// Returns the distance of the loaded corner from the neighbour, and its displacement.
+    /// Returns the distance of the loaded corner from the neighbour, and its downward displacement.
     fn at_tilt(&self, tilt: f64) -> [f64; 2] {
         let half = self.half;
         let (sin, cos) = tilt.sin_cos();
@@ -234,7 +237,7 @@ impl TwoBlocks {
 }
 
 #[test]
-fn two_upright_blocks_on_an_arc_touch_as_in_closed_form() {
+fn first_contact_of_two_upright_blocks_on_an_arc_matches_the_closed_form() {
     for (gap, length, curvature) in
         [(0.1, 1.0, 0.0), (0.1, 1.0, 0.05), (0.05, 0.4, -0.02), (0.12, 0.8, 0.1)]
     {
@@ -257,7 +260,7 @@ fn two_upright_blocks_on_an_arc_touch_as_in_closed_form() {
 }
 
 #[test]
-fn derivatives_by_curvature_agree_with_differences() {
+fn derivatives_with_respect_to_curvature_agree_with_differences() {
     let mut checked = 0;
     for (design, curvature, needle, needle_radius) in [
         (design(0.2, 0.6, 60.0), 0.0, Needle::Free, None),
@@ -290,7 +293,7 @@ fn derivatives_by_curvature_agree_with_differences() {
     assert!(checked >= 4, "{checked}");
 }
 
-/// Random designs on convex and concave bodies, under both needles.
+/// Draws random designs on convex and concave bodies, with free and guided needles.
 fn random_bodies(count: usize, seed: u64) -> Vec<(Design, PunctureParameters)> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut all = Vec::new();
@@ -318,7 +321,7 @@ fn random_bodies(count: usize, seed: u64) -> Vec<(Design, PunctureParameters)> {
     all
 }
 
-/// Draws a number from a range.
+/// Draws a number from a uniform distribution between `from` and `to`.
 fn draw(random: &mut ChaCha8Rng, from: f64, to: f64) -> f64 {
     Uniform::new(from, to).unwrap().sample(random)
 }
@@ -329,19 +332,19 @@ struct WornSkin {
     design: Design,
     parameters: PunctureParameters,
     friction: f64,
-    /// Thickness of the tissue on a rigid base; a half-space without one.
+    /// Thickness `h/t` of the tissue on a rigid base; `None` for a half-space.
     tissue: Option<f64>,
 }
 
-/// Draws true or false.
+/// Returns true with a probability of one half.
 fn draw_either(random: &mut ChaCha8Rng) -> bool {
     draw(random, 0.0, 1.0) < 0.5
 }
 
-/// Draws skins on convex and concave bodies with radii from 4 t to 64 t.
+/// Draws random skins on convex and concave bodies with radii from 4 t to 64 t.
 ///
-/// Needles are free, guided and round. Every second skin has friction between scales, and one of
-/// `layers` a layer.
+/// Needles are free, guided or round. About half of the skins have friction between scales, and
+/// every skin with a number divisible by `layers` lies on a layer of finite thickness.
 fn random_worn_skins(count: usize, layers: usize) -> Vec<WornSkin> {
     let mut random = ChaCha8Rng::seed_from_u64(52);
     let mut all = Vec::new();
@@ -383,9 +386,9 @@ impl WornSkin {
 }
 
 #[test]
-fn random_worn_skins_end_for_mechanical_reasons() {
-    // A long campaign draws 5,000 designs; 1 in 1,000 may end for a numeric reason. The springs of
-    // layers take most of the time.
+fn random_skins_on_bodies_end_for_mechanical_reasons() {
+    // At most 1 skin in 1,000 may end for a numerical reason. The short test has few layers,
+    // because the computation of their springs takes most of the time.
     let (count, layers) = if long_campaigns() { (5000, 5) } else { (200, 40) };
     let skins = random_worn_skins(count, layers);
     let ends: Vec<_> = skins.par_iter().map(|skin| (skin, skin.status())).collect();
@@ -409,17 +412,17 @@ fn is_numeric(status: Status) -> bool {
 }
 
 #[test]
-fn derivatives_by_curvature_of_random_designs_agree_with_differences() {
+fn curvature_derivatives_of_random_designs_agree_with_differences() {
     let deviations: Vec<_> = random_bodies(50, 7).par_iter().filter_map(deviation).collect();
     let large: Vec<_> = deviations.iter().filter(|(_, deviation)| *deviation > 1e-6).collect();
     assert!(deviations.len() >= 40, "{} of 50 compared", deviations.len());
     assert!(large.is_empty(), "{large:?}");
 }
 
-/// Compares the derivative of the critical force in the curvature with a difference.
+/// Returns the relative deviation between derivative and difference quotient of a design.
 ///
-/// The difference is of fourth order. `None` at kinks, and where the path does not reach the
-/// critical tilt.
+/// Compares the derivative of the critical force with respect to the curvature with a difference
+/// quotient of fourth order. `None` at kinks, and if a path does not reach the critical tilt.
 fn deviation((design, parameters): &(Design, PunctureParameters)) -> Option<(Design, f64)> {
     let footprint = design.footprint(parameters.poisson_ratio).unwrap();
     let stiffness: substrate::RowStiffness = (&substrate::calibrate(&footprint).unwrap()).into();
@@ -439,15 +442,14 @@ fn deviation((design, parameters): &(Design, PunctureParameters)) -> Option<(Des
     for steps in [-2.0, -1.0, 1.0, 2.0] {
         let curvature = parameters.curvature + steps * step;
         let moved = solve(design, &PunctureParameters { curvature, ..*parameters });
-        // A different sequence of contacts means that the force has a kink between the points of
-        // the finite difference.
+        // A different number of events means that the force has a kink within the difference.
         if moved.status != Status::Complete || moved.events.len() != solved.events.len() {
             return None;
         }
         forces.push(moved.measures.critical_force?);
     }
     let difference = (forces[0] - 8.0 * forces[1] + 8.0 * forces[2] - forces[3]) / (12.0 * step);
-    // Forces of scales without contact do not depend on the curvature.
+    // Divide by the force if the derivative is small: without contact it is zero.
     let size = derivative.abs().max(solved.measures.critical_force?);
     Some((*design, (derivative - difference).abs() / size))
 }

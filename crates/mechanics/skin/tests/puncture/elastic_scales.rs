@@ -1,6 +1,7 @@
-//! Elastic scales against finite elements.
+//! Compares elastic scales with finite elements.
 //!
-//! `tests/reference/elastic-scales.csv` contains the values and describes their computation.
+//! `tests/reference/elastic-scales.csv` contains the reference values and describes their
+//! computation.
 
 use skin::puncture::{Bending, PunctureParameters, RowLength, Strengths, solve};
 use skin::{Base, Common, Design};
@@ -8,7 +9,9 @@ use substrate::calibrate;
 
 use super::complete;
 
-/// Depth of a scale over `t`, and the largest difference of force and stress up to it.
+/// Pairs of a depth `h/t` of the scales and the relative deviation accepted up to this depth.
+///
+/// The deviation is between squama and finite elements, in force and stress.
 const BANDS: [(f64, f64); 3] = [(0.2, 0.031), (1.0 / 3.0, 0.056), (1.0, 0.13)];
 
 fn assert_within(part: f64, ours: f64, reference: f64) {

@@ -1,4 +1,4 @@
-//! Paths beyond the largest force.
+//! Tests of paths beyond the largest force.
 
 use approx::assert_relative_eq;
 use contact::Law;
@@ -17,7 +17,7 @@ fn to_tilt(critical_tilt_deg: f64) -> PunctureParameters {
     PunctureParameters { critical_tilt_deg, ..PunctureParameters::default() }
 }
 
-/// The load drops to zero before a tilt of 35° and would become negative.
+/// The load of this design drops to zero before a tilt of 35°, and would then become negative.
 #[test]
 fn a_path_stops_at_zero_load() {
     let design = design(0.6, 1.0, 60.0, Base::L);
@@ -27,7 +27,7 @@ fn a_path_stops_at_zero_load() {
     assert!(last.force.abs() < 1e-14 && last.tilt_deg < 35.0, "{last:?}");
     assert!(puncture.path.iter().skip(1).rev().skip(1).all(|point| point.force > 0.0));
     assert_eq!(measures.critical_force.or(measures.penetration), None);
-    // Up to the tilt of its peak the path coincides with a path that ends there.
+    // A path that ends at the tilt of the peak has the same force there.
     let to_peak = solve(&design, &to_tilt(measures.peak_tilt_deg.unwrap()));
     assert_eq!(to_peak.status, Status::Complete);
     assert_relative_eq!(
@@ -37,9 +37,8 @@ fn a_path_stops_at_zero_load() {
     );
 }
 
-/// The peak does not depend on the end of the path beyond the peak.
 #[test]
-fn the_peak_does_not_depend_on_the_end_of_the_path() {
+fn the_peak_force_does_not_depend_on_the_critical_tilt_beyond_the_peak() {
     let design = design(0.1, 0.5, 45.0, Base::L);
     let peaks = [29.0, 35.0, 60.0].map(|tilt| solve(&design, &to_tilt(tilt)).measures);
     for peak in &peaks {
@@ -53,7 +52,7 @@ fn the_peak_does_not_depend_on_the_end_of_the_path() {
     }
 }
 
-/// A corner slides to the end of its edge under a contact that approaches visibly.
+/// In this design a corner slides to the end of its edge, with a large approach of the contact.
 #[test]
 fn a_sliding_corner_passes_the_end_of_its_edge() {
     let design = Design {
@@ -74,7 +73,7 @@ fn a_sliding_corner_passes_the_end_of_its_edge() {
     assert_eq!(puncture.status, Status::Complete);
 }
 
-/// The corner of a notch with a needle slides off its face, with 90 scales in contact.
+/// In this design 90 scales touch, and a corner at the needle in a notch slides off its face.
 #[test]
 fn a_notch_that_slides_off_its_face_ends_at_a_limit_point() {
     let design = Design {
@@ -98,7 +97,7 @@ fn a_notch_that_slides_off_its_face_ends_at_a_limit_point() {
     assert_eq!(puncture.status, Status::LimitPoint);
 }
 
-/// Solves designs, each to its own tilt, and checks their ends.
+/// Solves designs, each to its own critical tilt, and checks forces and status of their paths.
 fn check(designs: &[(Design, f64)], known: &Calibrations) {
     let solved: Vec<Puncture> = designs
         .par_iter()
@@ -124,9 +123,9 @@ fn steep_designs_never_have_a_negative_load() {
     check(&designs, &Calibrations::default());
 }
 
-/// Rest is a regular point: no path may return to it on any branch or cycle.
+/// The state of rest is a regular point, so a path that returns to it has jumped to another branch.
 ///
-/// Eight designs that did in the past; the whole study with both bases in a long campaign.
+/// Tests eight difficult designs, or in a long campaign the whole reference study.
 #[test]
 fn no_path_returns_to_rest() {
     use SubstrateLaw::{Linear, NeoHookean};
@@ -162,7 +161,7 @@ fn no_path_returns_to_rest() {
     });
 }
 
-/// Tilts from 10° to 45°. Two hundred designs; two thousand in a long campaign.
+/// The critical tilts range from 10° to 45°. A long campaign tests ten times as many designs.
 #[test]
 fn random_designs_never_have_a_negative_load() {
     let designs = random(if long_campaigns() { 2000 } else { 200 }, 7);
@@ -171,12 +170,12 @@ fn random_designs_never_have_a_negative_load() {
     check(&designs, &Calibrations::default());
 }
 
-/// A corner that slides off its edge makes the row snap.
+/// When the corner reaches the end of its edge, load, depth and tilt turn back, and the row snaps.
 ///
-/// Load, depth and tilt turn back there. The location does not depend on the step size, and the
-/// force is lower by `drop` where the depth is as large again.
+/// The snap point does not depend on the step size. After the snap the path reaches the same depth
+/// again with a force that is lower by `drop`.
 #[test]
-fn a_row_snaps_where_a_corner_passes_a_corner() {
+fn a_row_snaps_when_a_corner_reaches_a_corner() {
     let design = design(0.1, 1.0, 45.0, Base::TwoL);
     let fine = Common { solver: finer(finer(Settings::default())), ..Common::default() };
     let puncture = solve_as(&Calibrations::default(), &design, &fine, &to_tilt(10.0));
@@ -204,13 +203,14 @@ fn a_row_snaps_where_a_corner_passes_a_corner() {
     let part =
         (snap.point.displacement - low.displacement) / (high.displacement - low.displacement);
     let landed = low.force + part * (high.force - low.force);
-    // The chord between two points lies slightly off the path.
+    // The tolerance covers the linear interpolation between two points.
     assert_relative_eq!(snap.drop.unwrap(), snap.point.force - landed, max_relative = 5e-3);
     let measures = puncture.measures;
     assert_eq!(measures.depth_stability_force, Some(snap.point.force));
     assert_eq!(measures.load_stability_force, Some(snap.point.force));
     assert_eq!([measures.stable_under_load, measures.stable_under_depth], [Some(true); 2]);
-    // The row is unstable in all controls on the reversed part, and stable elsewhere.
+    // The row is unstable under prescribed load, depth and tilt on the part where the force
+    // decreases, and stable elsewhere.
     let back = behind.take_while(|pair| pair[1].force < pair[0].force).count();
     for (k, instability) in puncture.instability.iter().enumerate() {
         let count = usize::from((at..at + back).contains(&k));
@@ -219,9 +219,8 @@ fn a_row_snaps_where_a_corner_passes_a_corner() {
     }
 }
 
-/// A row snaps exactly where a contact reaches a corner.
 #[test]
-fn rows_snap_exactly_at_corner_events() {
+fn rows_snap_once_for_each_contact_that_reaches_a_corner() {
     let every = if long_campaigns() { 1 } else { 5 };
     let known = Calibrations::default();
     let designs = BASES.map(reference_study).concat();

@@ -1,8 +1,9 @@
-//! Pairs of scales with friction, against enumeration of contact patterns.
+//! Compares pairs of scales with friction with an enumeration of contact patterns.
 //!
-//! In small steps of the tilt, every combination of open, sticking and slipping contacts is tried
-//! until one pattern satisfies all its conditions. Where slip starts or stops within a step,
-//! anchors are off by a fraction of the step, so forces converge with the step size.
+//! A pattern is a combination of open, sticking and slipping contacts. In each small step of the
+//! tilt the reference solver tries all patterns until one of them satisfies all its conditions. If
+//! slip starts or stops within a step, the stick position is wrong by a fraction of the step, so
+//! forces converge with decreasing step size.
 
 use nalgebra::{DMatrix, DVector, Vector2};
 use skin::puncture::{At, PunctureParameters, snapshots};
@@ -13,16 +14,16 @@ use crate::samples::{design, on_row, springs};
 
 type V = Vector2<f64>;
 
-/// State of a contact.
+/// State of a contact in a pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum ContactState {
     Open,
     Stick,
+    /// Slips; the value is the sign of the slip rate.
     Slip(f64),
-    /// Closed, with its friction carried by the sticking contact.
+    /// Closed, but the other (sticking) contact carries the friction of both.
     ///
-    /// Two contacts on parallel edges slide together or not at all. While they stick, only the sum
-    /// of their friction is determined.
+    /// While two contacts on parallel edges stick, only the sum of their friction is determined.
     CarriedByOther,
 }
 
@@ -34,29 +35,34 @@ const STATES: [ContactState; 5] = [
     ContactState::CarriedByOther,
 ];
 
-/// A corner of one scale against an edge of the other.
+/// A contact between a corner of one scale and an edge of the other scale.
 struct Touch {
+    /// Scale with the corner, and position of the corner relative to its node.
     corner: (usize, V),
+    /// Scale with the edge, and position of the lower end of the edge relative to its node.
     edge: (usize, V),
-    /// Outward normal and direction of the edge at rest.
+    /// Outward normal of the edge at rest.
     normal: V,
+    /// Direction of the edge at rest, upward.
     tangent: V,
 }
 
-/// Two scales on springs with the left one loaded.
+/// Two scales on springs; the left scale is loaded.
 struct Pair {
     stiffness: DMatrix<f64>,
+    /// Position of the loaded corner relative to the node.
     arm: V,
     pitch: f64,
     touches: Vec<Touch>,
-    /// `λ₀`, `L` and `C₂` of the contact law.
+    /// Constants `λ₀`, `L` and `C₂` of the contact law.
     law: [f64; 3],
     friction: f64,
 }
 
-/// Displacements and rotations of both scales, load, `λ` and `T` per contact.
+/// Unknowns: displacements and rotations of both scales, load, `λ` and `T` of each contact.
 type Unknowns = DVector<f64>;
 
+/// Index of the load among the unknowns.
 const LOAD: usize = 6;
 
 fn turned(by: f64, v: V) -> V {
@@ -87,8 +93,8 @@ impl Pair {
         let (bottom, top) =
             ([V::new(-a, 0.0), V::new(a, 0.0)], [V::new(shift - a, 1.0), V::new(shift + a, 1.0)]);
         let up = V::new(shift, 1.0).normalize();
-        // The right edge of the left scale faces right, the left edge of the right scale faces
-        // left.
+        // Outward normals: the right edge of the left scale faces right, the left edge of the right
+        // scale faces left.
         let (right, left) = (-quarter(up), quarter(up));
         let touches = [
             ((0, top[1]), (1, bottom[0]), left),
@@ -112,9 +118,10 @@ impl Pair {
             + turned(z[3 * scale + 2], arm)
     }
 
-    /// Computes `(P − E)·v` with derivatives: gap or slip coordinate.
+    /// Computes `(P − E)·v` and its derivatives with respect to the displacements.
     ///
-    /// `v` is a direction of the edge.
+    /// `P` is the corner, `E` the end of the edge, and `v` the deformed `direction`: the normal of
+    /// the edge gives the gap, its tangent the slip coordinate.
     fn along(&self, z: &Unknowns, touch: &Touch, direction: V) -> (f64, DVector<f64>) {
         let (corner, edge) = (touch.corner, touch.edge);
         let v = turned(z[3 * edge.0 + 2], direction);
@@ -201,7 +208,10 @@ impl Pair {
         None
     }
 
-    /// Returns true if a state satisfies the conditions of its pattern.
+    /// Returns true if the state `to`, solved for a pattern, satisfies all conditions of this
+    /// pattern.
+    ///
+    /// `from` is the state at the previous tilt.
     fn holds(&self, from: &Unknowns, to: &Unknowns, states: &[ContactState]) -> bool {
         let shared_force =
             states.iter().enumerate().filter(|(_, state)| **state == ContactState::CarriedByOther);
@@ -227,7 +237,7 @@ impl Pair {
         })
     }
 
-    /// Computes the load at the tilts, and the sequence of patterns.
+    /// Computes the load at the given `tilts`, and the sequence of patterns.
     fn loads(&self, tilts: &[f64], steps: usize) -> (Vec<f64>, Vec<Vec<ContactState>>) {
         let count = self.touches.len();
         let mut z = Unknowns::zeros(LOAD + 1 + 2 * count);
@@ -258,7 +268,9 @@ impl Pair {
     }
 }
 
-/// Compares the loads with the solver: largest relative difference, patterns.
+/// Compares the loads with the loads of the skin solver.
+///
+/// Returns the largest relative difference, and the sequence of patterns.
 fn difference(design: &Design, friction: f64, steps: usize) -> (f64, Vec<Vec<ContactState>>) {
     let parameters = on_row(2);
     let common = Common { friction, ..Common::default() };

@@ -1,4 +1,4 @@
-//! First failure of a row, and the largest stresses along its path.
+//! Tests of the first failure of a row, and of the largest stresses along its path.
 
 use approx::assert_relative_eq;
 use skin::puncture::{
@@ -10,7 +10,7 @@ use substrate::{Calibrations, SubstrateLaw};
 use crate::complete;
 use crate::samples::{design, solve_as, solve_with};
 
-/// Modulus of the polyurethane of the reference study, `MPa`.
+/// Modulus of the polyurethane substrate of the reference study, `MPa`.
 const SUBSTRATE_MPA: f64 = 0.31;
 
 fn parameters(strengths: Strengths) -> PunctureParameters {
@@ -26,9 +26,9 @@ fn failure(design: &Design, parameters: &PunctureParameters) -> FailureMeasures 
     complete(&solve_as(&known, design, &Common::default(), parameters)).failure
 }
 
-/// An independent program found these largest stresses (`MPa`).
+/// Compares the largest stresses (`MPa`) of three designs with an independent program.
 #[test]
-fn strong_designs_of_the_reference_study_would_break_or_bend() {
+fn designs_with_large_critical_forces_bend_or_fold_before() {
     for (gap, length, slant, stress, mode) in [
         (0.1, 0.1, 75.0, 4900.0, FailureMode::Bend),
         (0.1, 0.2, 75.0, 2100.0, FailureMode::Bend),
@@ -39,14 +39,14 @@ fn strong_designs_of_the_reference_study_would_break_or_bend() {
         let stress_mpa = SUBSTRATE_MPA * failure.scale_stress.unwrap();
         assert_relative_eq!(stress_mpa, stress, max_relative = 0.05);
         assert_eq!(failure.mode, Some(mode));
-        // The slender scales would deflect by many times their thickness.
+        // The slender scales of the first two designs deflect by many times the thickness.
         let deflection = failure.scale_deflection.unwrap();
         assert_eq!(deflection > 10.0, mode == FailureMode::Bend, "{deflection}");
     }
 }
 
-/// Before contact the pressure of an upright scale follows from the load and the tilt. The value
-/// of a row ends at its largest force.
+/// The pressure under an isolated upright scale follows from load and tilt in closed form. A row
+/// has no pressure at a force that it does not reach.
 #[test]
 fn the_pressure_at_a_force_belongs_to_the_equilibrium_with_that_force() {
     let known = Calibrations::default();
@@ -55,7 +55,7 @@ fn the_pressure_at_a_force_belongs_to_the_equilibrium_with_that_force() {
     let single = PunctureParameters { scales: RowLength::Scales(1), force: Some(0.01), ..unloaded };
     let puncture = solve_as(&known, &isolated, &Common::default(), &single);
     let tilts = puncture.path.windows(2).find(|pair| pair[1].force >= 0.01).expect("reached");
-    // `F` over `E_s t²` on a base of area 0.5; the tilt lies between the tilts of two points.
+    // Load `F/(E_s t²)` on a base of area 0.5, at the tilts of the points before and after.
     let pressures = [tilts[0].tilt_deg, tilts[1].tilt_deg]
         .map(|tilt| 0.01 * 0.5 / 0.75 * tilt.to_radians().cos() / 0.5);
     let pressure = puncture.measures.tissue_pressure_at_force.expect("reached");
@@ -74,7 +74,7 @@ fn the_pressure_at_a_force_belongs_to_the_equilibrium_with_that_force() {
     assert_eq!(beyond, None);
 }
 
-/// An isolated scale: every value follows from the load and its arm.
+/// For an isolated scale all stresses follow from the load and its arm in closed form.
 #[test]
 fn stresses_of_an_isolated_scale_follow_from_its_load() {
     let upright = Design { width: 2.0, ..design(100.0, 0.5, 0.0, Base::L) };
@@ -83,7 +83,7 @@ fn stresses_of_an_isolated_scale_follow_from_its_load() {
     let known = Calibrations::default();
     let measures = complete(&solve_as(&known, &upright, &Common::default(), &parameters));
     let failure = measures.failure;
-    // F over E_s t²; the tilted scale carries parts of it along and across its axis.
+    // The load `F/(E_s t²)` has components along and across the axis of the tilted scale.
     let force = measures.critical_force.unwrap() * upright.length / 0.75;
     let (sin, cos) = 10_f64.to_radians().sin_cos();
     let (depth, area) = (0.5, 1.0);
@@ -107,9 +107,9 @@ fn stresses_of_an_isolated_scale_follow_from_its_load() {
     assert_eq!((failure.mode, failure.force), (Some(FailureMode::Tilt), measures.critical_force));
 }
 
-/// At half of a largest stress, the path has an earlier failure with exactly that stress.
+/// If a strength is half of the largest stress, the row fails earlier, at exactly this stress.
 #[test]
-fn failures_are_located_where_a_strength_is_reached() {
+fn failures_are_located_at_the_point_where_a_stress_reaches_its_strength() {
     let known = Calibrations::default();
     let design = design(0.3, 0.6, 45.0, Base::L);
     let whole = failure(&design, &parameters(Strengths::default()));
@@ -126,7 +126,7 @@ fn failures_are_located_where_a_strength_is_reached() {
         let failed = failure(&design, &parameters(strengths));
         assert_eq!(failed.mode, Some(mode));
         assert!(failed.force < solved.critical_force, "{failed:?}");
-        // Up to the tilt at the failure, the largest stress equals the strength.
+        // A path that ends at the tilt of the failure has the strength as its largest stress.
         let place = skin::puncture::At::Force(failed.force.unwrap());
         let springs = substrate::calibrate(&design.footprint(0.5).unwrap()).unwrap();
         let at = skin::puncture::snapshots(
@@ -148,7 +148,7 @@ fn failures_are_located_where_a_strength_is_reached() {
         };
         assert_relative_eq!(reached.unwrap(), strength.unwrap(), max_relative = 1e-8);
     }
-    // Requests for failures change nothing else.
+    // Evaluating failures does not change any other measure.
     let plain = PunctureParameters { failure: None, ..parameters(Strengths::default()) };
     let plain = complete(&solve_as(&known, &design, &Common::default(), &plain));
     let without =
@@ -157,12 +157,12 @@ fn failures_are_located_where_a_strength_is_reached() {
 }
 
 #[test]
-fn the_first_of_several_failures_counts() {
-    // This surface folds over before 10°, and its slender scales bend before that.
+fn the_reported_failure_is_the_first_one_on_the_path() {
+    // The surface of this design folds over before 10°, but its slender scales bend even earlier.
     let folding = design(0.1, 0.2, 75.0, Base::L);
     let failed = failure(&folding, &parameters(Strengths::default()));
     assert_eq!(failed.mode, Some(FailureMode::Bend));
-    // Scales of another material are stiffer; then the fold comes first, at the same force.
+    // With stiffer scales the fold is the first failure.
     let stiff = PunctureParameters {
         contact_modulus_over_substrate: 1e9,
         ..parameters(Strengths::default())
@@ -175,7 +175,7 @@ fn the_first_of_several_failures_counts() {
     assert_eq!(failure(&folding, &rubber).mode, Some(FailureMode::Tilt));
 }
 
-/// A round needle on scales of this strength.
+/// Returns parameters of a round needle on scales of the given strength.
 fn round(strength: f64) -> PunctureParameters {
     PunctureParameters {
         needle: Needle::Guided { friction: 0.3 },
@@ -190,18 +190,20 @@ fn a_round_tip_perforates_a_weak_scale() {
     let design = design(0.3, 1.0, 60.0, Base::L);
     let whole = failure(&design, &round(1e6));
     assert_eq!(whole.mode, Some(FailureMode::Tilt));
-    // 3 σ π r² at a third of the last force; the scales themselves do not break at this strength.
+    // Choose the strength so that `3 σ π r²` is a third of the critical force. The scales do not
+    // break at this strength.
     let force = whole.force.unwrap() * design.length / 0.75 / 3.0;
     let strength = force / (3.0 * std::f64::consts::PI * 0.05_f64.powi(2));
     assert!(strength > whole.scale_stress.unwrap(), "{strength} {whole:?}");
     let failed = failure(&design, &round(strength));
     assert_eq!(failed.mode, Some(FailureMode::Perforate));
-    // The needle pushes obliquely: its force exceeds its vertical part.
+    // The force of the needle is oblique, so its vertical component at failure is not exactly a
+    // third of the critical force.
     assert!(failed.force.unwrap() > whole.force.unwrap() / 4.0, "{failed:?} {whole:?}");
     assert!(failed.force.unwrap() < whole.force.unwrap() / 3.0 * 1.2, "{failed:?} {whole:?}");
 }
 
-/// Lists the modes that are judged with these parameters.
+/// Lists the failure modes that are judged with the given parameters.
 fn judged(parameters: &PunctureParameters) -> Vec<FailureMode> {
     let modes = FailureMode::ALL.into_iter();
     modes

@@ -1,7 +1,7 @@
-//! The path up to first contact: a linear chain under a load with a rotating arm.
+//! Compares first contact with a linear chain of springs under a load with a rotating arm.
 //!
-//! The Green's functions of [`analytical::linear_chain`] give all poses as functions of the tilt;
-//! first contact is where a gap closes.
+//! The Green's functions of [`analytical::linear_chain`] give the poses of all scales as functions
+//! of the tilt. First contact is the point at which a gap closes.
 
 use analytical::linear_chain;
 use approx::assert_relative_eq;
@@ -13,7 +13,7 @@ use crate::samples::{design, on_row, solve_with, springs};
 
 const SCALES: usize = 41;
 
-/// Computes depth of the loaded corner and gap to the right neighbour at tilt `ψ`.
+/// Computes the depth of the loaded corner and its gap to the right neighbour at the tilt `ψ`.
 fn before_contact(design: &Design, springs: &Springs, psi: f64) -> [f64; 2] {
     let scale = *design.row().unwrap().scale();
     let a = scale.half_base();
@@ -40,10 +40,10 @@ fn first_contact(design: &Design, springs: &Springs) -> f64 {
     before_contact(design, springs, low)[0]
 }
 
-/// Fig. 6b of Shafiei et al. (2021) shows it at "about 0.08".
+/// Compares the displacement at first contact, also with rounded values.
 ///
-/// That is for `L/t = 1`, `d/t = 0.1` and slants of 0° and 45°. With a base of `L` it is at 0.081
-/// and 0.059, with a base of `2L` at 0.154 and 0.070.
+/// Fig. 6b of Shafiei et al. (2021) shows first contact at "about 0.08", for `L/t = 1`, `d/t = 0.1`
+/// and slants of 0° and 45°. A base of `L` gives 0.081 and 0.059, a base of `2L` 0.154 and 0.070.
 #[test]
 fn first_contact_matches_the_linear_chain() {
     let known = Calibrations::default();

@@ -1,4 +1,4 @@
-//! Folding of the substrate surface, and stretch of its gaps.
+//! Tests of the folding of the substrate surface, and of the stretch of its gaps.
 
 use approx::assert_relative_eq;
 use skin::puncture::{Puncture, PunctureParameters, RowLength};
@@ -9,9 +9,7 @@ use substrate::Calibrations;
 use crate::samples::{LAWS, design, domino, finer, on_row, settled, solve, solve_as};
 use crate::{complete, end};
 
-/// Designs with a surface that folds over before 10°, in one gap or in many.
-///
-/// They belong to the reference study.
+/// Returns designs of the reference study in which the surface folds over before a tilt of 10°.
 fn folded() -> [Design; 5] {
     [
         domino(),
@@ -26,7 +24,7 @@ fn automatic() -> PunctureParameters {
     PunctureParameters { scales: RowLength::Auto, ..PunctureParameters::default() }
 }
 
-/// Computes the stretch of every gap at the path end from the base corners.
+/// Computes the stretch of every gap at the end of the path from the positions of the base corners.
 fn stretches(design: &Design, puncture: &Puncture) -> Vec<f64> {
     let (a, pitch) = (design.half_base(), 2.0 * design.half_base() + design.gap);
     let widths = puncture.scales.windows(2).map(|pair| {
@@ -51,9 +49,9 @@ fn gap_stretches_match_the_base_corners() {
     }
 }
 
-/// Gaps beyond the solved part of an endless row are included.
+/// The measures of an endless row include gaps beyond its solved part.
 #[test]
-fn an_endless_row_has_the_extreme_gaps_of_a_long_one() {
+fn an_endless_row_has_the_gap_stretches_of_a_long_row() {
     let known = Calibrations::default();
     for design in folded().into_iter().chain([settled(), design(1.0, 0.5, 0.0, Base::L)]) {
         let ours = complete(&solve_as(&known, &design, &Common::default(), &automatic()));
@@ -72,7 +70,7 @@ fn an_endless_row_has_the_extreme_gaps_of_a_long_one() {
 }
 
 #[test]
-fn a_fold_is_where_a_gap_vanishes() {
+fn a_gap_has_zero_width_at_a_fold() {
     for design in folded() {
         let puncture = solve(&design, &automatic());
         let (measures, first) = (complete(&puncture), puncture.folds[0]);
@@ -83,15 +81,14 @@ fn a_fold_is_where_a_gap_vanishes() {
         assert_eq!(measures.fold_tilt_deg, Some(first.point.tilt_deg));
         assert_eq!(measures.sound_force, measures.fold_force);
         assert!(first.point.tilt_deg < end(&puncture).tilt_deg);
-        // All gaps are open at earlier points; the fold lies between the last of them and the next
-        // point.
+        // The fold lies between the last point at which all gaps are open and the next point.
         let before = puncture.path.iter().take_while(|p| p.gap_stretch.unwrap().min > 0.0).count();
         let [from, to] = [&puncture.path[before - 1], &puncture.path[before]];
         assert!((from.tilt_deg..=to.tilt_deg).contains(&first.point.tilt_deg));
     }
 }
 
-/// A gap that is closed at the end has folded once more often than it has unfolded.
+/// A gap that is folded at the end of the path has folded once more often than it has unfolded.
 #[test]
 fn folds_account_for_the_gaps_closed_at_the_end() {
     for design in folded() {
@@ -136,9 +133,9 @@ fn folds_do_not_depend_on_the_step_size() {
     }
 }
 
-/// On a path with increasing tilt the tilt gives the order.
+/// On a path with monotonically increasing tilt, tilts give the order of folds and contact events.
 #[test]
-fn folds_count_the_contact_events_before_them() {
+fn a_fold_states_the_number_of_contact_events_before_it() {
     let mut monotone = 0;
     for design in folded() {
         let puncture = solve(&design, &automatic());
@@ -156,10 +153,10 @@ fn folds_count_the_contact_events_before_them() {
     assert!(monotone > 1, "{monotone}");
 }
 
-/// While two bases touch, the stretch of their gap is zero up to round-off; the fold is where they
-/// first touch.
+/// While two bases touch, the stretch of their gap is zero up to round-off. The fold is the first
+/// of these points.
 #[test]
-fn a_fold_by_touching_bases_does_not_depend_on_the_step() {
+fn a_fold_by_touching_bases_does_not_depend_on_the_step_size() {
     let parameters = automatic();
     for (length, friction) in [(4.855, 0.44), (4.5, 0.4)] {
         let (design, known) = (design(0.055, length, 49.7, Base::L), Calibrations::default());

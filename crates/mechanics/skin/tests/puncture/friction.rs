@@ -1,4 +1,4 @@
-//! Friction between scales.
+//! Tests of friction between scales, and of unloading.
 
 use approx::assert_relative_eq;
 use skin::puncture::{self, Needle, Puncture, PunctureInput, PunctureParameters, RowLength};
@@ -19,9 +19,7 @@ fn solve(design: &Design, friction: f64, parameters: &PunctureParameters) -> Pun
     solve_as(&Calibrations::default(), design, &with_friction(friction), parameters)
 }
 
-/// Critical force and penetration agree with two independent programs.
-///
-/// The programs use penalty springs and return mapping.
+/// The independent programs model contact by penalty springs, and friction by return mapping.
 #[test]
 fn forces_and_penetration_match_independent_programs() {
     let [steep, steepest] = [45.0, 60.0].map(|slant_deg| {
@@ -37,7 +35,7 @@ fn forces_and_penetration_match_independent_programs() {
 }
 
 #[test]
-fn vanishing_friction_matches_no_friction() {
+fn the_force_with_vanishing_friction_is_the_force_without_friction() {
     for slant_deg in [0.0, 45.0, 60.0] {
         let design = design(0.1, 1.0, slant_deg, Base::L);
         let [none, little] =
@@ -68,9 +66,8 @@ fn the_path_does_not_depend_on_the_step_size() {
     }
 }
 
-/// The work of the load is stored or dissipated.
 #[test]
-fn dissipation_closes_the_energy_balance() {
+fn the_work_of_the_load_equals_stored_energy_plus_dissipation() {
     for (gap, length, slant_deg, friction) in
         [(0.1, 1.0, 45.0, 0.05), (0.2, 0.5, 60.0, 0.1), (0.2, 0.3, 75.0, 0.05)]
     {
@@ -84,14 +81,14 @@ fn dissipation_closes_the_energy_balance() {
         let whole =
             puncture.path.last().map(|end| end.substrate_energy + end.contact_energy + taken);
         for (from, to) in puncture.path.iter().zip(&puncture.path[1..]) {
-            // Trapezoidal rule, third-order accurate per step.
+            // Trapezoidal rule; its error in one step is of third order.
             let mean = 0.5 * (from.force + to.force) * length;
             work += mean * (to.displacement - from.displacement);
             let balance = to.substrate_energy + to.contact_energy + to.friction_work.unwrap();
             assert!((work - balance).abs() < 1e-8 * whole.unwrap(), "{work} {balance}");
         }
         assert!(taken > 1e-3 * work, "{taken} {work}");
-        // With the default steps the dissipation is integrated from cubics.
+        // With default steps the integration by cubics must give the same dissipation.
         let usual = complete(&solve(&design, friction, &on_row(21))).friction_work.unwrap();
         assert_relative_eq!(usual, taken, max_relative = 3e-4);
     }
@@ -104,9 +101,9 @@ fn contacts_slip_and_stick_in_turn() {
     assert!(changes.contains(&"slips") && changes.contains(&"sticks"), "{changes:?}");
 }
 
-/// Steep, short scales touch dozens of neighbours.
+/// Steep, short scales lean on dozens of neighbours.
 #[test]
-fn dominoes_with_friction_complete() {
+fn designs_with_dozens_of_contacts_complete_with_friction() {
     for (gap, length, slant_deg) in [(0.1, 0.3, 60.0), (0.2, 0.3, 75.0), (0.1, 0.1, 75.0)] {
         let design = design(gap, length, slant_deg, Base::L);
         let forces = [0.0, 0.1].map(|friction| {
@@ -118,7 +115,7 @@ fn dominoes_with_friction_complete() {
     }
 }
 
-/// Parameters of a guided needle slightly inside the corner.
+/// Returns parameters of a guided needle slightly inside the corner.
 fn guided(friction: f64) -> PunctureParameters {
     PunctureParameters {
         needle: Needle::Guided { friction },
@@ -127,9 +124,8 @@ fn guided(friction: f64) -> PunctureParameters {
     }
 }
 
-/// The tip slides to a corner that lies on the next scale with friction.
-///
-/// Both then stick to one position of the face.
+/// In these designs the tip slides to a corner that lies on the next scale. Because of friction,
+/// tip and corner then stick together at one point of the face of the next scale.
 #[test]
 fn tip_and_corner_stick_together_in_a_notch() {
     for (gap, length, slant_deg, base) in [
@@ -152,7 +148,7 @@ fn tip_and_corner_stick_together_in_a_notch() {
     }
 }
 
-/// Lists the incomplete punctures with this friction and their statuses.
+/// Solves designs with the given friction, and lists the incomplete designs with their statuses.
 fn incomplete(
     designs: impl IntoIterator<Item = Design>,
     friction: f64,
@@ -176,16 +172,15 @@ fn the_reference_study_is_complete_with_friction() {
     }
 }
 
-/// Under a guided needle, too, except for jumps and mechanical reasons.
 #[test]
-fn the_reference_study_ends_mechanically_under_a_needle_with_friction() {
+fn the_reference_study_under_a_guided_needle_ends_only_for_mechanical_reasons() {
     for friction in [0.1, 0.3] {
         for base in BASES {
             let every = if long_campaigns() { 1 } else { 24 };
             let designs = reference_study(base).into_iter().skip(7).step_by(every);
             let failed = incomplete(designs, friction, &guided(0.3));
             for (_, status) in &failed {
-                // Any other early end would be numerical.
+                // Every other reason to stop early is numerical.
                 let is_jump = *status == Status::Stopped(Termination::Jumps);
                 assert!(is_jump || !matches!(status, Status::Stopped(_)), "{failed:?}");
             }
@@ -201,12 +196,12 @@ fn random_designs_are_complete_with_friction() {
     assert!(failed.len() <= count / 1000, "{failed:?}");
 }
 
-/// Without friction unloading retraces the loading path.
+/// Compares the work of loading, the work returned by unloading, and the loop work.
 ///
-/// With friction less work is recovered: the loop area is dissipated or stored in residual
-/// deformation.
+/// Without friction unloading returns all work. With friction the loop work is dissipated, or
+/// stored in the residual deformation.
 #[test]
-fn unloading_closes_the_energy_balance() {
+fn loading_work_equals_returned_work_plus_loop_work() {
     for (gap, length, slant_deg, friction, needle) in [
         (0.1, 1.0, 45.0, 0.0, Needle::Free),
         (0.1, 1.0, 45.0, 0.1, Needle::Free),
@@ -248,7 +243,8 @@ fn unloading_closes_the_energy_balance() {
     }
 }
 
-/// A row that turns back before its critical tilt unloads along the path from the turning point.
+/// Unloading begins before the critical tilt. The curve agrees with a path that ends at this point
+/// and unloads.
 #[test]
 fn unloading_curves_lie_on_the_unloading_path() {
     for (slant_deg, friction, needle) in [
@@ -281,7 +277,7 @@ fn unloading_curves_lie_on_the_unloading_path() {
     }
 }
 
-/// Work of a path, by the trapezoidal rule.
+/// Computes the work of the load along a path by the trapezoidal rule.
 fn work_of(path: &[puncture::PuncturePoint], length: f64) -> f64 {
     let steps = path.windows(2).map(|pair| {
         let mean = 0.5 * (pair[0].force + pair[1].force) * length;
@@ -290,9 +286,9 @@ fn work_of(path: &[puncture::PuncturePoint], length: f64) -> f64 {
     steps.sum()
 }
 
-/// Tip and corner in a notch reverse together, so the friction of both reverses.
+/// In a notch the tip and the corner slide together, so the friction of both reverses together.
 ///
-/// The loop work agrees with an independent program.
+/// The expected loop work was computed by an independent program.
 #[test]
 fn friction_in_a_notch_reverses_with_the_load() {
     let (gap, length, slant_deg) = (0.0879, 0.5481, 61.07);
@@ -313,7 +309,9 @@ fn friction_in_a_notch_reverses_with_the_load() {
     assert_relative_eq!(loop_work, area, max_relative = 1e-3);
 }
 
-/// Returns the friction between scales and the load of random design `k`: all kinds of needles.
+/// Returns the friction between scales and the parameters for random design number `k`.
+///
+/// Successive numbers cover all kinds of needles.
 fn unloaded_with_friction(k: usize) -> (f64, PunctureParameters) {
     let needle = k / 3 % 4;
     let parameters = PunctureParameters {
@@ -331,7 +329,7 @@ fn unloaded_with_friction(k: usize) -> (f64, PunctureParameters) {
     ([0.0, 0.1, 0.25][k % 3], parameters)
 }
 
-/// The area of the load loop equals the dissipation for all kinds of needles.
+/// Tests all kinds of needles.
 #[test]
 fn loop_work_is_the_area_of_the_loop_for_random_designs() {
     let count = if long_campaigns() { 400 } else { 24 };
@@ -356,9 +354,9 @@ fn loop_work_is_the_area_of_the_loop_for_random_designs() {
     assert!(closed > count * 4 / 5, "{closed} of {count}");
 }
 
-/// The dissipation of a path in default steps equals the dissipation of a path in small steps.
+/// Compares default steps with small steps.
 #[test]
-fn loop_work_does_not_depend_on_the_steps() {
+fn loop_work_does_not_depend_on_the_step_size() {
     let count = if long_campaigns() { 400 } else { 24 };
     let known = Calibrations::default();
     let mut closed = 0;
@@ -380,11 +378,10 @@ fn loop_work_does_not_depend_on_the_steps() {
     assert!(closed > count * 4 / 5, "{closed} of {count}");
 }
 
-/// A tip that slides to a corner does work on the face up to the corner.
-///
-/// Beyond it the force is resolved along another normal. The value is converged.
+/// In this design the tip slides to a corner, at which the directions of its forces change. The
+/// dissipation must include the last segment before the corner.
 #[test]
-fn friction_works_up_to_the_corner() {
+fn dissipation_of_a_tip_includes_the_segment_up_to_a_corner() {
     let design = design(0.348_434, 0.074_856, 12.225_76, Base::TwoL);
     let parameters = PunctureParameters {
         needle: Needle::Guided { friction: 0.1 },
@@ -405,11 +402,12 @@ fn friction_works_up_to_the_corner() {
     }
 }
 
-/// A tip leaves a notch as the load decreases, or contacts close where others open.
+/// During unloading of these designs a tip leaves a notch, or a contact closes while another opens.
 ///
-/// If pivoting starts with the wrong one of simultaneous changes, these paths reverse or stop.
+/// If the solver started with the wrong one of the simultaneous changes, these paths would turn
+/// back or stop.
 #[test]
-fn unloading_passes_simultaneous_changes() {
+fn unloading_continues_through_simultaneous_contact_changes() {
     let guided = Needle::Guided { friction: 0.3 };
     for (gap, length, slant_deg, base, friction, needle) in [
         (0.6, 0.9, 75.0, Base::L, 0.0, guided),
@@ -433,11 +431,9 @@ fn unloading_passes_simultaneous_changes() {
     }
 }
 
-/// Paths that reverse where friction leaves no outgoing branch must end as jumps.
-///
-/// Otherwise they would return to rest (the first) or repeat themselves.
+/// Without detection of the jump the first path would return to rest, and the second would cycle.
 #[test]
-fn a_reversing_path_jumps() {
+fn a_path_without_an_outgoing_branch_ends_as_a_jump() {
     let needle = Needle::Guided { friction: 0.3 };
     let parameters = PunctureParameters { needle, load_position: 0.95, ..Default::default() };
     for (gap, length, slant_deg, base) in

@@ -1,4 +1,4 @@
-//! Puncture of one isolated scale, against [`analytical::isolated_scale`].
+//! Compares the puncture of one isolated scale with [`analytical::isolated_scale`].
 
 use analytical::isolated_scale::IsolatedScale;
 use approx::assert_relative_eq;
@@ -60,7 +60,7 @@ fn measures_match_the_closed_form() {
     let psi = 10.0_f64.to_radians();
     let (force, displacement) = (exact.force(psi), exact.displacement(psi));
     for (ours, exact) in [
-        // Incompressible: E*/E_s = 4/3.
+        // The substrate is incompressible, so `E*/E_s` = 4/3.
         (measures.initial_stiffness, 4.0 / 3.0 * exact.initial_stiffness()),
         (measures.secant_stiffness, 4.0 / 3.0 * force / displacement),
         (measures.critical_force, force / 0.4),
@@ -74,11 +74,9 @@ fn measures_match_the_closed_form() {
     assert_eq!((measures.contacts, measures.engaged_scales), (Some(0), Some(0)));
 }
 
-/// A load above the node of an upright block has no arm.
-///
-/// The block sinks without tilting until it buckles, so tilt cannot control the path.
+/// A load above the node of an upright block has no lever arm, so the block sinks without tilting.
 #[test]
-fn a_load_over_the_node_does_not_tilt_a_block() {
+fn a_load_above_the_node_of_a_block_has_no_critical_tilt() {
     let parameters = PunctureParameters { load_position: 0.5, ..on_row(1) };
     let (known, common) = (Calibrations::default(), with_law(Law::EXCHANGED));
     let block = design(0.1, 1.0, 0.0, Base::L);

@@ -1,4 +1,4 @@
-//! Rows on a layer of soft tissue with a rigid base.
+//! Tests of rows on a layer of soft tissue on a rigid base.
 
 use approx::assert_relative_eq;
 use skin::puncture::{self, Puncture, PunctureParameters, RowLength};
@@ -18,10 +18,10 @@ fn solve(design: &Design, stiffness: &RowStiffness, parameters: &PunctureParamet
     puncture::solve(design, stiffness, &Common::default(), parameters).unwrap()
 }
 
-/// Forces and penetrations of an independent program.
+/// Compares forces and penetrations with an independent program.
 ///
-/// Its springs are 1 to 2 % coarse and lack the coupling of forces along and across the row, so
-/// compare only where that coupling is small.
+/// The springs of that program have an error of 1 to 2 %, and neglect the coupling between normal
+/// and tangential tractions. The designs are chosen so that this coupling is small.
 #[test]
 fn layers_match_an_independent_program() {
     let slanted = design(0.1, 1.0, 45.0, Base::L);
@@ -43,7 +43,7 @@ fn layers_match_an_independent_program() {
     }
 }
 
-/// The far field on the left is the mirror image of the one on the right.
+/// Checks the far field of a layer, which is mirrored between the left and the right end of a row.
 #[test]
 fn endless_rows_match_long_rows() {
     for (design, coupling) in [

@@ -1,4 +1,4 @@
-//! Several load positions, and the weakest of them.
+//! Tests of several load positions, and of the weakest position among them.
 
 use approx::assert_relative_eq;
 use skin::puncture::{
@@ -21,10 +21,7 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
     solve_as(&Calibrations::default(), design, &Common::default(), parameters)
 }
 
-/// Positions match separate punctures to the last bit.
-///
-/// Compares every third one and the weakest.
-/// The weakest position has the smallest force.
+/// Compares every third position and the weakest one with separate punctures, to the last bit.
 #[test]
 fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
     let known = Calibrations::default();
@@ -54,7 +51,7 @@ fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
         }
         assert_eq!(weakest.force, Some(smallest), "{design:?}");
         assert!(expected.is_none_or(|place| weakest.place == Some(place)), "{weakest:?}");
-        // All other measures belong to the regular load position.
+        // All other measures refer to the load position of the parameters.
         let own = PunctureParameters { places: None, ..tried };
         let own = solve_as(&known, &design, &common, &own).measures;
         assert_eq!(
@@ -64,9 +61,7 @@ fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
     }
 }
 
-/// An upright scale is its own mirror image.
-///
-/// It tilts to the left under a load on its left, and not at all under a load in its middle.
+/// An upright scale tilts to the side of the load, and not at all under a load in its middle.
 #[test]
 fn positions_on_an_upright_scale_are_mirror_images() {
     for needle in [FREE, GUIDED] {
@@ -79,18 +74,17 @@ fn positions_on_an_upright_scale_are_mirror_images() {
             assert_relative_eq!(right.tilt_deg.unwrap(), 10.0, max_relative = 1e-9);
         }
         assert_eq!((places[2].status, places[2].force), (Status::Untilted, None));
-        // The order of the two equal corners is round-off.
+        // Both corners are equally weak; the first position is reported.
         assert_eq!(measures.weakest.place, Some(0.0));
         assert_eq!(measures.weakest.force, places.iter().filter_map(|p| p.force).reduce(f64::min));
     }
 }
 
-/// A position that stops early hides the weakest force.
-///
-/// A frictionless needle set down exactly on the left corner of this design stops at a force not
-/// known to be smaller than elsewhere. Therefore no weakest force is reported.
+/// A frictionless needle exactly on the left corner of this design stops early, at a smaller force
+/// than the critical forces of other positions. This position may be weaker than all others, so no
+/// weakest force is reported.
 #[test]
-fn an_inconclusive_position_hides_the_weakest_force() {
+fn a_path_that_stops_at_a_small_force_leaves_no_weakest_force() {
     let lost = design(0.1, 1.0, 75.0, Base::L);
     let slippery = parameters(Needle::Guided { friction: 0.0 }, 11);
     let Puncture { status, places, measures, .. } = solve(&lost, &slippery);
@@ -130,7 +124,7 @@ fn a_single_load_position_is_rejected() {
     assert!(solved.unwrap_err().to_string().contains("number of load positions"));
 }
 
-/// Lists the critical tilt without its sign, and measures that a mirror image shares.
+/// Lists the magnitude of the critical tilt and measures that do not change in a mirror image.
 fn mirrored_measures(puncture: &Puncture) -> [f64; 9] {
     let (measures, at_tilt) = (puncture.measures, puncture.at_tilts[0].unwrap());
     [
@@ -146,8 +140,7 @@ fn mirrored_measures(puncture: &Puncture) -> [f64; 9] {
     ]
 }
 
-/// A load left of the middle of an upright scale gives the mirror image of a load on the right, in
-/// all measures and intermediate tilts.
+/// Compares loads at mirrored positions of upright scales, in measures and intermediate tilts.
 #[test]
 fn a_load_on_the_left_gives_the_mirror_image_of_a_load_on_the_right() {
     let known = Calibrations::default();

@@ -1,30 +1,30 @@
-//! Behaviour of the puncture model.
+//! Tests of the puncture model.
 //!
-//! | File | Against |
+//! | File | Tests |
 //! |---|---|
-//! | `isolated_scale` | the closed form of one scale without neighbours |
-//! | `first_contact` | the linear chain before contact, in closed form |
-//! | `two_blocks` | the kink of Fig. 3 of Shafiei et al. (2021) |
-//! | `steps` | ten times smaller steps |
-//! | `rows` | rows of any length, and the lengths chosen by `Auto` |
+//! | `isolated_scale` | one scale without neighbours, compared with a closed form |
+//! | `first_contact` | the linear chain before contact, compared with a closed form |
+//! | `two_blocks` | the kink of the force in Fig. 3 of Shafiei et al. (2021) |
+//! | `steps` | paths with ten times smaller steps |
+//! | `rows` | rows of given length, and the lengths chosen by `RowLength::Auto` |
 //! | `scaling` | changes of units, which must not change results |
-//! | `snapshots` | chosen points of the path, between recorded points and beyond its end |
+//! | `snapshots` | equilibria at given points, between recorded points and beyond the critical tilt |
 //! | `folds` | folding of the substrate surface |
 //! | `failure` | the first failure, and stresses of scales, bonds and tissue |
-//! | `elastic_scales` | scales that bend, against finite elements |
+//! | `elastic_scales` | scales that bend, compared with finite elements |
 //! | `neo_hookean` | a substrate with a surface that cannot fold over |
-//! | `layers` | tissue of finite thickness, against another program |
+//! | `layers` | tissue of finite thickness, compared with another program |
 //! | `outputs` | the meaning of measures, events and scales |
-//! | `curved_body` | rows on convex and concave bodies, against independent programs |
-//! | `path_ends` | ends found from similar designs, against paths from rest |
-//! | `ends` | paths beyond the largest force: unloading to zero, and snap-through |
-//! | `tilts` | measures at several critical tilts, against paths that end there |
-//! | `load_positions` | the weakest of several load positions, against single punctures |
-//! | `friction` | friction between scales: independent programs, steps, work |
-//! | `enumerated` | friction of two scales, against enumerated contact patterns |
-//! | `round_tip` | a needle with a radius: against a sharp one, a closed form, its mirror image |
-//! | `robustness` | the 720 designs of the reference study and random ones |
-//! | `widest` | random designs in the widest ranges of a definition |
+//! | `curved_body` | rows on convex and concave bodies, compared with independent programs |
+//! | `path_ends` | path ends solved from similar designs, compared with paths from rest |
+//! | `ends` | paths beyond the largest force: zero load, and snap-through |
+//! | `tilts` | measures at several critical tilts, compared with paths that end at these tilts |
+//! | `load_positions` | the weakest one of several load positions, compared with single punctures |
+//! | `friction` | friction between scales: independent programs, step sizes, energy balance |
+//! | `enumerated` | friction of two scales, compared with an enumeration of contact patterns |
+//! | `round_tip` | a round needle, compared with a sharp needle, a closed form and its mirror image |
+//! | `robustness` | the 720 designs of the reference study, and random designs |
+//! | `widest` | random designs in the widest ranges that a definition allows |
 
 mod curved_body;
 mod elastic_scales;
@@ -56,7 +56,7 @@ use approx::assert_relative_eq;
 use skin::Status;
 use skin::puncture::{Puncture, PunctureMeasures, PuncturePoint};
 
-/// Returns the measures of a completed puncture.
+/// Asserts that a puncture is complete, and returns its measures.
 fn complete(puncture: &Puncture) -> PunctureMeasures {
     assert_eq!(puncture.status, Status::Complete);
     puncture.measures
@@ -67,7 +67,7 @@ fn end(puncture: &Puncture) -> PuncturePoint {
     *puncture.path.last().unwrap()
 }
 
-/// Compares all measures except the length of the row.
+/// Asserts that two sets of measures agree, except for the number of scales of the row.
 fn assert_same_measures(ours: &PunctureMeasures, theirs: &PunctureMeasures, max_relative: f64) {
     let [our_numbers, their_numbers] = [ours, theirs].map(|m| {
         [

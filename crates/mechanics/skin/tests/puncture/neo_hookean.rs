@@ -1,4 +1,4 @@
-//! A substrate with a surface that cannot fold over.
+//! Tests of the neo-Hookean substrate, the surface of which cannot fold over.
 
 use approx::assert_relative_eq;
 use skin::puncture::{self, Puncture, PunctureParameters, RowLength};
@@ -13,7 +13,7 @@ use crate::samples::{
 use crate::{assert_same_measures, complete};
 use rayon::prelude::*;
 
-/// Returns these parameters with a neo-Hookean substrate.
+/// Returns `parameters` with a neo-Hookean substrate.
 fn neo_hookean(parameters: PunctureParameters) -> PunctureParameters {
     PunctureParameters { substrate_law: SubstrateLaw::NeoHookean, ..parameters }
 }
@@ -28,7 +28,7 @@ fn is_open(puncture: &Puncture) -> bool {
         && puncture.folds.is_empty()
 }
 
-/// Every design with one of the contact laws.
+/// Solves every design with one of both contact laws, alternately.
 #[test]
 fn no_gap_closes_in_the_reference_study() {
     let (known, parameters) = (Calibrations::default(), neo_hookean(on_row(41)));
@@ -44,11 +44,9 @@ fn no_gap_closes_in_the_reference_study() {
     }
 }
 
-/// Two hundred designs; two thousand in a long campaign.
-///
-/// One in a thousand may stop.
+/// One design in a thousand may stop early. A long campaign solves ten times as many designs.
 #[test]
-fn random_designs_are_solved() {
+fn random_designs_are_complete_and_do_not_fold() {
     let (known, parameters) = (Calibrations::default(), neo_hookean(on_row(41)));
     let designs = random(if long_campaigns() { 2000 } else { 200 }, 1);
     for law in LAWS {
@@ -64,7 +62,7 @@ fn random_designs_are_solved() {
     }
 }
 
-/// Computes the relative difference of both laws' critical forces at a tilt.
+/// Computes the relative difference between the critical forces of both substrate laws at a tilt.
 fn difference(design: &Design, tilt_deg: f64) -> f64 {
     let linear = PunctureParameters { critical_tilt_deg: tilt_deg, ..on_row(21) };
     let [linear, neo_hookean] = [linear, neo_hookean(linear)].map(|parameters| {
@@ -74,18 +72,18 @@ fn difference(design: &Design, tilt_deg: f64) -> f64 {
     (neo_hookean - linear).abs() / linear
 }
 
-/// The relative difference decreases at least as fast as the load.
+/// The relative difference decreases at least in proportion to the tilt.
 ///
-/// If scales touch at once, gaps are compressed from the start.
+/// The scales of the first design touch almost at once, so its gaps are compressed from the start.
 #[test]
-fn at_small_loads_both_laws_agree_to_first_order() {
+fn both_substrate_laws_agree_to_first_order_at_small_loads() {
     let steep = Design { gap: 1e-4, ..design(0.1, 0.3, 60.0, Base::L) };
     for tilt_deg in [0.1, 0.01, 0.001] {
         let [there, nearer] = [tilt_deg, 0.1 * tilt_deg].map(|tilt| difference(&steep, tilt));
         assert!(there < 1.0 && nearer < 0.15 * there, "{there} {nearer} at {tilt_deg}°");
     }
     assert!(difference(&steep, 0.1) > 1e-6);
-    // Before contact the only motion along the row is the rotation of the base corners.
+    // Before contact gaps change only by the rotation of the bases, an effect of second order.
     assert!(difference(&settled(), 0.01) < 1e-7);
 }
 
@@ -103,9 +101,8 @@ fn steps_ten_times_smaller_give_the_same_measures() {
     }
 }
 
-/// The closed form of the far field assumes springs.
-///
-/// It starts where bars differ from them by round-off.
+/// The far field of an endless row is computed with linear springs. The solved part must extend to
+/// gaps in which neo-Hookean bars agree with linear springs up to round-off.
 #[test]
 fn automatic_rows_match_longer_rows() {
     let known = Calibrations::default();

@@ -1,4 +1,4 @@
-//! Meaning of the outputs.
+//! Tests of the meaning of measures, events, scales and iterations.
 
 use std::collections::{HashMap, HashSet};
 
@@ -32,7 +32,8 @@ fn measures_match_the_end_of_the_path() {
     }
 }
 
-/// A base end is below or above the node by the sine of the rotation.
+/// The corners of a base lie above or below its node by the half-width times the sine of the
+/// rotation.
 #[test]
 fn penetration_is_the_depth_of_the_deepest_base_corner() {
     for (design, puncture) in solved() {
@@ -48,19 +49,18 @@ fn penetration_is_the_depth_of_the_deepest_base_corner() {
     }
 }
 
-/// The substrate carries the whole load.
 #[test]
-fn reactions_add_up_to_the_load() {
+fn the_reactions_of_the_substrate_add_up_to_the_load() {
     for (design, puncture) in solved() {
         let sum: f64 = puncture.scales.iter().map(|scale| scale.reaction).sum();
         assert_relative_eq!(sum, end(&puncture).force * design.length, max_relative = 1e-9);
     }
 }
 
-/// Returns the kinds of the contacts that the events left closed.
+/// Returns the corners and edges that are in contact after all `events`.
 ///
-/// They are listed for each level of each pair. Flush edges have two at one level; one of them is
-/// removed where it is handed over to the other or the corner is reached.
+/// The key is the left scale of the pair and true for the upper level. Flush edges have two
+/// contacts at one level. If the force is handed over or a corner is reached, one contact remains.
 fn closed_by(
     events: &[ContactEvent<PuncturePoint>],
 ) -> HashMap<(i64, bool), HashSet<&'static str>> {
@@ -84,7 +84,7 @@ fn closed_by(
 }
 
 #[test]
-fn events_account_for_the_contacts_and_the_scales_engaged() {
+fn numbers_of_contacts_and_engaged_scales_follow_from_the_events() {
     for (_, puncture) in solved() {
         let (measures, closed) = (complete(&puncture), closed_by(&puncture.events));
         assert_eq!(measures.contacts, Some(closed.values().map(HashSet::len).sum()));
@@ -107,9 +107,8 @@ fn every_point_of_the_path_has_its_iterations() {
     }
 }
 
-/// Only the measures of the start and the peak remain.
 #[test]
-fn a_stopped_path_keeps_its_initial_measures() {
+fn a_path_that_stops_early_keeps_the_measures_of_its_start_and_of_its_peak() {
     let solver = Settings { max_points: 20, ..Settings::default() };
     let (known, common) = (Calibrations::default(), Common { solver, ..Common::default() });
     let cut = solve_as(&known, &domino(), &common, &on_row(41));
@@ -133,9 +132,7 @@ fn a_stopped_path_keeps_its_initial_measures() {
     assert_eq!(cut.contacts.or(cut.engaged_scales), None);
 }
 
-/// The force at a depth equals the force of a snapshot there.
-///
-/// Beyond the end of the path it is the final force.
+/// For a depth beyond the end of the path, the force at this depth is the final force.
 #[test]
 fn force_at_a_depth_matches_the_snapshot_at_that_depth() {
     let design = design(0.2, 0.5, 60.0, Base::L);

@@ -1,4 +1,4 @@
-//! Punctures solved from the end of a similar design, against paths from rest.
+//! Compares path ends solved from the end of a similar design with paths from rest.
 
 use contact::Law;
 use geometry::Body;
@@ -9,13 +9,13 @@ use substrate::{Calibrations, Coupling, SubstrateLaw};
 
 use super::samples::{BASES, SplitMix64, design, long_campaigns};
 
-/// Relative difference within which two measures agree.
+/// Relative difference within which two measures count as equal.
 ///
-/// Contacts are ten thousand times stiffer than the substrate, and the tolerance of Newton's method
-/// refers to their forces.
+/// It exceeds the tolerance of Newton's method, which refers to contact forces: contacts are about
+/// ten thousand times stiffer than the substrate.
 const SAME: f64 = 1e-7;
 
-/// Two similar designs on one substrate.
+/// Two similar designs with the same other parameters.
 #[derive(Debug)]
 struct Pair {
     designs: [Design; 2],
@@ -24,7 +24,7 @@ struct Pair {
     parameters: PunctureParameters,
 }
 
-/// Draws numbers for pairs of designs.
+/// Draws random pairs of similar designs.
 struct Draw(SplitMix64);
 
 impl Draw {
@@ -68,7 +68,7 @@ impl Draw {
     }
 }
 
-/// Draws pairs of similar designs without overlapping scales.
+/// Draws pairs of similar designs that have no overlapping scales at rest.
 fn random_pairs(count: usize, seed: u64) -> Vec<Pair> {
     let mut draw = Draw(SplitMix64(seed));
     let mut pairs = Vec::new();
@@ -82,14 +82,16 @@ fn random_pairs(count: usize, seed: u64) -> Vec<Pair> {
     pairs
 }
 
-/// Result of the second design from the end of the first one.
+/// Outcome of solving the end of the second design from the end of the first design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
     /// The first design has no usable end.
     NoStart,
-    /// The end of the second design was not found from the end of the first one.
+    /// The end of the second design was not found.
     NotFound,
+    /// The end of the second design agrees with its path from rest.
     Agrees,
+    /// The end of the second design differs from its path from rest.
     Differs,
 }
 
@@ -122,7 +124,7 @@ fn from_rest(input: &PunctureInput) -> Puncture {
     puncture::solve(design, stiffness.clone(), common, parameters).unwrap()
 }
 
-/// Returns true if both punctures were completed with the same measures.
+/// Returns true if both punctures are complete and have the same measures.
 fn agree(near: &Puncture, whole: &Puncture) -> bool {
     whole.status == Status::Complete
         && counts(near) == counts(whole)
@@ -155,9 +157,9 @@ fn numbers(puncture: &Puncture) -> [Option<f64>; 9] {
     ]
 }
 
-/// A load above the middle of the base hardly tilts the scale, so its path is followed.
+/// A load above the middle of the base hardly tilts the scale, so its end is no safe start.
 #[test]
-fn a_load_above_the_middle_of_the_base_leaves_no_end() {
+fn a_path_with_the_load_above_the_middle_of_the_base_stores_no_end() {
     let known = Calibrations::default();
     let mut tried = 0;
     for mut pair in random_pairs(20, 5) {
@@ -172,11 +174,11 @@ fn a_load_above_the_middle_of_the_base_leaves_no_end() {
     assert!(tried > 3);
 }
 
-/// Four hundred pairs; ten thousand in a long campaign.
+/// An end that differs from the path from rest would lie on another branch.
 ///
-/// No end lies on another branch than the end of the path from rest.
+/// Tests 400 pairs, or 10,000 in a long campaign.
 #[test]
-fn ends_of_similar_designs_agree_with_their_paths() {
+fn ends_solved_from_similar_designs_agree_with_paths_from_rest() {
     let known = Calibrations::default();
     let pairs = random_pairs(if long_campaigns() { 10_000 } else { 400 }, 49);
     let outcomes: Vec<_> = pairs.par_iter().map(|pair| pair.outcome(&known)).collect();
@@ -189,9 +191,9 @@ fn ends_of_similar_designs_agree_with_their_paths() {
     assert!(4 * agree > 3 * pairs.len());
 }
 
-/// Forty pairs at five load positions; a thousand in a long campaign.
+/// Tests 40 pairs at five load positions each, or 1,000 pairs in a long campaign.
 #[test]
-fn load_positions_of_similar_designs_agree_with_their_paths() {
+fn load_positions_solved_from_similar_designs_agree_with_paths_from_rest() {
     let known = Calibrations::default();
     let mut pairs = random_pairs(if long_campaigns() { 1000 } else { 40 }, 11);
     for (number, pair) in pairs.iter_mut().enumerate() {

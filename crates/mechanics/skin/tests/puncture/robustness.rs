@@ -1,4 +1,4 @@
-//! Every design of the reference study, and random ones, reach the critical tilt.
+//! Checks that the designs of the reference study, and random designs, reach the critical tilt.
 
 use contact::Law;
 use rayon::prelude::*;
@@ -13,7 +13,7 @@ use crate::samples::{
     BASES, LAWS, design, long_campaigns, on_row, random, reference_study, solve_as, with_law,
 };
 
-/// Solves designs with a contact law.
+/// Solves the puncture of all designs with the given contact law, in parallel.
 fn solve_all(
     designs: &[Design],
     law: Law,
@@ -28,7 +28,7 @@ fn both_studies() -> Vec<Design> {
 }
 
 #[test]
-fn the_reference_study_is_solved_with_either_law() {
+fn every_design_of_the_reference_study_completes_with_both_contact_laws() {
     let known = Calibrations::default();
     for law in LAWS {
         let designs = both_studies();
@@ -39,11 +39,10 @@ fn the_reference_study_is_solved_with_either_law() {
     }
 }
 
-/// Every seventh design.
-///
-/// All gaps, lengths and slants occur, since 7 divides none of their counts.
+/// Tests every seventh design. All gaps, lengths and slants occur, because 7 is coprime to their
+/// numbers.
 #[test]
-fn hard_and_soft_contacts_are_solved() {
+fn designs_with_hard_and_soft_contacts_reach_the_critical_tilt() {
     let known = Calibrations::default();
     let designs: Vec<Design> = both_studies().into_iter().step_by(7).collect();
     for law in LAWS {
@@ -54,7 +53,8 @@ fn hard_and_soft_contacts_are_solved() {
                 designs.iter().zip(solve_all(&designs, law, &parameters, &known))
             {
                 assert!((end(&puncture).tilt_deg - 10.0).abs() < 1e-9, "{design:?}");
-                // Scales this soft are pushed through each other, which the audit reports.
+                // The softest contacts with the exchanged law may let scales pass through each
+                // other, which the audit reports.
                 let may_pass_through = factor < 1.0 && law == Law::EXCHANGED;
                 let fine = puncture.status == Status::Complete
                     || may_pass_through && puncture.status == Status::Interpenetration;
@@ -64,9 +64,8 @@ fn hard_and_soft_contacts_are_solved() {
     }
 }
 
-/// The exchanged law allows an approach larger than the thickness.
-///
-/// It does at 1/100 of the reference modulus.
+/// With the exchanged contact law and 1/100 of the reference modulus, the approach of contacts
+/// exceeds the thickness.
 #[test]
 fn scales_too_soft_to_carry_the_load_fail_the_audit() {
     let design = design(0.1, 0.5, 75.0, skin::Base::L);
@@ -79,9 +78,9 @@ fn scales_too_soft_to_carry_the_load_fail_the_audit() {
     assert_eq!(puncture.measures.critical_force, None);
 }
 
-/// Two hundred designs; two thousand in a long campaign.
+/// Tests 200 designs, or 2,000 in a long campaign.
 #[test]
-fn random_designs_are_solved() {
+fn random_designs_reach_the_critical_tilt() {
     let known = Calibrations::default();
     let designs = random(if long_campaigns() { 2000 } else { 200 }, 1);
     for law in LAWS {
@@ -93,10 +92,10 @@ fn random_designs_are_solved() {
     }
 }
 
-/// At large tilts tips slide off far edge ends or pass below neighbouring bases.
+/// At large tilts tips slide off their edges or pass below neighbouring bases.
 ///
-/// The model ends there, and the path must report a mechanical reason, not a numerical one. A
-/// hundred designs; a thousand in a long campaign.
+/// The contact model does not cover these states. The path must then stop for a mechanical reason,
+/// not for a numerical one. Tests 100 random designs, or 1,000 in a long campaign.
 #[test]
 fn paths_to_large_tilts_stop_for_mechanical_reasons() {
     let known = Calibrations::default();
@@ -124,9 +123,9 @@ fn paths_to_large_tilts_stop_for_mechanical_reasons() {
     assert!(off_edge > designs.len() / 3, "{off_edge}");
 }
 
-/// Tips slide along bases and tops, and around the corners at their ends.
+/// Tips of these steep scales slide along bases and tops, and around corners.
 #[test]
-fn scales_steeper_than_the_study_are_solved() {
+fn scales_steeper_than_in_the_reference_study_reach_the_critical_tilt() {
     let known = Calibrations::default();
     let mut designs = Vec::new();
     for base in BASES {
@@ -143,8 +142,8 @@ fn scales_steeper_than_the_study_are_solved() {
     }
 }
 
-/// Without any friction a skin is elastic, so unloading retraces the loading path; the needle also
-/// leaves its notch.
+/// Without friction a skin is elastic, so the loop work is zero. In some of these designs the
+/// needle enters a notch and leaves it during unloading.
 #[test]
 fn a_frictionless_skin_unloads_along_its_loading_path() {
     let known = Calibrations::default();

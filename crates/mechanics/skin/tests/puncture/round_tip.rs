@@ -1,4 +1,4 @@
-//! A guided needle with a round tip.
+//! Tests of a guided needle with a round tip.
 
 use approx::assert_relative_eq;
 use skin::puncture::{self, CriticalEvent, Needle, Puncture, PunctureParameters, RowLength};
@@ -11,7 +11,7 @@ use crate::{complete, end};
 
 const SMOOTH: Needle = Needle::Guided { friction: 0.0 };
 
-/// Designs with a sharp needle on its top, some passing into the notch.
+/// Tuples `(d, L, α)`. In some of these designs a sharp needle slides from the top into a notch.
 const DESIGNS: [(f64, f64, f64); 7] = [
     (0.1, 1.0, 0.0),
     (0.5, 1.0, 0.0),
@@ -30,7 +30,7 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
     solve_as(&Calibrations::default(), design, &Common::default(), parameters)
 }
 
-/// The difference from a sharp tip is proportional to the radius, also in a notch.
+/// The difference from a sharp tip is proportional to the radius.
 #[test]
 fn small_radii_converge_to_a_sharp_tip() {
     for (gap, length, slant) in DESIGNS {
@@ -46,7 +46,7 @@ fn small_radii_converge_to_a_sharp_tip() {
     }
 }
 
-/// With friction the tip sticks, slides both ways and passes into the notch.
+/// In these designs the tip sticks, slides in both directions, and passes into a notch.
 #[test]
 fn small_radii_converge_to_a_sharp_tip_with_friction() {
     for ((gap, length, slant), friction, inside) in [
@@ -69,9 +69,9 @@ fn small_radii_converge_to_a_sharp_tip_with_friction() {
     }
 }
 
-/// A single scale with the circle of radius `R` on its top has a closed form.
+/// The force on a single scale with a circle of radius `R` on its top has a closed form.
 ///
-/// `N` is the root of a quadratic equation, with the arm `x` at rest,
+/// The normal force `N` is the root of a quadratic equation, and `x` is the arm at rest:
 ///
 /// ```text
 /// N² sin φ / k_x − N (x + (1 + R) sin φ) − k_φ φ cos φ = 0                F = N cos φ
@@ -98,7 +98,7 @@ fn an_isolated_scale_matches_the_closed_form() {
             let b = arm + (1.0 + radius) * sin;
             let [two_a, c] = [2.0 * sin / along, -turn * phi * cos];
             let root = (b * b - 2.0 * two_a * c).sqrt();
-            // The root that stays finite at zero tilt.
+            // Use the root that remains finite at zero tilt.
             let expected = 2.0 * c / (b + root) * cos / design.length;
             assert_relative_eq!(point.force, expected, max_relative = 1e-8, epsilon = 1e-12);
             let on_scale = point.force / point.tilt_deg.to_radians().cos();
@@ -107,11 +107,9 @@ fn an_isolated_scale_matches_the_closed_form() {
     }
 }
 
-/// Tips on the left and right of an upright scale are mirror images.
-///
-/// This holds also if they touch several scales.
+/// Compares tips on the left and on the right of an upright scale; large tips touch several scales.
 #[test]
-fn mirrored_needles_have_mirrored_results() {
+fn needles_at_mirrored_positions_have_mirrored_results() {
     for (radius, friction) in [(0.2, 0.0), (1.0, 0.0), (0.2, 0.1), (1.0, 0.3)] {
         let upright = design(0.3, 0.6, 0.0, Base::L);
         let [left, right] = [0.1, 0.9].map(|load_position| {
@@ -127,7 +125,6 @@ fn mirrored_needles_have_mirrored_results() {
     }
 }
 
-/// A tip in the middle between two upright scales presses on both equally.
 #[test]
 fn a_tip_between_two_scales_loads_both_equally() {
     let upright = design(0.3, 0.6, 0.0, Base::L);
@@ -147,9 +144,10 @@ fn a_tip_between_two_scales_loads_both_equally() {
     }
 }
 
-/// Positions of a round tip cover one pitch, including between two scales, and repeat after it.
+/// Positions of a round tip include the gap, and a tip that is moved by one pitch gives the same
+/// force.
 #[test]
-fn load_positions_cover_the_pitch() {
+fn load_positions_of_a_round_tip_cover_one_pitch() {
     let known = Calibrations::default();
     let design = design(0.4, 0.8, 45.0, Base::L);
     let parameters = PunctureParameters { places: Some(3), ..parameters(Some(0.5)) };
@@ -169,11 +167,10 @@ fn load_positions_cover_the_pitch() {
     assert_relative_eq!(places[0].force.unwrap(), repeated, max_relative = 1e-8);
 }
 
-/// A tip that fits between two scales reaches the soft surface between their bases.
-///
-/// Its lowest point lies on the line from base to base.
+/// The path ends when the lowest point of the tip touches the soft surface: the line from the right
+/// corner of one base to the left corner of the next.
 #[test]
-fn a_tip_passes_through_between_bases() {
+fn a_tip_between_two_scales_ends_at_the_surface_between_their_bases() {
     let open = design(1.0, 1.0, 60.0, Base::L);
     let radius = 0.2;
     let between = PunctureParameters {
@@ -191,8 +188,8 @@ fn a_tip_passes_through_between_bases() {
         let place = number as f64 * (2.0 * a + open.gap);
         [place + scale.displacement[0] + x * cos, scale.displacement[1] + x * sin]
     });
-    // At rest the circle touches the left face of the next scale, with the normal (-cos 60°, sin
-    // 60°).
+    // At rest the circle touches the left face of the next scale. The normal of this face is
+    // (−cos 60°, sin 60°).
     let x = shift - a + 1.3 * 2.0 * a;
     let along = x - (a + open.gap);
     let height = (2.0 * radius + along) / 3.0_f64.sqrt();
@@ -202,11 +199,10 @@ fn a_tip_passes_through_between_bases() {
     assert_relative_eq!(area / line[0].hypot(line[1]), radius, max_relative = 1e-7);
 }
 
-/// With full coupling scales lean on each other before the tip reaches them.
-///
-/// Touching a scale that is already critically tilted ends the path.
+/// A scale that the needle does not touch may exceed the critical tilt. The path ends as soon as
+/// the needle touches such a scale.
 #[test]
-fn touching_a_tilted_scale_ends_the_path() {
+fn touching_a_scale_beyond_the_critical_tilt_ends_the_path() {
     let blocks = design(0.1, 0.4, 0.0, Base::L);
     let stiffness = RowStiffness::compute(&blocks.footprint(0.5).unwrap(), Coupling::Full).unwrap();
     let parameters = parameters(Some(0.5));
@@ -223,9 +219,10 @@ fn touching_a_tilted_scale_ends_the_path() {
     assert!(puncture.scales.iter().any(|scale| scale.scale == next));
 }
 
-/// Where a contact closes while another is about to open, round-off may turn the path back to rest.
+/// In this design a contact closes while another one is about to open. Because of round-off, the
+/// solver may there reverse the path, and must detect that the path returns to rest.
 #[test]
-fn a_path_that_returns_to_rest_is_followed_with_smaller_steps() {
+fn a_path_that_returns_to_rest_is_repeated_with_smaller_steps() {
     let steep = design(0.0258, 0.248, 57.8, Base::L);
     let stiffness = RowStiffness::compute(&steep.footprint(0.5).unwrap(), Coupling::Full).unwrap();
     let parameters = PunctureParameters { scales: RowLength::Auto, ..parameters(Some(0.221)) };
@@ -238,11 +235,10 @@ fn a_path_that_returns_to_rest_is_followed_with_smaller_steps() {
     }
 }
 
-/// In a notch a tip with friction may jump.
-///
-/// It may stop sliding on one face where it can neither stick nor slide.
+/// In this notch the tip with friction stops sliding on one face, and can then neither stick nor
+/// slide in equilibrium.
 #[test]
-fn a_tip_may_jump_in_a_notch() {
+fn a_tip_without_an_outgoing_branch_in_a_notch_ends_as_a_jump() {
     let notched = design(0.1, 0.9, 60.0, Base::TwoL);
     for radius in [0.001, 0.01, 0.03] {
         let needle = Needle::Guided { friction: 0.3 };
@@ -253,9 +249,9 @@ fn a_tip_may_jump_in_a_notch() {
     }
 }
 
-/// A tip with a radius of twenty pitches rests on several scales.
+/// The radius of the tip is 20 times the pitch of the row.
 #[test]
-fn a_large_tip_rests_on_many_scales() {
+fn a_large_tip_touches_several_scales() {
     let dense = design(0.1, 0.05, 30.0, Base::L);
     let puncture = solve(&dense, &parameters(Some(3.0)));
     let most = puncture.tip_forces.iter().map(Vec::len).max();
@@ -263,9 +259,8 @@ fn a_large_tip_rests_on_many_scales() {
     assert_eq!(puncture.status, Status::Complete);
 }
 
-/// A radius requires a guided needle.
 #[test]
-fn a_radius_needs_a_guided_needle() {
+fn a_radius_is_rejected_for_a_free_needle_or_if_it_covers_too_many_scales() {
     let known = Calibrations::default();
     let design = design(0.1, 1.0, 45.0, Base::L);
     let refusals = [(Needle::Free, 0.5, "needle radius"), (SMOOTH, 100.0, puncture::TIP_REACH)];
@@ -277,9 +272,7 @@ fn a_radius_needs_a_guided_needle() {
     }
 }
 
-/// A tip narrower than the gap touches no scale and passes without force.
-///
-/// This holds with and without friction, and the gap is the weakest position.
+/// The gap is then the weakest load position, with and without friction.
 #[test]
 fn a_tip_narrower_than_the_gap_passes_without_force() {
     let wide = design(0.8612, 0.2262, 0.34, Base::L);

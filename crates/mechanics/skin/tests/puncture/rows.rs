@@ -1,4 +1,4 @@
-//! Rows of any length.
+//! Tests of rows of given and of automatic length.
 
 use approx::assert_relative_eq;
 use contact::Law;
@@ -39,14 +39,14 @@ fn automatic_rows_grow_where_scales_touch() {
         assert_eq!(puncture.scales.len(), puncture.measures.scales);
         [-first, last]
     });
-    // Without contact the row keeps the length estimated from the coupling of the springs, and is
-    // symmetric.
+    // Without contact the row keeps its initial length and is symmetric.
     assert!(apart[0] == apart[1] && apart[0] < 30, "{apart:?}");
-    // The domino effect runs to the right.
+    // In the domino design contact spreads to the right.
     assert!(domino[1] >= 4 * domino[0], "{domino:?}");
 }
 
-/// The last step exceeds the critical tilt by round-off, and a contact there requires a longer row.
+/// In this design the last step exceeds the critical tilt by round-off, and a contact in this step
+/// requires a longer row.
 #[test]
 fn a_row_extended_at_the_critical_tilt_is_solved_to_the_end() {
     let known = Calibrations::default();
@@ -74,9 +74,7 @@ fn a_row_extended_at_the_critical_tilt_is_solved_to_the_end() {
     assert_relative_eq!(usual, finer, max_relative = 1e-9);
 }
 
-/// The end scales touch nothing, so displacements decay as in an endless row.
-///
-/// The scales beyond them touch nothing either.
+/// Without contact the displacements near the ends decay as in an endless row.
 #[test]
 fn ends_of_automatic_rows_are_contact_free() {
     let known = Calibrations::default();
@@ -99,18 +97,16 @@ fn ends_of_automatic_rows_are_contact_free() {
     }
 }
 
-/// The domino effect spreads along the whole row.
-///
-/// On a short row its force therefore differs from the force on a long one.
+/// In this design dozens of scales lean on each other, so a row of 11 scales is too short.
 #[test]
-fn a_short_row_underestimates_the_force() {
+fn a_row_that_is_too_short_underestimates_the_force() {
     let [short, long, longer] = [11, 201, 401]
         .map(|scales| complete(&solve(&domino(), &on_row(scales))).critical_force.unwrap());
     assert!(short < 0.5 * long);
     assert_relative_eq!(long, longer, max_relative = 1e-9);
 }
 
-/// These scales have a closed form, because only the substrate acts on them.
+/// On these scales only the substrate acts, so the forces of its springs must vanish.
 #[test]
 fn scales_out_of_reach_of_contact_are_in_equilibrium() {
     for scales in [12, 20, 41, 401] {
@@ -125,8 +121,8 @@ fn scales_out_of_reach_of_contact_are_in_equilibrium() {
             .collect();
         assert_eq!(row.len(), scales);
         assert_eq!(complete(&puncture).scales, scales);
-        // Only the substrate acts on scales to the left of the first pair in contact and to the
-        // right of the last.
+        // No contact acts on scales on the left of the first pair that touched or on the right of
+        // the last one.
         let touched: Vec<i64> = puncture.events.iter().filter_map(|e| e.left_scale).collect();
         let (first, last) = (touched.iter().min().unwrap(), touched.iter().max().unwrap() + 1);
         for (i, state) in puncture.scales.iter().enumerate() {
@@ -136,7 +132,7 @@ fn scales_out_of_reach_of_contact_are_in_equilibrium() {
             }
             for k in 0..3 {
                 let (alpha, beta) = (stiffness.direct[k], -stiffness.neighbours[0].direct[k]);
-                // No substrate force is exchanged beyond the ends of the row.
+                // Scales at the ends of the row have one neighbour.
                 let beside = [i.checked_sub(1), Some(i + 1)].into_iter().flatten();
                 let beside: f64 = beside.filter_map(|i| row.get(i)).map(|u| u[k]).sum();
                 let force = alpha * row[i][k] - beta * beside;
@@ -146,9 +142,8 @@ fn scales_out_of_reach_of_contact_are_in_equilibrium() {
     }
 }
 
-/// An endless row with far couplings, against a row solved as a whole.
 #[test]
-fn endless_rows_with_far_coupling_match_long_rows() {
+fn endless_rows_with_full_coupling_match_long_rows() {
     for design in [blocks(), settled(), design(0.1, 1.0, 45.0, Base::L)] {
         let footprint = design.footprint(0.5).unwrap();
         let full = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
@@ -161,7 +156,7 @@ fn endless_rows_with_far_coupling_match_long_rows() {
 }
 
 #[test]
-fn the_left_of_two_middle_scales_is_punctured() {
+fn an_even_number_of_scales_is_punctured_at_the_left_one_of_both_middle_scales() {
     for (scales, first, last) in [(1, 0, 0), (2, 0, 1), (3, -1, 1), (4, -1, 2), (5, -2, 2)] {
         let puncture = solve(&settled(), &on_row(scales));
         assert_eq!(complete(&puncture).scales, scales);

@@ -1,4 +1,4 @@
-//! Changes of units, which must not change results.
+//! Tests that results do not depend on units, and on redundant parameters.
 
 use approx::assert_relative_eq;
 use contact::Law;
@@ -9,18 +9,18 @@ use substrate::Calibrations;
 use crate::complete;
 use crate::samples::{LAWS, on_row, settled, solve_as, springs, with_law};
 
-/// Round-off plus the tolerance of the equilibria.
+/// Relative difference within which two measures count as equal.
 const SAME: f64 = 1e-9;
 
-/// Solves on the springs of an incompressible substrate, for any Poisson's ratio.
+/// Solves a design with the springs of an incompressible substrate, for any Poisson's ratio.
 fn measured(design: &Design, parameters: &PunctureParameters) -> PunctureMeasures {
     let springs = springs(&settled(), &on_row(1), &Calibrations::default());
     complete(&puncture::solve(design, &springs, &Common::default(), parameters).unwrap())
 }
 
-/// Forces and the contact modulus are in units of `E*`, stiffness in `E_s`.
+/// Forces are in units of `E*`, but stiffnesses and the contact modulus in units of `E_s`.
 #[test]
-fn only_the_modulus_ratio_matters() {
+fn results_depend_only_on_the_contact_modulus_divided_by_the_reduced_modulus() {
     let rubber = on_row(41);
     let mut cork = PunctureParameters { poisson_ratio: 0.0, ..rubber };
     cork.contact_modulus_over_substrate *= 0.75;
@@ -39,7 +39,7 @@ fn only_the_modulus_ratio_matters() {
 
 /// The width of a scale enters the contact law only as a factor of its modulus.
 #[test]
-fn a_wider_softer_scale_is_equivalent() {
+fn a_scale_three_times_as_wide_and_a_third_as_stiff_is_equivalent() {
     let mut softer = on_row(41);
     softer.contact_modulus_over_substrate /= 3.0;
     let wider = Design { width: 3.0, ..settled() };
@@ -47,10 +47,10 @@ fn a_wider_softer_scale_is_equivalent() {
     crate::assert_same_measures(&ours, &measured(&settled(), &on_row(41)), SAME);
 }
 
-/// The two meanings of `L` give one geometry two names.
+/// A base of `2L` with half the length is the same geometry as a base of `L`.
 ///
-/// The contact law (Eq. 5) normalises the approach by `L`, which its prefactor can compensate, and
-/// `F*` the force.
+/// The contact law (Eq. 5) divides the approach by `L`, which another prefactor compensates. `F*`
+/// is the force divided by `L`, so it doubles.
 #[test]
 fn both_meanings_of_the_length_agree() {
     let (known, ours) = (Calibrations::default(), settled());
@@ -66,9 +66,8 @@ fn both_meanings_of_the_length_agree() {
     }
 }
 
-/// Increasingly hard contacts converge to rigid ones.
 #[test]
-fn hard_contacts_converge_to_rigid_ones() {
+fn forces_converge_with_increasing_contact_modulus() {
     for law in LAWS {
         let [reference, hard, rigid] = [1.0, 1e4, 1e8].map(|factor| {
             let mut parameters = on_row(41);
@@ -77,7 +76,8 @@ fn hard_contacts_converge_to_rigid_ones() {
             let puncture = solve_as(&known, &settled(), &with_law(law), &parameters);
             complete(&puncture).critical_force.unwrap()
         });
-        // Contacts with the printed law are already nearly rigid.
+        // With the printed law contacts are nearly rigid even at the reference modulus, so compare
+        // the remaining difference with the whole change.
         assert!((hard - rigid).abs() <= 1e-2 * (reference - rigid).abs());
         assert_relative_eq!(hard, rigid, max_relative = 1e-5);
     }

@@ -1,4 +1,4 @@
-//! Snapshots of a row at chosen points of its path.
+//! Tests of snapshots: equilibria of a row at given points of its path.
 
 use approx::assert_relative_eq;
 use contact::CornerEdge;
@@ -29,7 +29,7 @@ fn a_snapshot_is_an_equilibrium_of_the_path() {
         assert_relative_eq!(here.force, point.force, max_relative = 1e-8);
         assert_relative_eq!(here.tilt_deg, point.tilt_deg, max_relative = 1e-8);
         let end = shot(&design, At::Tilt(10.0));
-        // The snapshot solves for all scales, the puncture for those within reach of contact.
+        // The snapshot solves for all scales, the puncture only for scales near contacts.
         let force = puncture.measures.critical_force.unwrap();
         assert_relative_eq!(end.force, force, max_relative = 1e-13);
         assert_eq!(Some(end.contacts.len()), puncture.measures.contacts);
@@ -44,7 +44,7 @@ fn a_snapshot_is_an_equilibrium_of_the_path() {
 }
 
 #[test]
-fn snapshots_between_points_are_solved() {
+fn snapshots_have_exactly_the_requested_tilt_or_force() {
     for design in spread() {
         for tilt in [0.0, 0.37, 3.21, 7.77] {
             assert_relative_eq!(shot(&design, At::Tilt(tilt)).tilt_deg, tilt, epsilon = 1e-9);
@@ -56,9 +56,8 @@ fn snapshots_between_points_are_solved() {
     }
 }
 
-/// Load, substrate and contacts balance on every scale.
 #[test]
-fn every_scale_is_in_equilibrium() {
+fn vertical_forces_balance_on_every_scale() {
     for design in spread() {
         for tilt in [2.0, 6.0, 10.0] {
             let RowSnapshot { force, scales, contacts, .. } = shot(&design, At::Tilt(tilt));
@@ -77,9 +76,8 @@ fn every_scale_is_in_equilibrium() {
     }
 }
 
-/// The position of a contact is on its touching corner.
 #[test]
-fn contacts_are_at_their_touching_corners() {
+fn the_position_of_a_contact_is_its_touching_corner() {
     let design = folding();
     let RowSnapshot { scales, contacts, .. } = shot(&design, At::Tilt(10.0));
     let row = design.row().unwrap();

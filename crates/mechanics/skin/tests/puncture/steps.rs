@@ -1,4 +1,4 @@
-//! The path does not depend on the step size.
+//! Checks that measures and events do not depend on the step size.
 
 use skin::Common;
 use solver::Settings;
@@ -7,7 +7,7 @@ use substrate::Calibrations;
 use crate::samples::{LAWS, finer, on_row, solve_as, spread};
 
 #[test]
-fn steps_ten_times_smaller_give_the_same_measures() {
+fn steps_ten_times_smaller_give_the_same_measures_and_events() {
     let known = Calibrations::default();
     let coarse = Settings::default();
     let fine = finer(coarse);

@@ -1,4 +1,4 @@
-//! Measures at several critical tilts, against paths that end there.
+//! Compares measures at several critical tilts of one path with paths that end at these tilts.
 
 use approx::assert_relative_eq;
 use skin::Status;
@@ -7,9 +7,9 @@ use substrate::Calibrations;
 
 use crate::samples::{forty, solve_with, spread};
 
-/// Force, displacement and penetration at 3°, 5°, 10° and 15° from one path.
+/// Compares force, displacement and penetration at 3°, 5°, 10° and 15°.
 #[test]
-fn intermediate_tilts_match_paths_that_end_there() {
+fn measures_at_intermediate_tilts_match_paths_that_end_at_these_tilts() {
     let known = Calibrations::default();
     let tilts = [3.0, 5.0, 10.0, 15.0];
     let parameters = PunctureParameters {
@@ -41,7 +41,7 @@ fn intermediate_tilts_match_paths_that_end_there() {
     assert!(compared > 180, "{compared}");
 }
 
-/// Smaller critical tilts do not change the path; the last has the final measures.
+/// The entry of the largest tilt has the final measures.
 #[test]
 fn intermediate_tilts_do_not_change_the_path() {
     let known = Calibrations::default();

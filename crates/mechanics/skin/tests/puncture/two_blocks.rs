@@ -1,4 +1,4 @@
-//! Blocks of Fig. 3 of Shafiei et al. (2021), with a kink at first contact.
+//! Tests of the two blocks in Fig. 3 of Shafiei et al. (2021), with a kink at first contact.
 
 use skin::puncture::{Puncture, PuncturePoint};
 use skin::{Base, Common, ContactChange, Design};
@@ -7,19 +7,19 @@ use substrate::Calibrations;
 
 use crate::samples::{blocks, design, on_row, solve_as};
 
-/// Solves the puncture of a pair in small steps.
+/// Solves the puncture of a row of two scales in small steps.
 fn finely(design: &Design) -> Puncture {
     let solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
     let common = Common { solver, ..Common::default() };
     solve_as(&Calibrations::default(), design, &common, &on_row(2))
 }
 
-/// Computes the mean stiffness between two points, in units of the force.
+/// Computes the slope of the force over the displacement between the first two points.
 fn stiffness(points: &[PuncturePoint]) -> f64 {
     (points[1].force - points[0].force) / (points[1].displacement - points[0].displacement)
 }
 
-/// Computes the ratio of the stiffness just after and just before first contact.
+/// Computes the stiffness just after first contact divided by the stiffness just before.
 fn kink(puncture: &Puncture) -> f64 {
     let at = puncture.path.iter().position(|point| point.contacts > 0).unwrap();
     stiffness(&puncture.path[at..]) / stiffness(&puncture.path[at - 1..])
@@ -33,7 +33,7 @@ fn the_stiffness_jumps_at_first_contact() {
     let kink = kink(&puncture);
     println!("two blocks, L/t = 1, d/t = 0.1: stiffness after over before contact {kink:.3}");
     assert!(kink > 1.5, "{kink}");
-    // There is no other kink: elsewhere the stiffness changes little from step to step.
+    // The path has no other kink: elsewhere the slope changes little from step to step.
     let slopes: Vec<f64> = puncture.path.windows(2).map(stiffness).collect();
     let jumps = slopes.windows(2).filter(|pair| (pair[1] / pair[0] - 1.0).abs() > 0.05).count();
     assert_eq!(jumps, 1);

@@ -1,6 +1,6 @@
-//! Random designs in the widest ranges of a definition.
+//! Tests of random designs in the widest ranges that a definition allows.
 //!
-//! The test counts paths that stop for a numerical reason.
+//! They check that few paths stop for a numerical reason.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -14,9 +14,7 @@ use substrate::{Calibrations, SubstrateLaw};
 
 use crate::samples::{BASES, SplitMix64, long_campaigns, springs};
 
-/// Everything that a definition may state about a puncture.
-///
-/// Quantities spanning decades are drawn log-uniformly.
+/// Random input of a puncture; quantities that span decades are distributed log-uniformly.
 struct Drawn {
     design: Design,
     common: Common,
@@ -46,23 +44,23 @@ fn draw(seed: u64) -> Drawn {
     Drawn { design, common, parameters }
 }
 
-/// Each seed gives a path with simultaneous events, a regression test.
+/// Each seed gives a path with difficult or simultaneous events, and the status with which it ends.
 #[test]
-fn paths_pass_simultaneous_events() {
+fn paths_with_difficult_events_end_with_the_expected_status() {
     let ends = [
-        // A contact that is rigid at first and soft right after turns the path by a right angle
-        // within 1e-8 of closing; one that is soft at first reverses all visible motion within 1e-9
-        // of opening.
+        // If a contact is rigid at first touch and soft right after, the path turns by a right
+        // angle within a distance of 1e-8 after the contact closes. If a contact is soft at first
+        // touch, the path reverses within 1e-9 after the contact opens.
         (854, Status::Untilted),
         (976, Status::OffEdge),
         (1418, Status::Complete),
         (22102, Status::Complete),
         (22139, Status::Complete),
         (22350, Status::Complete),
-        // The row grows where a soft contact has just closed.
+        // The row is extended at a point where a soft contact has just closed.
         (1201, Status::OffEdge),
-        // Two faces of equal length slide on each other: their corners reach each other's ends
-        // within round-off.
+        // Two faces of equal length slide on each other, so that both corners reach the ends of
+        // the faces simultaneously, up to round-off.
         (20436, Status::Complete),
         (20707, Status::OffEdge),
         // A sticking tip starts to slide at a vanishing rate.
@@ -76,9 +74,10 @@ fn paths_pass_simultaneous_events() {
     }
 }
 
-/// Returns the seeds and the longest time of the campaign.
+/// Returns the range of seeds and the time limit of the campaign.
 ///
-/// The variable `SQUAMA_HUNT` gives other seeds, such as `100000..110000`, without a limit of time.
+/// The environment variable `SQUAMA_HUNT` sets another range, such as `100000..110000`, without a
+/// time limit.
 fn range() -> (std::ops::Range<u64>, Duration) {
     let Ok(range) = std::env::var("SQUAMA_HUNT") else { return (0..1000, Duration::from_secs(8)) };
     let (from, to) = range.split_once("..").expect("a range of seeds");
@@ -90,9 +89,9 @@ fn is_numeric(status: Status) -> bool {
     matches!(status, Status::Stopped(NoConvergence | Singular | NotFinite | Cycling))
 }
 
-/// Long campaign only: as many designs as eight seconds allow, up to a thousand.
+/// Runs in a long campaign only, with as many designs as eight seconds allow, up to 1,000.
 ///
-/// `docs/reliability.md` reports how many stop for a numerical reason.
+/// `docs/reliability.md` states how many designs stop for a numerical reason.
 #[test]
 fn few_punctures_in_the_widest_ranges_stop_numerically() {
     if !long_campaigns() {
@@ -120,7 +119,7 @@ fn few_punctures_in_the_widest_ranges_stop_numerically() {
         *counts.entry(format!("{status:?}")).or_insert(0) += 1;
     }
     println!("{counts:?}");
-    // Eight of 1,500 in the reference count; small samples may have a few more.
+    // In a count of 1,500 designs eight stopped; small samples may have a few more.
     let numeric = solved.iter().filter(|status| is_numeric(**status)).count();
     assert!(numeric <= 5 + solved.len() / 100, "{numeric}: {counts:?}");
 }

@@ -1,4 +1,4 @@
-//! Strips of unequal gaps and slants with prescribed values.
+//! Tests of strips with prescribed unequal gaps and slants.
 
 use approx::assert_relative_eq;
 use geometry::{Parallelogram, UnevenRow};
@@ -32,7 +32,7 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
     both(gaps, slants_deg).0
 }
 
-/// Bends the strip as a chain and gap by gap.
+/// Bends the strip as a chain, and with separately solved gaps.
 fn both(gaps: &[f64], slants_deg: &[f64]) -> (Flexure, BentSample) {
     let scales = slants_deg.iter().map(|&slant| Parallelogram::leaning(0.5, slant).unwrap());
     let row = UnevenRow::new(scales.collect(), gaps.to_vec()).unwrap();
@@ -50,13 +50,13 @@ fn close(a: Option<f64>, b: Option<f64>, max_relative: f64) {
     assert_relative_eq!(a.unwrap(), b.unwrap(), max_relative = max_relative);
 }
 
-/// Upright scales touch at `M* = 1` in all gaps at once.
+/// Checks that upright scales touch at `M* = 1` in all gaps at once.
 ///
-/// The membrane between them is an arc of radius `1/M*` whatever its length, and the tops meet
-/// where the radius equals their height. Discretised with `m` elements the arc is a polygon with
-/// sides `d/m = 2 sin(θ/2m)`, which gives `M* = θ/d`.
+/// The membrane of each gap is an arc of radius `1/M*` for any length, and the tops meet where the
+/// radius equals their height. Discretised with `m` elements the arc is a polygon with sides
+/// `d/m = 2 sin(θ/2m)` at first contact, and the moment is `M* = θ/d`.
 #[test]
-fn upright_scales_touch_at_one_moment_for_all_gaps() {
+fn upright_scales_touch_in_all_gaps_at_the_same_moment() {
     let flexure = bent(&GAPS, &[0.0; 7]);
     let closed: Vec<_> =
         flexure.events.iter().filter(|event| event.change == ContactChange::Closed).collect();
@@ -89,7 +89,7 @@ fn mirrored_strips_have_equal_measures() {
 }
 
 #[test]
-fn gap_by_gap_and_mirrored_strips_match_the_chain() {
+fn separately_solved_gaps_and_their_mirror_image_match_the_chain() {
     let slants = [60.0, 59.8, 60.1, 59.9, 60.2, 60.05, 59.95];
     let (mut gaps, mut mirrored) = (GAPS, slants.map(|slant| -slant));
     gaps.reverse();

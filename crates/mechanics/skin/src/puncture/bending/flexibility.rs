@@ -6,48 +6,61 @@ use geometry::Vec2;
 use super::Beam;
 use crate::contacts::{PairCoordinate, TouchingEdge};
 
-/// Value with its first and second derivative with respect to the position of a load.
+/// Value with its first and second derivative with respect to the coordinate of a load.
 type Varying = [f64; 3];
 
-/// Force on a scale, which is a beam.
+/// Force on a scale that bends as a beam.
+///
+/// The load has one coordinate: an angle if it acts at a fixed point in a direction that turns, or
+/// its position if it slides along an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BeamLoad {
-    /// Unknown of the force; `None` for the moment at the tip.
+    /// Index of the unknown force; `None` for the moment at the tip.
     pub(super) unknown: Option<usize>,
     pub(super) force: f64,
-    /// Moment about the node and transverse force, per unit force.
+    /// Moment about the node, per unit force.
     pub(super) moment: Varying,
+    /// Force perpendicular to the axis of the beam, per unit force.
     pub(super) across: Varying,
-    /// Position along the beam, with its first derivative.
+    /// Position along the beam, with its first derivative with respect to the coordinate.
     pub(super) section: [f64; 2],
-    /// Unknowns on which the coordinate of the load depends, with derivatives.
+    /// Indices of the unknowns on which the coordinate depends.
     pub(super) at: [usize; COORDINATES],
+    /// Derivatives of the coordinate with respect to these unknowns.
     pub(super) slopes: [f64; COORDINATES],
+    /// Second derivatives of the coordinate with respect to these unknowns.
     pub(super) curvature: [[f64; COORDINATES]; COORDINATES],
 }
 
-/// Flexibility `C_kl` of a scale.
+/// Flexibility `C_kl` of a scale (B7), with derivatives.
 ///
-/// Includes the derivatives with respect to the positions of the loads `k` and `l`.
+/// Derivatives are with respect to the coordinates of the first load `k` and the second load `l`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Flexibility {
     pub(super) value: f64,
+    /// First derivative with respect to the coordinate of load `k`.
     pub(super) by_first: f64,
+    /// Second derivative with respect to the coordinate of load `k`.
     pub(super) by_first_twice: f64,
+    /// Mixed derivative with respect to the coordinates of both loads.
     pub(super) by_both: f64,
 }
 
-/// Section of a scale.
+/// Length and stiffness of a scale as a beam.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Section {
     pub(super) length: f64,
+    /// Half of the length over which the shear force of a load falls to 0.
     pub(super) spread: f64,
+    /// Bending stiffness `E_c I`.
     pub(super) bending: f64,
     pub(super) shear_stiffness: f64,
 }
 
 impl BeamLoad {
-    /// Creates a load at a point fixed to the scale, in a direction that turns by `coordinate`.
+    /// Creates a unit load at a point fixed to the scale, with an angle as its coordinate.
+    ///
+    /// `direction` is the direction of the load, which turns as this angle changes.
     pub(super) fn at_point(beam: &Beam, point: Vec2, direction: Vec2, section: f64) -> Self {
         let turned = contact::quarter(direction);
         let (moment, across) = (point.perp(&direction), beam.along.perp(&direction));
@@ -63,7 +76,7 @@ impl BeamLoad {
         }
     }
 
-    /// Iterates over the unknowns on which the coordinate of the load depends, with derivatives.
+    /// Iterates over the unknowns on which the coordinate depends, with its derivatives.
     pub(super) fn varying(&self) -> impl Iterator<Item = (usize, f64)> {
         self.at.into_iter().zip(self.slopes).filter(|(_, slope)| *slope != 0.0)
     }
@@ -73,15 +86,17 @@ impl BeamLoad {
         self.at.iter().zip(self.slopes).map(|(&at, slope)| slope * direction[at]).sum()
     }
 
-    /// Integrates the moment of the load, or a derivative of it, and minus its first moment up to
-    /// the section `z`.
+    /// Returns `∫ M ds` and `−∫ M s ds` from the base to the section `z`.
+    ///
+    /// `M` is the moment of the unit load, or with `derivative` 1 or 2 the first or second
+    /// derivative of this moment with respect to the coordinate.
     fn integrals(&self, derivative: usize, z: f64) -> [f64; 2] {
         let (moment, across) = (self.moment[derivative], self.across[derivative]);
         let (square, cube) = (z * z / 2.0, z * z * z / 3.0);
         [moment * z - across * square, across * cube - moment * square]
     }
 
-    /// Creates the unit moment at the tip.
+    /// Creates a unit moment at the tip.
     pub(super) fn tip_moment(beam: &Beam, at: [usize; COORDINATES]) -> Self {
         Self {
             moment: [1.0, 0.0, 0.0],
@@ -91,7 +106,7 @@ impl BeamLoad {
         }
     }
 
-    /// Places the load by `sign` times a coordinate of its pair.
+    /// Sets the coordinate of the load to `sign` times a coordinate of its pair of scales.
     fn along_pair(self, touching: &TouchingEdge, sign: f64, coordinate: &PairCoordinate) -> Self {
         Self {
             unknown: Some(touching.unknown),
@@ -103,13 +118,14 @@ impl BeamLoad {
         }
     }
 
-    /// Creates the load of a contact on its scale with the corner, or with the edge.
+    /// Creates the load of a contact on one of its two scales, with the corner or with the edge.
     ///
-    /// `None` for a force on a base, which bends nothing.
+    /// `None` for a force on the base, which does not bend the scale.
     pub(super) fn of_contact(beam: &Beam, touching: &TouchingEdge, scale: usize) -> Option<Self> {
         let is_left = touching.ends[0] == scale;
         if is_left == touching.edge.corner_is_left() {
-            // The normal of the edge, turned by the rotation of the edge relative to the corner.
+            // The force on the corner has the direction of the normal of the edge, here in the
+            // frame of the scale with the corner.
             let sign = if is_left { 1.0 } else { -1.0 };
             let angle = sign * touching.turn.value;
             let direction = contact::Pose::new(0.0, 0.0, angle).turn(touching.normal);
@@ -123,9 +139,9 @@ impl BeamLoad {
         let across = load.across[0];
         let (arm, section) = match touching.edge {
             CornerEdge::BottomLeftOnBase => return None,
-            // The part beyond the last section is rigid.
+            // A load on the top acts on the last section, because the scale is rigid beyond it.
             CornerEdge::TopRightOnTop => (along.perp(&-touching.normal), [beam.length, 0.0]),
-            // The force is perpendicular to the axis of the beam.
+            // A side is parallel to the axis of the beam, so the force is perpendicular to it.
             _ => {
                 let side = along.dot(&beam.along).signum();
                 (across * side, [side * slide, side])
@@ -137,14 +153,14 @@ impl BeamLoad {
 }
 
 impl Section {
-    /// Computes the flexibility between two loads.
+    /// Computes the flexibility between the loads `k` and `l`, with derivatives.
     pub(super) fn flexibility(&self, k: &BeamLoad, l: &BeamLoad) -> Flexibility {
         let [own, other] = [k, l].map(|load| load.section[0].clamp(0.0, self.length));
         let z = own.min(other);
         let [zeroth, first] = l.integrals(0, z);
         let [zeroth_by_other, first_by_other] = l.integrals(1, z);
-        // The moment of a moving load vanishes at its own section, so that a moving limit of the
-        // integral matters only in the second derivative.
+        // The integral ends at the nearer load, where the moment of this load is zero. So the
+        // motion of this end contributes only to the second derivative.
         let moves = own <= other && own > 0.0 && own < self.length;
         let at_limit = if moves {
             k.section[1] * (l.moment[0] - l.across[0] * z) * (k.moment[1] - k.across[1] * z)
@@ -180,7 +196,7 @@ impl Section {
         }
     }
 
-    /// Returns the shear force at `x` of a unit force at `s`.
+    /// Returns the shear force in the section `x` of a unit transverse force at `s`.
     fn shear(&self, s: f64, x: f64) -> f64 {
         ((s + self.spread - x) / (2.0 * self.spread)).clamp(0.0, 1.0)
     }
@@ -191,7 +207,7 @@ impl Section {
     fn overlap(&self, s: f64, t: f64) -> Overlap {
         let (w, length) = (self.spread, self.length);
         let [near, far] = [s.min(t), s.max(t)];
-        // Below these sections both shear forces are 1, above them one of them is 0.
+        // Both shear forces are 1 below the first break. One of them is 0 above the last break.
         let breaks = [near - w, (far - w).min(near + w), near + w].map(|x| x.clamp(0.0, length));
         let mut overlap = Overlap { value: breaks[0], ..Overlap::default() };
         for pair in breaks.windows(2) {
@@ -221,14 +237,16 @@ impl Section {
     }
 }
 
-/// Integrates a polynomial of degree 3 or less by two points of Gauss and Legendre.
+/// Integrates a polynomial of degree 3 or less by the two-point Gauss–Legendre rule.
 fn integral([low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0);
     let offset = half / 3.0_f64.sqrt();
     half * (f(middle - offset) + f(middle + offset))
 }
 
-/// Integral of the product of two shear forces, with derivatives in their positions.
+/// Integral of the product of two shear forces, with derivatives.
+///
+/// Derivatives are with respect to the positions of the first and the second force.
 #[derive(Clone, Copy, Debug, Default)]
 struct Overlap {
     value: f64,

@@ -1,4 +1,4 @@
-//! Equations of a guided needle, and their validity conditions.
+//! Equations of a guided needle, and the conditions under which its discrete state is valid.
 
 use geometry::Vec2;
 use solver::{Residual, Tangent};
@@ -11,21 +11,21 @@ use crate::contacts::{
 };
 use crate::puncture::system::Chain;
 
-/// Distance (over `t`) by which a foot may exceed the end of a face.
+/// Distance beyond the end of a face up to which a tip still faces it, in units of `t`.
 ///
-/// It covers round-off and the approach of corners that lie on the face.
+/// It is larger than round-off and than the approach of a corner that lies on the face.
 const BESIDE: f64 = 1e-9;
 
-/// Distance (over `t`) within which the shortest steps approach an end.
+/// Distance from the end of a face within which the path has reached this end, in units of `t`.
 ///
-/// The steps cannot pass the end.
+/// The shortest steps of the solver come closer, but cannot pass the end.
 const AT_AN_END: f64 = 1e-6;
 
-/// Step of the differences for slopes of conditions, relative to the largest rate.
+/// Largest change of an unknown in difference quotients along a direction.
 pub(super) const STEP: f64 = 1e-6;
 
 impl Chain {
-    /// Adds the equations of a needle: balance (L1), closed gaps, friction (L2).
+    /// Adds the equations of a guided needle: equilibrium (L1), closed gaps, friction (L2).
     pub(in crate::puncture) fn add_needle(
         &self,
         needle: &GuidedNeedle,
@@ -34,11 +34,11 @@ impl Chain {
         matrix: &mut impl Tangent,
     ) {
         let load = self.layout.load();
-        // The row of the depth is the balance of the needle itself.
+        // The equation of the depth is the equilibrium of the needle: load and contact forces.
         residual.add(needle.depth, state.z[load]);
         matrix.add(needle.depth, load, 1.0);
         if needle.constraints_per_touch < needle.unknowns_per_touch {
-            // Missing touches have zero tangential force.
+            // Slots without a tip contact have no tangential force.
             let touches = &state.mode.needle.touches;
             for slot in (0..needle.slots).filter(|&slot| touches[slot].is_none()) {
                 let tangential_force = needle.normal_force(slot) + 1;
@@ -53,14 +53,14 @@ impl Chain {
             add_balance(&meeting, rows, normal_force, &state.z, residual, matrix);
             residual.add(normal_force, meeting.gap());
             add_row(normal_force, rows, 1.0, meeting.tip.gap_slopes(), matrix);
-            // A frictionless round tip has no tangential force and no law for it.
+            // A frictionless round tip has no tangential force and no friction law.
             if needle.constraints_per_touch == needle.unknowns_per_touch {
                 continue;
             }
             add_law(needle, (touch, normal_force), &meeting, rows, &state.z, residual, matrix);
             for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
-                // The slip distance enters no other equation; it only lets the solver detect
-                // reversal.
+                // The slip distance enters no other equation. It only lets the solver detect a
+                // reversal of sliding.
                 let (TipState::Slip { start, .. }, true) =
                     (touch.tip_state, state.active[needle.number(slot, constraint)])
                 else {
@@ -78,13 +78,15 @@ impl Chain {
         }
     }
 
-    /// Returns the touch on a notch face, and the friction of its sticking corner.
+    /// Returns the slot of the tip contact on the face of a notch, and the friction of its corner.
+    ///
+    /// `None` unless tip and corner stick.
     fn corner_friction(&self, state: &SkinState) -> Option<(usize, TipFriction)> {
         let [face, corner] = self.notch(state)?;
         Some((face, self.contacts.friction_with_tip(state, corner)?))
     }
 
-    /// Appends the conditions of the needle constraints.
+    /// Appends the values of the conditions of all needle constraints.
     pub(in crate::puncture) fn needle_conditions(
         &self,
         needle: &GuidedNeedle,
@@ -98,7 +100,7 @@ impl Chain {
         for (_, touch, number, meeting) in self.touches(state) {
             let [_, _, rotation] = self.displacement(&state.z, number);
             values[tilt] = values[tilt].min(needle.critical_tilt - rotation.abs());
-            // The foot is the start of the left face and the end of the right face.
+            // A scale has its feet at the start of the left face and at the end of the right face.
             let to_foot = match touch.place {
                 OutlinePart::Left => meeting.tip.xi,
                 OutlinePart::Right => meeting.tip.length - meeting.tip.xi,
@@ -120,7 +122,8 @@ impl Chain {
             self.touch_conditions(needle, state, (number, touch), &meeting, of_touch);
         }
         if let Some((slot, corner)) = self.corner_friction(state) {
-            // Tip and corner slide together where the sum of their friction reaches its limit.
+            // Tip and corner begin to slide together when the sum of their friction forces reaches
+            // the sum of their limits.
             let [normal_force, tangential_force] = needle.forces(&state.z, slot);
             let limit = needle.friction * normal_force + corner.limit;
             let sum = tangential_force + corner.traction;
@@ -129,7 +132,9 @@ impl Chain {
         }
     }
 
-    /// Evaluates the conditions of a touch, except the condition of its normal force.
+    /// Evaluates the conditions of a contact of a sharp tip.
+    ///
+    /// `number` is the slot of the tip contact, `values` are the values of its constraints.
     fn touch_conditions(
         &self,
         needle: &GuidedNeedle,
@@ -144,7 +149,8 @@ impl Chain {
         needle.stick_slip_conditions(state, number, touch, meeting, values);
         match touch.tip_state {
             TipState::Slip { .. } => {
-                // The outer end of a side face is its foot, and reaching it means passing through.
+                // The lower end of a side face is a foot of the scale. A tip that reaches it is
+                // through, which is another condition.
                 if touch.place != OutlinePart::Left {
                     values[FACE_START] = tip.xi;
                 }
@@ -161,8 +167,8 @@ impl Chain {
                     Some(beside.parts(force))
                 };
                 let [before, after] = [false, true].map(|onward| seen(onward).unwrap_or(forces));
-                // The force rotates from the sliding limit on the previous face to the limit on the
-                // next face.
+                // The force rotates from the sliding limit on the previous face to the sliding
+                // limit on the next face (L5).
                 [values[FACE_START], values[FACE_END]] = if forward {
                     [friction * before[0] - before[1], after[1] - friction * after[0]]
                 } else {
@@ -173,15 +179,14 @@ impl Chain {
         }
     }
 
-    /// Computes the gap to the face that the needle would meet next.
+    /// Computes the gap between a sharp tip and the face that it would touch next.
     ///
-    /// Its foot must be within that face. A tip that sticks on a corner meets that face together
-    /// with the corner and without pressing on it: corner and face carry their force alone until
-    /// the tip slides.
+    /// The foot of the perpendicular from the tip must lie on this face. A tip that sticks at a
+    /// corner never closes the gap: the corner alone presses on the face until the tip slides.
     fn gap_of_next(&self, state: &SkinState, touch: &Touch) -> f64 {
         if self.sticks_at_corner(state, touch) {
-            // Ignore whether the contact of the corner is already closed: the order of both events
-            // is round-off.
+            // The corner and the tip reach the face at the same point of the path, in an order that
+            // depends on round-off. So do not require that the contact of the corner is closed.
             return HOLDS;
         }
         let next = Self::next_touch(touch);
@@ -190,7 +195,7 @@ impl Chain {
         faced.map_or(HOLDS, |tip| tip.gap)
     }
 
-    /// Returns true if a tip sticks on the top of a scale at its right corner.
+    /// Returns true if a tip sticks on the top of a scale, at the right corner of this top.
     fn sticks_at_corner(&self, state: &SkinState, touch: &Touch) -> bool {
         let sticks = matches!(touch.tip_state, TipState::Stick { .. });
         let here = self.tip(&state.z, touch.scale, touch.place);
@@ -198,10 +203,10 @@ impl Chain {
         here.is_some_and(|here| here.xi > here.length - BESIDE)
     }
 
-    /// Returns true if a tip sticks at a corner beside the face of this constraint.
+    /// Returns true if a tip sticks at a corner and the constraint is its contact with a face.
     ///
-    /// The constraint is the touch of that face. The corner stays on the face and the tip at the
-    /// corner, so the gap of the touch is constant.
+    /// The corner lies on this face of the neighbour. The gap between tip and face is then constant
+    /// and does not determine the outgoing branch.
     pub(in crate::puncture) fn sticks_beside_face(
         &self,
         needle: &GuidedNeedle,
@@ -220,15 +225,15 @@ impl Chain {
             && touches[1 - slot].is_some_and(|touch| self.sticks_at_corner(state, &touch))
     }
 
-    /// Returns true if the end of the next face is about to pass the tip from the side.
+    /// Returns true if the end of the next face is about to move below the tip from the side.
     ///
-    /// The tip is then already below that face and a corner meets the shaft, which the model does
-    /// not cover.
+    /// The tip is then already deeper than this face, so a corner of the scale would touch the
+    /// shaft of the needle, which is not modelled.
     pub(in crate::puncture) fn is_met_from_the_side(&self, state: &SkinState) -> bool {
         if state.mode.needle.is_round() {
             return false;
         }
-        // A second touch means that the tip has already gone on to the next scale.
+        // With two tip contacts, the tip already touches the next scale.
         let mut touches = state.mode.needle.touches.iter().flatten();
         let (Some(touch), None) = (touches.next(), touches.next()) else { return false };
         let next = Self::next_touch(touch);
@@ -239,7 +244,7 @@ impl Chain {
         })
     }
 
-    /// Appends the directional derivatives of the needle conditions.
+    /// Appends the derivatives of all needle conditions along `direction`.
     pub(in crate::puncture) fn needle_slopes(
         &self,
         needle: &GuidedNeedle,
@@ -260,8 +265,8 @@ impl Chain {
 
     /// Returns true if the forces in this state have no potential.
     ///
-    /// That is the case for a needle that slides with friction or is locked with a nonzero ratio,
-    /// and with friction between scales.
+    /// Friction between scales has no potential, and neither has the tangential force of a tip that
+    /// slides with friction or is locked with a nonzero ratio `T/N`.
     pub(in crate::puncture) fn is_nonconservative(&self, state: &SkinState) -> bool {
         if Contacts::friction_acts(state) {
             return true;
@@ -274,9 +279,10 @@ impl Chain {
         })
     }
 
-    /// Lists the needle unknowns of the stiffness.
+    /// Lists the unknowns of the needle that belong to the stiffness of the row (P5).
     ///
-    /// These are the depth, and the forces that hold the needle on faces and at anchors.
+    /// They are the depth, the normal forces, and the tangential forces of sticking and passing
+    /// tips.
     pub(in crate::puncture) fn needle_in_stiffness(&self, state: &SkinState) -> Vec<usize> {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut unknowns = vec![needle.depth];
@@ -289,10 +295,10 @@ impl Chain {
         unknowns
     }
 
-    /// Calls `entry` for each stiffness entry of a frictionless needle.
+    /// Calls `entry` for each stiffness entry of a needle with conservative forces.
     ///
-    /// These are second derivatives of `−N g + T ξ`, with `N` and, while the tip sticks, `T` as
-    /// unknowns.
+    /// The arguments are row, column and value: second derivatives of `−N g + T ξ`. `N` is an
+    /// unknown, and so is `T` of a tip that sticks or passes a corner.
     pub(in crate::puncture) fn for_needle_stiffness(
         &self,
         state: &SkinState,
@@ -320,7 +326,7 @@ impl Chain {
         }
     }
 
-    /// Computes the force of the needle on the scales along the row, to the right.
+    /// Computes the force of the needle on all scales along the row, positive to the right.
     pub(in crate::puncture) fn lateral_force(&self, state: &SkinState) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
         let touches = self.touches(state);
@@ -334,7 +340,8 @@ impl Chain {
 
     /// Lists the forces of a guided needle on a scale.
     ///
-    /// Each entry holds the arm from the node, in the deformed state, and the force.
+    /// Each entry holds the vector from the node to the point of contact in the deformed state, and
+    /// the force.
     pub(in crate::puncture) fn needle_forces_on(
         &self,
         state: &SkinState,
@@ -348,14 +355,14 @@ impl Chain {
         forces.collect()
     }
 
-    /// Returns the normal force of a guided needle on a scale.
+    /// Returns the normal force of a guided needle on a scale; 0 without contact.
     pub(in crate::puncture) fn needle_push_on(&self, state: &SkinState, scale: usize) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
         let touches = self.touches(state).filter(|(_, _, number, _)| *number == scale);
         touches.map(|(slot, ..)| state.z[needle.normal_force(slot)]).fold(0.0, f64::max)
     }
 
-    /// Computes the dissipation `∫ μ_n N |dξ|` at the tip between two points.
+    /// Computes the dissipation `∫ μ_n N |dξ|` of the tip between two points of the path.
     pub(in crate::puncture) fn tip_dissipation(
         &self,
         from: &SkinPoint,
@@ -378,14 +385,16 @@ impl Chain {
                     needle.normal_force(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
                 let normal_force = needle.normal_force(slot);
                 let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
-                // At a corner the force of the second point is resolved along another normal.
+                // If the second point is at a corner, resolve its force along the normal of the
+                // face on which the tip slid.
                 let after = self.touches(&to.state).find(|(other, ..)| *other == slot);
                 let push = after.map_or(to.state.z[normal_force], |(.., meeting)| {
                     let force = meeting.tip.force(needle.forces(&to.state.z, slot));
                     end.tip.parts(force)[0]
                 });
                 let pushes = [from.state.z[normal_force], push];
-                // The tip may have stopped at the second point, so compute its slip from the poses.
+                // The tip may stick at the second point and have no slip distance there, so compute
+                // the slip from the poses.
                 let slips = [from.state.z[slid], sign * (end.xi() - start)];
                 product_integral([pushes, along(normal_force)], [slips, along(slid)])
                     * needle.friction
@@ -393,7 +402,7 @@ impl Chain {
             .sum()
     }
 
-    /// Returns `T` and `ξ` of all touches by slot; the dissipation is `∫ T dξ`.
+    /// Returns `T` and `ξ` of the tip contact in each slot; the dissipation is `∫ T dξ`.
     #[cfg(test)]
     pub(in crate::puncture) fn tip_friction(&self, state: &SkinState) -> Vec<[f64; 2]> {
         let Some(needle) = &self.needle else { return Vec::new() };
@@ -406,7 +415,7 @@ impl Chain {
 }
 
 impl GuidedNeedle {
-    /// Returns `N` and `T` of a touch.
+    /// Returns the normal force `N` and the tangential force `T` of the tip contact in a slot.
     pub(super) fn forces(&self, z: &[f64], slot: usize) -> [f64; 2] {
         let normal_force = self.normal_force(slot);
         let has_friction = self.constraints_per_touch < self.unknowns_per_touch;
@@ -415,8 +424,8 @@ impl GuidedNeedle {
 
     /// Adds the equation for equal fractions of the friction limits in a notch.
     ///
-    /// With the friction limits `μ_n N` of the tip and `μ Λ` of the corner it is
-    /// `T_c = (T_c + T) μ Λ/(μ Λ + μ_n N)`, in the row of the unknown of the corner.
+    /// With the friction forces `T` of the tip and `T_c` of the corner and their limits `μ_n N` and
+    /// `μ Λ` it is `T_c = (T_c + T) μ Λ/(μ Λ + μ_n N)`, in the row of the unknown of the corner.
     fn add_equal_fractions(
         &self,
         slot: usize,
@@ -443,7 +452,9 @@ impl GuidedNeedle {
         }
     }
 
-    /// Evaluates the conditions of a sticking touch (L2) and of a sliding touch.
+    /// Evaluates the slip conditions of a tip that sticks or slides (L2).
+    ///
+    /// A sticking tip must not exceed its friction limit, and a sliding tip must not reverse.
     pub(super) fn stick_slip_conditions(
         &self,
         state: &SkinState,
@@ -471,9 +482,9 @@ impl GuidedNeedle {
     }
 }
 
-/// Adds the force of a touch to the balances of its scale and of the needle.
+/// Adds the force of a tip contact to the equilibrium equations of its scale and of the needle.
 ///
-/// The needle takes it with opposite sign.
+/// The force on the needle has the opposite sign of the force on the scale.
 fn add_balance(
     meeting: &Meeting,
     rows: [usize; COORDINATES],
@@ -482,8 +493,8 @@ fn add_balance(
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
-    // A frictionless round tip has no tangential force. The next unknown then belongs to the
-    // condition on the position, and stays 0.
+    // A frictionless round tip has no tangential force. The unknown after the normal force then
+    // belongs to the condition on the position and is always 0.
     let forces = [z[normal_force], z[normal_force + 1]];
     let (by_gap, by_xi) = (meeting.tip.gap_slopes(), meeting.xi_slopes());
     let curvature = meeting.curvature(forces);
@@ -497,7 +508,7 @@ fn add_balance(
     }
 }
 
-/// Adds the friction law in the row of the tangential force.
+/// Adds the friction law of a tip contact, in the row of its tangential force.
 fn add_law(
     needle: &GuidedNeedle,
     (touch, normal_force): (&Touch, usize),
@@ -525,9 +536,9 @@ fn add_law(
                 TipState::Stick { anchor } => needle.shifted_anchor(touch, anchor),
                 _ => 0.0,
             };
-            // This sign keeps the sign of the determinant where a sliding tip stops. With the other
-            // sign the solver would take the equilibria beyond that point for another branch and
-            // stop.
+            // With this sign of the equation, the determinant (N7) keeps its sign when a sliding
+            // tip stops. With the opposite sign the solver would conclude that it has switched to
+            // another branch, and stop.
             residual.add(row, at);
             residual.add(row, -meeting.xi());
             add_row(row, rows, -1.0, meeting.xi_slopes(), matrix);
@@ -535,7 +546,7 @@ fn add_law(
     }
 }
 
-/// Adds `factor` times the slopes with respect to the coordinates of a touch to a row.
+/// Adds `factor` times the `slopes` to a row of the tangent, in the given `columns`.
 pub(super) fn add_row(
     row: usize,
     columns: [usize; COORDINATES],

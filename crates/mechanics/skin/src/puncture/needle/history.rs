@@ -1,16 +1,16 @@
 //! History variables of a row, and their derivatives with respect to parameters.
 //!
-//! A sticking tip or contact has an anchor, and a needle in a notch is locked with a ratio of
-//! forces. These variables are set at an event of the path, so a parameter shifts them as it shifts
-//! that event:
+//! A sticking tip or contact has an anchor, and a locked tip or contact keeps its ratio `T/N`. Such
+//! a variable `a` is set at an event of the path. A parameter `q` changes it, because it moves this
+//! event:
 //!
 //! ```text
 //! da/dq = ∂a/∂q + ∂a/∂z dz/dq                            at the event
 //! dz/dq = −J⁻¹ (∂r/∂q + ∂r/∂a da/dq) + s v               after the event                     (L6)
 //! ```
 //!
-//! The second equation is (D2), applied to the systems for `q ± h` with their own history
-//! variables, to first order.
+//! The second equation is (D2), applied to the rows with the parameters `q ± h`. Each of these rows
+//! has its own history variables `a ± h da/dq`.
 
 use std::borrow::Cow;
 
@@ -25,9 +25,9 @@ use crate::sensitivity::vanished;
 /// History variable of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::puncture) enum HistoryVariable {
-    /// Anchor or locked ratio of a needle touch.
+    /// Anchor or locked ratio of a tip contact.
     Touch(Touch),
-    /// Anchor or locked ratio of a contact, with its number.
+    /// Number of a contact between scales, and its anchor or locked ratio.
     Contact(usize, f64),
 }
 
@@ -39,22 +39,25 @@ pub(in crate::puncture) struct HistoryObserver {
 
 impl HistoryObserver {
     pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
-        // History variables are copied bit by bit along the path, so inequality means a new one.
+        // History variables are copied exactly along the path, so a value that differs in any bit
+        // belongs to a new variable.
         if history(&to.state).iter().any(|kept| !history(&from.state).contains(kept)) {
             self.segments.push([(**from).clone(), to.clone()]);
         }
     }
 }
 
-/// A history variable and its derivative with respect to each parameter.
-///
-/// `None` if the derivative is unknown.
+/// A history variable and its derivatives.
 pub(in crate::puncture) struct Anchor {
     kept: HistoryVariable,
+    /// Derivative with respect to each parameter; `None` if it is unknown.
     rates: Vec<Option<f64>>,
 }
 
-/// Computes the history variables of a path with their derivatives, in order.
+/// Computes the history variables of a path with their derivatives, in the order of the path.
+///
+/// Each of the `segments` ends with a new history variable. `variations` holds the rows with one
+/// perturbed parameter each.
 pub(in crate::puncture) fn anchors(
     path: &mut Continuation<Chain>,
     segments: &[[SkinPoint; 2]],
@@ -63,7 +66,7 @@ pub(in crate::puncture) fn anchors(
     let rest = path.system().at_rest();
     let mut anchors: Vec<Anchor> = Vec::new();
     for kept in history(&rest) {
-        // The first anchor of the needle depends on the design only.
+        // The anchor of the needle at rest depends on the parameters alone, not on an event.
         anchors.push(Anchor {
             kept,
             rates: variations
@@ -78,12 +81,12 @@ pub(in crate::puncture) fn anchors(
     }
     for [from, to] in segments {
         let event = event_before(path, [from, to]);
-        // Earlier history variables shift this event, too, so process segments in path order.
+        // Earlier history variables move this event, too, so process segments in path order.
         let varied = event.as_ref().and_then(|event| with(&anchors, &event.state, variations));
         let mut here = event.and_then(|event| Linearisation::new(path.system(), event).ok());
         let new =
             history(&to.state).into_iter().filter(|kept| !history(&from.state).contains(kept));
-        // Solve for the perturbed equilibria at the event once, for all its history variables.
+        // Solve for the perturbed equilibria once for all history variables of the event.
         let unknown = || vec![None; variations.len()];
         let moved: Vec<_> =
             here.as_mut().zip(varied.as_ref()).map_or_else(unknown, |(here, varied)| {
@@ -106,9 +109,9 @@ pub(in crate::puncture) fn anchors(
     anchors
 }
 
-/// Gives perturbed rows the history variables of their own paths to `state`.
+/// Returns the perturbed rows with the history variables that their own paths have at `state`.
 ///
-/// `None` if a derivative of these variables is unknown.
+/// `None` if a derivative of one of these variables is unknown.
 pub(in crate::puncture) fn with<'v>(
     anchors: &[Anchor],
     state: &SkinState,
@@ -116,7 +119,7 @@ pub(in crate::puncture) fn with<'v>(
 ) -> Option<Cow<'v, [Neighbours<Chain>]>> {
     let mut varied = Cow::Borrowed(variations);
     for kept in history(state) {
-        // A variable may take the same value twice: use the latest event.
+        // A variable may have the same value after two events: use the later event.
         let anchor = anchors.iter().rev().find(|anchor| anchor.kept == kept)?;
         for (neighbours, rate) in varied.to_mut().iter_mut().zip(&anchor.rates) {
             let change = neighbours.step * (*rate)?;
@@ -139,7 +142,7 @@ pub(in crate::puncture) fn history(state: &SkinState) -> Vec<HistoryVariable> {
     touches.chain(contacts).collect()
 }
 
-/// Solves for the event at the end of a segment, in the state before the event.
+/// Solves for the event at the end of a segment, with the active set and mode before the event.
 pub(in crate::puncture) fn event_before(
     path: &mut Continuation<Chain>,
     [from, to]: [&SkinPoint; 2],
@@ -149,15 +152,15 @@ pub(in crate::puncture) fn event_before(
         Some(solver::Event::Changed(changes)) => vanished(path.system(), &state, changes),
         _ => None,
     };
-    // At a smooth reversal the slip is stationary along the path, so the position of the point does
-    // not matter.
+    // At a smooth reversal the slip distance is stationary along the path. A small error in the
+    // position of the point then does not change it, so no guard is needed.
     let anchor = guard.map_or(PathAnchor::Still, PathAnchor::Guard);
     Some(AnchoredPoint { state, direction, anchor })
 }
 
-/// Computes the perturbed equilibria at an event.
+/// Computes the equilibria at an event for the smaller and the larger value of a parameter.
 ///
-/// `None` if the parameter changes the event.
+/// `None` if a perturbed row violates another constraint at the event.
 fn moved_to(
     chain: &Chain,
     here: &mut Linearisation<SkinMode>,
@@ -173,9 +176,9 @@ fn moved_to(
 }
 
 impl Chain {
-    /// Evaluates in `state` a history variable that state `to` will have.
+    /// Computes from `state` the value of a history variable that is set in the state `to`.
     ///
-    /// It is an anchor or a ratio of forces.
+    /// It is an anchor or a ratio of forces. `state` is at the event, before the change.
     fn history_value(
         &self,
         state: &SkinState,
@@ -189,7 +192,8 @@ impl Chain {
             HistoryVariable::Touch(touch) => touch,
         };
         let TipState::Locked { .. } = touch.tip_state else {
-            // A round tip may roll on after the event: evaluate it where it touches there.
+            // A round tip may move to another outline part after the event. Evaluate its slip
+            // coordinate on the part that it touches in the state `to`.
             let place = to.mode.needle.place(touch.scale).unwrap_or(touch.place);
             return Some(self.meeting(&state.z, touch.scale, place)?.xi());
         };
@@ -199,14 +203,15 @@ impl Chain {
                 .as_ref()
                 .is_some_and(|before| (before.scale, before.place) == (touch.scale, touch.place))
         }) else {
-            // The corner has reached the tip, which is locked without a tangential force.
+            // The tip did not touch this outline part before. Its corner has reached the tip,
+            // which is locked without a tangential force.
             return Some(0.0);
         };
         let normal_force = self.needle.as_ref()?.normal_force(slot);
         Some(state.z[normal_force + 1] / state.z[normal_force])
     }
 
-    /// Shifts a history variable, for a perturbed row.
+    /// Shifts a history variable of this perturbed row by an amount.
     fn shift_anchor(&mut self, kept: HistoryVariable, by: f64) {
         match (kept, &mut self.needle) {
             (HistoryVariable::Touch(touch), Some(needle)) => needle.anchor_shifts.push((touch, by)),
@@ -217,7 +222,9 @@ impl Chain {
 }
 
 impl GuidedNeedle {
-    /// Returns the anchor or ratio of a touch, given its value in the mode.
+    /// Returns the anchor or ratio of a tip contact on this row, possibly a perturbed one.
+    ///
+    /// `of_mode` is its value on the unperturbed row.
     pub(super) fn shifted_anchor(&self, touch: &Touch, of_mode: f64) -> f64 {
         let touch = if self.is_round() { touch.anywhere() } else { *touch };
         let moved = self.anchor_shifts.iter().find(|(moved, _)| *moved == touch);

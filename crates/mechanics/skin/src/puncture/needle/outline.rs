@@ -5,11 +5,13 @@ use geometry::{Corner, Parallelogram, Vec2};
 
 use crate::contacts::OutlinePart;
 
-/// Face of a scale in its own frame.
+/// Face of a scale, in the frame of the scale.
 ///
-/// A corner is a face of zero length with the mean direction of its neighbours.
+/// A corner is a face of zero length with the mean direction of both adjacent faces.
 pub(super) struct Face {
+    /// First point of the face, seen from the left foot of the scale.
     pub(super) origin: Vec2,
+    /// Unit vector from the first to the last point.
     pub(super) along: Vec2,
     pub(super) length: f64,
 }
@@ -45,12 +47,13 @@ impl Face {
 /// `t` and its outward normal `n`, all deformed, and `r = P − O`,
 ///
 /// ```text
-/// g = (P − E)·n        ξ = (P − E)·t                                                   (L4)
-/// ∂g = −n, −r·t, −n·v        ∂ξ = −t, r·n, −t·v          for O, φ and the depth D of the tip
+/// g = (P − E)·n        ξ = (P − E)·t                                                   (L3)
+/// ∂g = −n, −r·t, −n·v        ∂ξ = −t, r·n, −t·v          for O, φ and the depth D      (L4)
 /// ```
 ///
-/// All vectors are in the tangent frame of the scale, `v` is the upward direction of the needle.
+/// All vectors are in the tangent frame of the scale. `v` is the upward direction of the needle.
 pub(super) struct Tip {
+    /// `r`.
     arm: Vec2,
     normal: Vec2,
     along: Vec2,
@@ -62,22 +65,25 @@ pub(super) struct Tip {
     pub(super) length: f64,
 }
 
-/// Coordinates that a needle gap depends on: `x, y, φ` of the scale, and the depth.
+/// Number of coordinates of a tip contact: `x, y, φ` of the scale, and the depth.
 pub(super) const COORDINATES: usize = 4;
 
-/// Indices of rotation and depth among the coordinates.
+/// Index of the rotation among the coordinates of a tip contact.
 pub(super) const TURN: usize = 2;
+
+/// Index of the depth among the coordinates of a tip contact.
 const DEPTH: usize = 3;
 
 impl Tip {
-    /// Places the tip at a face.
+    /// Computes the position of the tip relative to a face.
     ///
-    /// `away` is the tip relative to the node of the scale at rest, `upward` the direction against
-    /// which the needle moves.
+    /// `away` leads from the node of the scale at rest to the tip. `upward` is opposite to the
+    /// motion of the needle.
     pub(super) fn new(face: &Face, pose: &Pose, away: Vec2, upward: Vec2) -> Self {
         let arm = away - pose.displacement;
         let along = pose.turn(face.along);
-        // The outline runs from left to right over the top, so the outward normal is to its left.
+        // Faces run from the left foot over the top to the right foot, so the outward normal is
+        // `along` turned by 90° counter-clockwise.
         let normal = Vec2::new(-along.y, along.x);
         let from_origin = arm - pose.turn(face.origin);
         let (gap, xi) = (from_origin.dot(&normal), from_origin.dot(&along));
@@ -90,7 +96,7 @@ impl Tip {
     pub(super) fn at_corner(self) -> Self {
         let away = self.gap * self.normal + self.xi * self.along;
         let gap = away.norm();
-        // Nonzero: the gap is close to the radius where the tip touches.
+        // Nonzero: in contact, the distance from the corner is close to the radius of the tip.
         let normal = away / gap;
         Self { normal, along: Vec2::new(normal.y, -normal.x), gap, xi: 0.0, ..self }
     }
@@ -105,10 +111,12 @@ impl Tip {
         (xi - self.xi) * self.along - self.gap * self.normal
     }
 
+    /// Returns the derivatives `∂g`.
     pub(super) fn gap_slopes(&self) -> [f64; COORDINATES] {
         [-self.normal.x, -self.normal.y, -self.arm.dot(&self.along), -self.normal.dot(&self.upward)]
     }
 
+    /// Returns the derivatives `∂ξ`.
     pub(super) fn xi_slopes(&self) -> [f64; COORDINATES] {
         [-self.along.x, -self.along.y, self.arm.dot(&self.normal), -self.along.dot(&self.upward)]
     }
@@ -134,7 +142,7 @@ impl Tip {
         tangential_force * self.along - normal_force * self.normal
     }
 
-    /// Resolves a force on the scale into `N` and `T`.
+    /// Resolves a force on the scale into normal force `N` and tangential force `T`.
     pub(super) fn parts(&self, force: Vec2) -> [f64; 2] {
         [-force.dot(&self.normal), force.dot(&self.along)]
     }
@@ -142,8 +150,8 @@ impl Tip {
 
 /// The tip in contact with a scale: on a face, or for a round tip also on a corner.
 ///
-/// The slip coordinate `ξ` of a round tip is the arc length of the contact point along the outline,
-/// from the left foot, minus the rolled arc. `ψ` is the angle of the normal, clockwise from upward,
+/// The slip coordinate `ξ` of a round tip with the centre `C` is the distance that the circle has
+/// slid along the outline, without rolling. `ψ` is the angle of the normal, clockwise from upward,
 /// and `s` the length of the faces before the touched part. `ξ` is continuous from face to corner.
 ///
 /// ```text
@@ -151,11 +159,13 @@ impl Tip {
 /// ∂ξ = −t, (P − O)·n, −t_y                                                             (L9)
 /// ```
 pub(super) struct Meeting {
+    /// The tip or the centre of a round tip relative to the touched outline part.
     pub(super) tip: Tip,
+    /// Radius of the tip; 0 for a sharp tip.
     radius: f64,
     /// True if a round tip is on a corner.
     is_corner: bool,
-    /// Length of the faces before this part.
+    /// Length `s` of the faces before the touched part.
     before: f64,
 }
 
@@ -175,7 +185,7 @@ impl Meeting {
         self.tip.gap - self.radius
     }
 
-    /// `ξ`.
+    /// Returns the slip coordinate `ξ`.
     pub(super) fn xi(&self) -> f64 {
         if self.radius == 0.0 {
             return self.tip.xi;
@@ -183,7 +193,7 @@ impl Meeting {
         self.before + self.tip.xi + self.radius * self.tip.normal.x.atan2(self.tip.normal.y)
     }
 
-    /// `∂ξ`.
+    /// Returns the derivatives `∂ξ`.
     pub(super) fn xi_slopes(&self) -> [f64; COORDINATES] {
         let mut slopes = self.tip.xi_slopes();
         if !self.is_corner {
@@ -191,7 +201,7 @@ impl Meeting {
             slopes[TURN] -= self.radius;
             return slopes;
         }
-        // Here the arm leads from the node to the corner, not to the centre of the tip.
+        // On a corner the arm leads from the node to the corner, not to the centre of the tip.
         slopes[TURN] -= self.tip.gap;
         slopes.map(|slope| slope * self.radius / self.tip.gap)
     }

@@ -1,4 +1,4 @@
-//! Passage of a guided needle: touches beyond its face, and the end of its path.
+//! Passage of a guided needle: first contact beyond its initial face, and end of its path.
 
 use serde::{Deserialize, Serialize};
 
@@ -27,22 +27,23 @@ impl CriticalEvent {
     }
 }
 
-/// Passage of a guided needle through the row; empty for a free needle.
+/// Measures of the passage of a guided needle through the row; empty for a free needle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Passage {
-    /// Event that ended the path; `None` if it ended otherwise.
+    /// Event that ended the path; `None` if the path ended for another reason.
     pub critical_event: Option<CriticalEvent>,
-    /// `F*` at which the needle first touches more than its initial face.
+    /// Force `F*` at which the tip first touches a corner or another scale.
     ///
-    /// The needle then touches a corner or another scale, too. `None` if it never does.
+    /// `None` if the tip touches only the top of the punctured scale.
     pub passing_force: Option<f64>,
-    /// `u*` at the passing force.
+    /// Depth `u*` at the passing force.
     pub passing_displacement: Option<f64>,
     /// Tilt of the punctured scale at the passing force, degrees.
     pub passing_tilt_deg: Option<f64>,
-    /// Inward displacement of the needle on that face, over `t`.
+    /// Displacement of the tip along the top of the punctured scale, in units of `t`.
     ///
-    /// At the end, or where it first touches more.
+    /// It is positive towards the left corner, and refers to the passing force, or to the end of
+    /// the path if there is no passing force.
     pub needle_shift: Option<f64>,
 }
 
@@ -53,17 +54,17 @@ impl Passage {
     }
 }
 
-/// Scales touched by a round tip, with normal forces in units of `F*`.
+/// Number of each scale touched by a round tip, with the normal force in units of `F*`.
 ///
-/// 0 is the punctured scale.
+/// Numbers are counted from the punctured scale, positive to the right.
 pub type TipForces = Vec<(i64, f64)>;
 
-/// Detects the first touch beyond the initial face; records round-tip forces.
+/// Detects the first contact beyond the initial face, and records the forces of a round tip.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct PassageObserver {
-    /// One entry per point that the path has left.
+    /// Forces at each point of the path except the last one; empty for a sharp tip.
     pub(in crate::puncture) tip_forces: Vec<TipForces>,
-    /// Segment that ends where the needle first touches more than its face.
+    /// Segment that ends where the tip first touches a corner or another scale.
     pub(in crate::puncture) passed: Option<[SkinPoint; 2]>,
 }
 
@@ -107,7 +108,9 @@ fn is_on_its_face(state: &SkinState) -> bool {
 }
 
 impl Chain {
-    /// Returns the inward displacement of the tip on the top of the punctured scale.
+    /// Returns the displacement of the tip along the top of the punctured scale.
+    ///
+    /// It is positive towards the left corner. `None` for a free needle.
     pub(in crate::puncture) fn shift(&self, state: &SkinState) -> Option<f64> {
         let at = |z: &[f64]| Some(self.tip(z, 0, OutlinePart::Top)?.xi);
         Some(at(&vec![0.0; state.z.len()])? - at(&state.z)?)

@@ -1,10 +1,10 @@
 //! A needle with a round tip: a circle guided straight down.
 //!
-//! It touches faces and corners of all scales in reach. A scale is convex, so the circle touches it
-//! in at most one point: there is one normal force per scale in reach. Faces and corners join
-//! smoothly, so the outline part in the mode only selects the second derivatives. With friction the
-//! circle sticks or slides at each scale separately, like a sharp tip, with a slip coordinate that
-//! is continuous from face to corner (L9).
+//! The circle may touch faces and corners of all scales in reach. Scales are convex, so it touches
+//! each of them in at most one point, with one normal force. Gap and normal are continuous from
+//! face to corner, so the outline part in the mode only selects the second derivatives. With
+//! friction the circle sticks or slides at each scale separately, like a sharp tip. The slip
+//! coordinate is continuous from face to corner (L9).
 
 use geometry::Vec2;
 use solver::{Change, Condition, Newton};
@@ -16,24 +16,25 @@ use super::{GuidedNeedle, NORMAL};
 use crate::contacts::{HOLDS, OutlinePart, SkinState, TipState, Touch};
 use crate::puncture::system::Chain;
 
-/// Gaps of scales touched at rest agree within this round-off.
+/// Gap up to which a scale counts as touched at rest, in units of `t`; larger than round-off.
 const AT_REST: f64 = 1e-10;
 
-/// Maximum number of trials to find the state at rest of a tip on two scales.
+/// Maximum number of trials to find the initial state of a tip that touches two scales at rest.
 ///
-/// It may rest on only one of them, sticking or sliding.
+/// The first load may act on only one of these scales, and the tip may stick or slide on it.
 const SETTLES: usize = 8;
 
+/// Faces of a scale that a needle can touch, without the corners.
 const FACES: [OutlinePart; 3] = [OutlinePart::Left, OutlinePart::Top, OutlinePart::Right];
 
 impl GuidedNeedle {
-    /// Iterates over the scales in reach: slot, and number from the punctured scale.
+    /// Iterates over the scales in reach: slot, and number counted from the punctured scale.
     fn scales(&self) -> impl Iterator<Item = (usize, i64)> + use<> {
         let reach = self.reach() as i64;
         (-reach..=reach).enumerate()
     }
 
-    /// Sets or removes the touch of a scale.
+    /// Sets the contact of the tip with a scale, or removes it if `touch` is `None`.
     fn set_touch(&self, state: &mut SkinState, scale: i64, touch: Option<Touch>) {
         let slot = (scale + self.reach() as i64) as usize;
         if touch.is_none() && self.has_friction() {
@@ -46,10 +47,10 @@ impl GuidedNeedle {
 }
 
 impl Chain {
-    /// Computes the centre of the tip at rest, lowered until its circle touches.
+    /// Computes the centre of the tip at rest, for a circle lowered until it touches.
     ///
-    /// A tip that fits between two scales rests on the soft surface between their bases. The
-    /// position is relative to the node of the punctured scale.
+    /// A tip that fits between two scales rests on the soft surface between their bases. `x` and
+    /// the result are relative to the node of the punctured scale.
     pub(in crate::puncture) fn centre_at_rest(&self, needle: &GuidedNeedle, x: f64) -> Vec2 {
         let mut highest = needle.radius;
         for (_, scale) in needle.scales() {
@@ -69,25 +70,25 @@ impl Chain {
         Vec2::new(x, highest)
     }
 
-    /// Finds the outline part of a scale nearest to the centre, and its distance.
+    /// Finds the outline part of a scale nearest to the centre of the tip, and its distance.
     ///
-    /// The distance is negative inside the scale.
+    /// The distance is negative if the centre lies inside the scale.
     fn nearest(&self, z: &[f64], scale: i64) -> Option<(OutlinePart, f64)> {
         let [left, top, right] = FACES.map(|place| self.tip(z, scale, place));
         let faces = [left?, top?, right?];
         let places = || FACES.into_iter().zip(&faces);
         let [left, top, _] = &faces;
-        // Below the base of a scale is the body. On a convex body the tip is below the bases of
-        // scales far along the arc.
+        // A centre below the base line is not inside the scale. On a convex body this happens for
+        // scales far away from the tip.
         let is_above_base = left.to_end(0.0).dot(&top.normal()) <= 0.0;
         if is_above_base && faces.iter().all(|face| face.gap < 0.0) {
-            // Inside the scale, the nearest face has the smallest penetration.
+            // Inside the scale, the nearest face has the least negative gap.
             let gaps = places().map(|(place, face)| (place, face.gap));
             return gaps.reduce(|a, b| if b.1 > a.1 { b } else { a });
         }
-        // A face opposite the centre is the nearest part of a convex outline. Near its corner the
-        // distances of face and corner differ only by the square of a small length, so comparing
-        // them would not distinguish the two.
+        // If the perpendicular from the centre meets a face, this face is the nearest part of a
+        // convex outline. Comparing distances would not be exact: near a corner the distances of
+        // face and corner differ only by the square of a small length.
         let opposite =
             places().find(|(_, face)| face.gap >= 0.0 && (0.0..=face.length).contains(&face.xi));
         if let Some((place, face)) = opposite {
@@ -95,7 +96,7 @@ impl Chain {
         }
         let distances = places().map(|(place, face)| {
             let beyond = face.xi - face.xi.clamp(0.0, face.length);
-            // The outline continues only beyond a top corner; there is no model below the bases.
+            // Only the top corners are parts of the outline. A foot belongs to its side face.
             let at_end = match (place, beyond) {
                 (OutlinePart::Top, ..0.0) => OutlinePart::TopLeft,
                 (OutlinePart::Left, 0.0..) if beyond > 0.0 => OutlinePart::TopLeft,
@@ -108,7 +109,7 @@ impl Chain {
         distances.reduce(|a, b| if b.1 < a.1 { b } else { a })
     }
 
-    /// Returns the state at rest with the scales that the tip touches.
+    /// Returns the state at rest with the tip contacts that carry force when the load begins.
     pub(super) fn round_at_rest(&self, needle: &GuidedNeedle, mut rest: SkinState) -> SkinState {
         for (_, scale) in needle.scales() {
             let nearest = self.nearest(&rest.z, scale);
@@ -122,14 +123,14 @@ impl Chain {
         for _ in 0..SETTLES {
             let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) else { return rest };
             let largest = rates.iter().fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
-            // At the end of a face the tip moves on to the corner or back on the face. Without
-            // forces both have the same rates, which decide.
+            // A tip at the end of a face moves on to the corner or back on the face. Both outline
+            // parts have the same rates at rest, so a small step along these rates decides.
             let ahead = rest.moved(STEP / largest, &rates);
             let before = rest.clone();
             for (slot, touch) in before.mode.needle.all() {
                 let [normal_force, tangential_force] =
                     [0, 1].map(|k| rates[needle.normal_force(slot) + k]);
-                // Remove touches that would have to pull.
+                // Remove contacts with a tensile normal force.
                 if normal_force <= 0.0 {
                     needle.set_touch(&mut rest, touch.scale, None);
                     continue;
@@ -150,14 +151,14 @@ impl Chain {
         rest
     }
 
-    /// Creates the touch of a round tip at rest on the nearest part of a scale.
+    /// Creates the contact of a round tip with the nearest part of a scale, without sliding.
     fn round_touch(&self, needle: &GuidedNeedle, z: &[f64], scale: i64) -> Option<Touch> {
         let (place, _) = self.nearest(z, scale)?;
         let at = if needle.has_friction() { self.meeting(z, scale, place)?.xi() } else { 0.0 };
         Some(Touch { scale, place, tip_state: needle.resting(at) })
     }
 
-    /// Evaluates the conditions of a round tip.
+    /// Sets the `values` of the conditions of a round tip.
     pub(super) fn round_conditions(
         &self,
         needle: &GuidedNeedle,
@@ -179,7 +180,8 @@ impl Chain {
                 &mut values[needle.constraints_per_touch * slot..][..needle.constraints_per_touch];
             conditions[NORMAL] = meeting.gap();
             let [before, after] = self.to_ends(state, touch.scale, touch.place);
-            // One condition covers both ends; the transition determines which end was reached.
+            // One condition covers both ends of the outline part. The transition determines which
+            // of them was reached.
             conditions[needle.constraints_per_touch - 1] = before.min(after);
             if needle.has_friction() {
                 needle.stick_slip_conditions(state, slot, touch, &meeting, conditions);
@@ -188,9 +190,9 @@ impl Chain {
         values[through] = values[through].min(self.above_surface(needle, state));
     }
 
-    /// Computes the distances of the tip from both ends of the touched outline part.
+    /// Computes the distances of the tip from the start and the end of its outline part.
     ///
-    /// Feet do not count as ends.
+    /// A foot of the scale does not count as an end; its entry is [`HOLDS`].
     fn to_ends(&self, state: &SkinState, scale: i64, place: OutlinePart) -> [f64; 2] {
         let seen = |place: OutlinePart| self.tip(&state.z, scale, place);
         let is_corner = !FACES.contains(&place);
@@ -198,15 +200,16 @@ impl Chain {
             let face =
                 place.next(onward).and_then(|next| seen(if is_corner { next } else { place }));
             let Some(face) = face else { return HOLDS };
-            // A corner is the end of the face before it and the start of the face after it.
+            // The part before a corner ends there, and the part after it starts there.
             let inside = if is_corner == onward { face.xi } else { face.length - face.xi };
             if is_corner { -inside } else { inside }
         })
     }
 
-    /// Computes the distance of the circle from the soft surface between two bases.
+    /// Computes the smallest distance of the circle from the soft surface between two bases.
     ///
-    /// The surface is a straight line.
+    /// The surface is the straight line from the right foot of a scale to the left foot of the next
+    /// one.
     fn above_surface(&self, needle: &GuidedNeedle, state: &SkinState) -> f64 {
         let mut least = HOLDS;
         for (_, scale) in needle.scales() {
@@ -225,7 +228,9 @@ impl Chain {
         least
     }
 
-    /// Moves a round tip to another outline part or scale.
+    /// Moves a round tip to another outline part, or adds or removes its contact with a scale.
+    ///
+    /// Returns the constraint that must hold on the outgoing branch; `None` without a next state.
     pub(super) fn round_transition(
         &self,
         needle: &GuidedNeedle,
@@ -240,9 +245,9 @@ impl Chain {
             state.active[change.constraint] = false;
             let place = state.mode.needle.touches[slot]?.place;
             let [before, after] = self.to_ends(state, scale, place);
-            // The nearer end was reached.
+            // The tip has reached the nearer end.
             let next = place.next(after < before)?;
-            // Slip coordinate and force are continuous.
+            // Slip coordinate and forces are continuous, so only the part changes.
             state.mode.needle.touches[slot].as_mut()?.place = next;
         } else {
             let touch = self.round_touch(needle, &state.z, scale);
@@ -251,9 +256,9 @@ impl Chain {
         Some(change.constraint)
     }
 
-    /// Returns the normal forces of a round tip.
+    /// Returns the normal forces of a round tip, in units of `F*`.
     ///
-    /// `None` for other needles, and unless the whole path is recorded.
+    /// `None` for other needles, and if less than the whole path is recorded.
     pub(in crate::puncture) fn tip_forces(&self, state: &SkinState) -> Option<TipForces> {
         let needle =
             self.needle.as_ref().filter(|needle| self.is_recorded_whole() && needle.is_round())?;
@@ -270,9 +275,9 @@ impl Chain {
     }
 }
 
-/// Computes the height of the centre of a circle resting on a face or its ends.
+/// Computes the height of the centre of a circle that rests on a face or its ends.
 ///
-/// The circle is at `x` in the frame of the scale.
+/// The centre is at `x`. Its height is −∞ if the circle passes beside the face.
 fn height_above(face: &Face, x: f64, radius: f64) -> f64 {
     let normal = Vec2::new(-face.along.y, face.along.x);
     let on_face = face.origin.y + (radius - (x - face.origin.x) * normal.x) / normal.y;
@@ -284,7 +289,7 @@ fn height_above(face: &Face, x: f64, radius: f64) -> f64 {
     let ends = [face.origin, face.origin + face.length * face.along];
     let above = ends.map(|end| {
         let height = (radius.powi(2) - (x - end.x).powi(2)).sqrt();
-        // Beside an end by more than its radius, the circle passes it.
+        // The circle passes an end that lies beside the centre by more than the radius.
         if height.is_nan() { f64::NEG_INFINITY } else { end.y + height }
     });
     above[0].max(above[1])

@@ -1,4 +1,4 @@
-//! Touches of the tip with the scales of a row.
+//! Contacts of the needle tip with the scales of a row.
 
 use contact::{CornerContact, CornerEdge};
 use geometry::{Frame, Vec2};
@@ -10,22 +10,22 @@ use crate::contacts::{Contacts, OutlinePart, SkinState, Touch};
 use crate::puncture::system::Chain;
 
 impl GuidedNeedle {
-    /// Finds the constraint at which a path has ended.
+    /// Returns the constraint that ended a path in the state `end`; `None` for another reason.
     pub(in crate::puncture) fn ended_at(&self, chain: &Chain, end: &SkinState) -> Option<usize> {
         let mut conditions = Vec::new();
         chain.needle_conditions(self, end, &mut conditions);
         let touches = (0..self.slots).map(|slot| self.constraints_per_touch * slot + NORMAL);
         let touches = touches.filter(|&number| chain.meets_tilted(self, end, number));
         let mut ends = self.endings().chain(touches);
-        // It vanishes to within the tolerance of Newton's method.
+        // The condition of this constraint is zero to within the tolerance of Newton's method.
         let ended = ends.find(|&number| conditions[number].abs() < 1e-8);
         ended.map(|number| self.contacts + number)
     }
 
-    /// Returns true if a path ends where this constraint changes.
+    /// Returns true if a change of this constraint ends the path.
     ///
-    /// That is at a critical tilt, at the touch of a scale that is already critically tilted, and
-    /// when the needle is through.
+    /// The path ends when a touched scale reaches the critical tilt, when the tip first touches a
+    /// scale that is already tilted beyond it, and when the needle is through.
     pub(in crate::puncture) fn ends(
         &self,
         chain: &Chain,
@@ -39,9 +39,10 @@ impl GuidedNeedle {
 }
 
 impl Chain {
-    /// Returns the state at rest with the needle in place.
+    /// Returns the state at rest with the needle on the row.
     ///
-    /// The rates decide whether the tip sticks or slides at first, and in which direction.
+    /// The rates of the tip forces decide whether the tip sticks or slides at first, and in which
+    /// direction.
     pub(in crate::puncture) fn at_rest(&self) -> SkinState {
         let mut rest = SkinState::at_rest(self);
         let Some(needle) = &self.needle else { return rest };
@@ -49,7 +50,7 @@ impl Chain {
             return self.round_at_rest(needle, rest);
         }
         rest.active[needle.number(0, NORMAL)] = true;
-        // Scale 0 is in every row.
+        // Scale 0, the punctured one, is part of every row.
         let Some(Tip { xi: anchor, .. }) = self.tip(&rest.z, 0, OutlinePart::Top) else {
             return rest;
         };
@@ -60,7 +61,7 @@ impl Chain {
         }
         let control = self.controls[0];
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
-        // Try sticking first: the rates show whether that exceeds the friction limit.
+        // Compute the rates with a sticking tip, which may exceed the friction limit.
         let normal_force = needle.normal_force(0);
         if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
             let [normal, tangential] = [rates[normal_force], rates[normal_force + 1]];
@@ -71,9 +72,9 @@ impl Chain {
         rest
     }
 
-    /// Computes the tip relative to a part of a scale.
+    /// Computes the position of the tip relative to a part of a scale.
     ///
-    /// `None` for a free needle, and for a scale that is not solved for or out of reach.
+    /// `None` for a free needle, and for a scale beyond the solved part or the reach of the tip.
     pub(super) fn tip(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Tip> {
         let needle = self.needle.as_ref()?;
         let number = self.scale_numbered(scale)?;
@@ -99,7 +100,7 @@ impl Chain {
         Some(Meeting::new(tip, needle.radius, before))
     }
 
-    /// Iterates over all touches: slot, touch, index of the scale, and kinematics.
+    /// Iterates over all tip contacts: slot, discrete state, index of the scale, and kinematics.
     pub(super) fn touches<'a>(
         &'a self,
         state: &'a SkinState,
@@ -110,16 +111,18 @@ impl Chain {
         })
     }
 
-    /// Converts a scale number counted from the punctured one to an index.
+    /// Converts a scale number, counted from the punctured scale, to an index.
+    ///
+    /// `None` beyond the solved part or the reach of the tip.
     pub(super) fn scale_numbered(&self, scale: i64) -> Option<usize> {
         let number = usize::try_from(self.layout.left as i64 + scale).ok()?;
         let farthest = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
-        // The bandwidth of the tangent covers only these scales.
+        // The band of the tangent has room only for scales within this distance.
         let is_near = scale.unsigned_abs() as usize <= farthest;
         (number < self.layout.scales() && is_near).then_some(number)
     }
 
-    /// Returns the neighbouring face that the needle would meet next.
+    /// Returns the face of a neighbour that a sharp tip would touch next: scale and outline part.
     pub(super) fn next_touch(touch: &Touch) -> Option<(i64, OutlinePart)> {
         match touch.place {
             OutlinePart::Left => Some((touch.scale - 1, OutlinePart::Top)),
@@ -130,7 +133,9 @@ impl Chain {
         }
     }
 
-    /// Returns true if a constraint is the first touch of a critically tilted scale.
+    /// Returns true if a constraint is the first contact with a critically tilted scale.
+    ///
+    /// `number` counts the needle constraints.
     fn meets_tilted(&self, needle: &GuidedNeedle, state: &SkinState, number: usize) -> bool {
         let slot = number / needle.constraints_per_touch;
         if number >= needle.tilt_number()
@@ -142,7 +147,7 @@ impl Chain {
         let scale = if needle.is_round() {
             Some(slot as i64 - needle.reach() as i64)
         } else {
-            // A sharp tip meets a second scale only beside the one it touches.
+            // A sharp tip on one scale can only touch a direct neighbour of this scale as well.
             let other = state.mode.needle.touches[1 - slot].as_ref();
             other.and_then(Self::next_touch).map(|(scale, _)| scale)
         };
@@ -152,16 +157,16 @@ impl Chain {
         })
     }
 
-    /// Returns true if the top right corner of a scale lies on the next left face.
+    /// Returns true if the top right corner of a scale lies on the left face of the next scale.
     ///
-    /// That face then stops the tip at the corner, so the tip does not pass over it.
+    /// This face then stops the tip at the corner, so the tip does not pass over the corner.
     pub(super) fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
         let contact =
             self.corner_of_notch(scale).and_then(|contact| state.mode.contacts.get(contact));
         contact == Some(&CornerContact::Edge(CornerEdge::TopRightOnLeftEdge))
     }
 
-    /// Returns the contact of the top right corner of a scale.
+    /// Returns the number of the contact between the top right corner of a scale and the next one.
     pub(super) fn corner_of_notch(&self, scale: i64) -> Option<usize> {
         // The upper contact with the direct neighbour is the first contact of a scale.
         self.scale_numbered(scale).map(|left| self.contacts.contacts_before(left))

@@ -1,4 +1,4 @@
-//! Transitions of a guided needle where a condition is violated.
+//! Next states of a guided needle when one of its conditions is violated.
 
 use solver::Change;
 
@@ -6,7 +6,7 @@ use super::{BACKWARD, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
 use crate::contacts::{OutlinePart, SkinState, TipState, Touch};
 use crate::puncture::system::Chain;
 
-/// Fractions of friction limits that differ by less are equal.
+/// Difference below which two fractions of a friction limit count as equal.
 const SAME_FRACTION: f64 = 1e-6;
 
 impl Chain {
@@ -15,15 +15,15 @@ impl Chain {
     /// Returns the constraint that must hold on the outgoing branch; `None` if no next
     /// state exists.
     ///
-    /// | Before | Condition | After |
+    /// | Tip before | Event | Tip after |
     /// |---|---|---|
-    /// | one scale touched | tip meets a face of the neighbour | both touched, in a notch |
-    /// | two scales touched | a normal force vanishes | the other one alone |
+    /// | touches one scale | it reaches a face of the neighbour | touches both scales, in a notch |
+    /// | touches two scales | one normal force vanishes | touches the other scale alone |
     /// | sticks | `\|T\| = μ N` | slides, forward or backward |
     /// | slides | `ξ` reverses | sticks at its current position |
-    /// | slides | end of the face | passes over the corner |
-    /// | passes over a corner | force has rotated to sliding along the next face | slides there |
-    /// | passes over a corner | force has rotated back | sticks at the end of the previous face |
+    /// | slides | it reaches the end of the face | passes over the corner |
+    /// | passes over a corner | force at the slip limit on the next face | slides on this face |
+    /// | passes over a corner | force back at its slip limit | sticks at the end of its face |
     pub(in crate::puncture) fn needle_transition(
         &self,
         needle: &GuidedNeedle,
@@ -37,7 +37,7 @@ impl Chain {
         let (slot, constraint) =
             (number / needle.constraints_per_touch, number % needle.constraints_per_touch);
         let slides = (FORWARD..=BACKWARD).contains(&constraint);
-        // A round tip sticks and slides like a sharp one; only its position changes differently.
+        // A round tip begins and ends sliding like a sharp one. All its other transitions differ.
         if needle.is_round() && !(slides && needle.has_friction()) {
             return self.round_transition(needle, state, change);
         }
@@ -66,14 +66,14 @@ impl Chain {
         Some(needle.number(slot, valid))
     }
 
-    /// Dissolves a notch when its corner no longer lies on the neighbouring face.
+    /// Ends the contact of the tip with a notch if its corner has left the neighbouring face.
     ///
     /// The tip stays at the corner.
     pub(in crate::puncture) fn release_notch(&self, needle: &GuidedNeedle, state: &mut SkinState) {
         let Some([face, _]) = self.notch(state) else { return };
         let top = state.mode.needle.touches[1 - face];
         if top.is_some_and(|top| !self.is_notched(state, top.scale)) {
-            // Release the corner first: the notch is identified by the touch that moves next.
+            // Release the corner before the tip moves: `notch` needs both tip contacts.
             self.release_corner(state);
             self.move_to(
                 needle,
@@ -101,9 +101,9 @@ impl Chain {
         self.share_friction(needle, state);
     }
 
-    /// Makes a sticking tip and its notch corner take equal fractions of their limits.
+    /// Distributes friction in a notch in proportion to the limits of tip and corner.
     ///
-    /// The sum of their friction stays as it is. Only the sum matters while both stick.
+    /// Only the sum of both friction forces matters while both stick, and the sum is kept.
     fn share_friction(&self, needle: &GuidedNeedle, state: &mut SkinState) {
         let Some([face, corner]) = self.notch(state).filter(|_| needle.has_friction()) else {
             return;
@@ -138,14 +138,14 @@ impl Chain {
         if self.contacts.friction_with_tip(state, corner).is_none() {
             return;
         }
-        // The tip slides up the face of the right scale, the corner of the left scale with it: both
-        // drag that face upward.
+        // Tip and corner of the left scale slide together along the face of the right scale, so
+        // their friction forces on this face have the same sign.
         self.contacts.lock(state, corner, Some(if forward { 1.0 } else { -1.0 }));
     }
 
-    /// Makes the corner of a notch stick with the tip, after both slid.
+    /// Makes the corner of a notch stick together with the tip, after both slid.
     ///
-    /// The tip is on the face of `slot`.
+    /// The tip stops on the face in `slot`. A corner below its friction limit stays locked.
     fn stick_corner(
         &self,
         needle: &GuidedNeedle,
@@ -160,7 +160,7 @@ impl Chain {
         }
     }
 
-    /// Returns the corner of a notch if the tip has friction on the face of `slot`.
+    /// Returns the contact of the corner of a notch if the tip has friction on the face in `slot`.
     fn corner_with_tip(
         &self,
         needle: &GuidedNeedle,
@@ -171,13 +171,15 @@ impl Chain {
         notch.map(|[_, corner]| corner)
     }
 
-    /// Returns `ξ` of a touch.
+    /// Returns the slip coordinate `ξ` of the tip contact in a slot.
     fn touch_xi(&self, state: &SkinState, slot: usize) -> Option<f64> {
         let touch = state.mode.needle.touches[slot]?;
         Some(self.meeting(&state.z, touch.scale, touch.place)?.xi())
     }
 
-    /// Adds the touch of the next scale, in a notch.
+    /// Adds the contact of a sharp tip with a second scale, so that the tip rests in a notch.
+    ///
+    /// Returns the constraint, within its tip contact, that must hold on the outgoing branch.
     fn enter_notch(
         &self,
         needle: &GuidedNeedle,
@@ -196,21 +198,24 @@ impl Chain {
         if other_is_held {
             let normal_force = needle.normal_force(1 - slot);
             let ratio = state.z[normal_force + 1] / state.z[normal_force];
-            // A tip without normal force has no ratio and no friction to lock.
+            // A tip without normal force has no friction, so its ratio is 0.
             let ratio = if ratio.is_finite() { ratio } else { 0.0 };
             needle.end_sliding(state, 1 - slot);
             state.mode.needle.touches[1 - slot] =
                 Some(Touch { tip_state: TipState::Locked { ratio }, ..other });
         }
         if let Some([_, corner]) = self.notch(state).filter(|_| needle.friction > 0.0) {
-            // Tip and corner are at one position of the face. Lock the corner: two stick equations
-            // would be redundant. Its force is unchanged, so the path continues without a jump.
+            // Tip and corner are at the same point of the face, so two stick equations would be
+            // redundant. Lock the corner instead. Its force does not change, so the path continues
+            // without a jump.
             self.contacts.lock(state, corner, None);
         }
         Some(NORMAL)
     }
 
-    /// Finds the touch of a notch face, and the contact of the corner on it.
+    /// Finds the slot of the tip contact on the face of a notch, and the contact of its corner.
+    ///
+    /// `None` if the tip is not in a notch.
     pub(super) fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
         let touches = &state.mode.needle.touches;
         let top = touches.iter().position(|touch| {
@@ -219,11 +224,13 @@ impl Chain {
         Some([1 - top, self.corner_of_notch(touches[top]?.scale)?])
     }
 
-    /// Opens a touch; the other one remains.
+    /// Opens one of two tip contacts; the contact in the other slot remains.
+    ///
+    /// Returns the constraint that must hold on the outgoing branch; `None` for a single contact.
     fn leave(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) -> Option<usize> {
-        // The last touch cannot open: no needle problem would remain.
+        // The only contact of the tip cannot open, because the load must act on a scale.
         state.mode.needle.touches[1 - slot]?;
-        // Release the corner first: the notch is identified by both touches.
+        // Release the corner before the contact opens: `notch` needs both tip contacts.
         self.release_corner(state);
         needle.end_sliding(state, slot);
         state.z[needle.normal_force(slot) + 1] = 0.0;
@@ -233,7 +240,7 @@ impl Chain {
         }
         self.come_to_rest(needle, state, 1 - slot);
         if needle.friction == 0.0 {
-            // The tip slides inward on the top, away from the face.
+            // The tip slides on the top of the left scale, away from the face of the right scale.
             return Some(needle.number(slot, NORMAL));
         }
         let [normal, tangential] = needle.forces(&state.z, 1 - slot);
@@ -241,13 +248,14 @@ impl Chain {
             // The tip sticks at the corner, as it did when the notch formed.
             return Some(needle.number(slot, NORMAL));
         }
-        // The corner stays on the face and the tip at the corner, so no gap opens. The sign of the
-        // saturated friction determines the outgoing branch.
+        // While the corner stays on the face and the tip at the corner, no gap opens, so the gap
+        // cannot determine the outgoing branch. The friction force is at its limit, and its sign
+        // selects the slip condition that determines the branch.
         let is_forward = tangential >= 0.0;
         Some(needle.number(1 - slot, if is_forward { FORWARD } else { BACKWARD }))
     }
 
-    /// Releases the corner of a notch, as the tip leaves its position.
+    /// Releases the friction of the corner of a notch that the tip leaves.
     fn release_corner(&self, state: &mut SkinState) {
         let Some([face, corner]) = self.notch(state) else { return };
         let touch = state.mode.needle.touches[face];
@@ -255,7 +263,7 @@ impl Chain {
         self.contacts.release(state, corner, slides);
     }
 
-    /// Makes a touch stick that was locked in a notch.
+    /// Makes a tip that was locked in a notch stick; without friction it may slide.
     fn come_to_rest(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) {
         let anchor = self.touch_xi(state, slot);
         if let (Some(touch), Some(anchor)) = (&mut state.mode.needle.touches[slot], anchor)
@@ -265,7 +273,10 @@ impl Chain {
         }
     }
 
-    /// Moves the tip to a corner at the end of its face, or from a corner to a face.
+    /// Moves a sharp tip from the end of its face to the corner, or from a corner to a face.
+    ///
+    /// `onward` is true in the direction from the left to the right foot. Returns the constraint,
+    /// within its tip contact, that must hold on the outgoing branch.
     fn turn_corner(
         &self,
         needle: &GuidedNeedle,
@@ -278,7 +289,7 @@ impl Chain {
         needle.end_sliding(state, slot);
         let TipState::Passing { forward } = touch.tip_state else {
             self.move_to(needle, state, slot, next, TipState::Passing { forward: onward });
-            // The force still acts on the previous face, so its limit on this side must hold.
+            // The force is at the slip limit on the previous face and must not exceed it.
             return Some(if onward { FACE_START } else { FACE_END });
         };
         let face_length = self.tip(&state.z, touch.scale, next)?.length;
@@ -295,15 +306,15 @@ impl Chain {
             state.active[needle.number(slot, sliding)] = true;
             return Some(inward);
         }
-        // The friction force is still at its slip limit, so the rate problem decides immediately
+        // The friction force is at its slip limit, so the rate problem decides at this event
         // whether the tip sticks or slips back.
         self.move_to(needle, state, slot, next, TipState::Stick { anchor });
         Some(if onward { BACKWARD } else { FORWARD })
     }
 
-    /// Moves a touch to another outline part.
+    /// Moves the tip contact in a slot to another outline part of the same scale.
     ///
-    /// Its force is resolved along the new normal and tangent.
+    /// The force is resolved along the new normal and tangent.
     fn move_to(
         &self,
         needle: &GuidedNeedle,
@@ -323,7 +334,7 @@ impl Chain {
 }
 
 impl GuidedNeedle {
-    /// Returns the friction state of a tip that has come to rest.
+    /// Returns the friction state of a tip at rest: sticking, or without friction free to slide.
     pub(super) fn resting(&self, anchor: f64) -> TipState {
         if self.friction == 0.0 {
             TipState::Slip { sign: 0.0, start: anchor }
@@ -332,7 +343,7 @@ impl GuidedNeedle {
         }
     }
 
-    /// Starts sliding at a touch, forward or backward.
+    /// Makes the tip contact in a slot slide, forward or backward, from the coordinate `start`.
     pub(super) fn slide(&self, state: &mut SkinState, slot: usize, forward: bool, start: f64) {
         let (sign, constraint) = if forward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
         if let Some(touch) = &mut state.mode.needle.touches[slot] {
@@ -341,7 +352,7 @@ impl GuidedNeedle {
         }
     }
 
-    /// Removes the slip distances of a touch from the active set.
+    /// Resets the slip distances of the tip contact in a slot and makes them inactive.
     pub(super) fn end_sliding(&self, state: &mut SkinState, slot: usize) {
         for constraint in [FORWARD, BACKWARD] {
             state.active[self.number(slot, constraint)] = false;

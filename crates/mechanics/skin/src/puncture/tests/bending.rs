@@ -1,4 +1,4 @@
-//! Scales that bend.
+//! Tests of elastic scales.
 
 use super::*;
 use crate::puncture::bending::BENDING_UNKNOWNS;
@@ -21,7 +21,7 @@ fn elastic(modulus: f64) -> PunctureParameters {
     }
 }
 
-/// Starts the path of a row of 21 scales with this modulus over `E_s`, on a body.
+/// Starts the path of a row of 21 elastic scales on a body; `modulus` is `E_c/E_s`.
 fn elastic_path(design: &Design, modulus: f64, curvature: f64) -> Continuation<Chain> {
     let law = law(design, Law::EXCHANGED, HARD);
     let needle = BENDING_UNKNOWNS;
@@ -34,6 +34,7 @@ fn elastic_path(design: &Design, modulus: f64, curvature: f64) -> Continuation<C
     Continuation::new(chain, rest, settings)
 }
 
+/// Design, `E_c/E_s` of its scales, and curvature of the body.
 const SOFT: [(Design, f64, f64); 6] = [
     (SLENDER, 3e4, 0.0),
     (UPRIGHT, 5e3, 0.0),
@@ -48,7 +49,7 @@ fn tangent_of_elastic_scales_matches_differences() {
     let (mut most, mut checked, mut segments) = (0, 0, 0);
     for (design, modulus, curvature) in SOFT {
         for_segments(elastic_path(&design, modulus, curvature), |path, from, to| {
-            // Every second segment, because differences take long.
+            // Check only every second segment, because differences take long.
             segments += 1;
             if segments % 2 == 0 {
                 return;
@@ -56,7 +57,8 @@ fn tangent_of_elastic_scales_matches_differences() {
             let state = path.between(from, to, 0.5).unwrap().state;
             let chain = path.system();
             let forces = chain.contacts.closed_edges(&state).into_iter().map(|edge| edge.force);
-            // The step is a fraction of the force, so round-off dominates for tiny forces.
+            // The step of the difference is a fraction of the force, so the result for a tiny force
+            // is round-off.
             if forces.fold(1.0, f64::min) > 1e-5 * state.z[chain.load()] {
                 check_tangent(chain, &state, 1e-6).unwrap();
                 checked += 1;
@@ -65,7 +67,7 @@ fn tangent_of_elastic_scales_matches_differences() {
             most = most.max(loads.max().unwrap());
         });
     }
-    // Some scales carry two loads: the needle and a contact, or a contact on each side.
+    // Some scales must carry two loads: the needle and a contact, or a contact on each side.
     assert!(most >= 2 && checked > 100, "{most} {checked}");
 }
 
@@ -91,29 +93,36 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> crate::puncture::P
 
 /// Cantilever on springs under a dead load at the right corner of its top.
 struct Isolated {
+    /// Slant, radians.
     slant: f64,
+    /// Length of the beam.
     length: f64,
+    /// Vector from the node to the loaded point.
     arm: [f64; 2],
+    /// Bending stiffness of a section.
     bending: f64,
+    /// Shear stiffness of a section.
     shear: f64,
+    /// Spring constant of the rotation.
     rotation: f64,
 }
 
 impl Isolated {
-    /// Returns the moment at the base and the transverse force per unit load.
+    /// Returns the moment at the base and the transverse force per unit load, at a rotation `phi`.
     fn of_load(&self, phi: f64) -> (f64, f64) {
         let [x, y] = [-phi.sin(), -phi.cos()];
         let (sin, cos) = self.slant.sin_cos();
         (self.arm[0] * y - self.arm[1] * x, sin * y - cos * x)
     }
 
+    /// Returns the displacement of the loaded point along the load by bending, per unit load.
     fn flexibility(&self, phi: f64) -> f64 {
         let ((m, v), l) = (self.of_load(phi), self.length);
         (m * m * l - m * v * l.powi(2) + v * v * l.powi(3) / 3.0) / self.bending
             + v * v * l / self.shear
     }
 
-    /// Returns the moment of the springs minus the moment of the load.
+    /// Returns the residual of the equilibrium of moments on the springs.
     fn balance(&self, force: f64, phi: f64) -> f64 {
         let slope = (self.flexibility(phi + 1e-5) - self.flexibility(phi - 1e-5)) / 2e-5;
         let arm = self.arm[0] * phi.cos() - self.arm[1] * phi.sin();
@@ -121,7 +130,7 @@ impl Isolated {
     }
 }
 
-/// Rotation from the balance of moments, tilt and depth with the displacements of a clamped beam.
+/// The rotation follows from the equilibrium of moments, tilt and depth from a clamped beam.
 #[test]
 fn an_isolated_elastic_scale_follows_its_closed_form() {
     let design = Design { gap: 0.1, length: 0.3, slant_deg: 50.0, base: Base::L, width: 0.8 };
@@ -132,7 +141,7 @@ fn an_isolated_elastic_scale_follows_its_closed_form() {
     let [_, normal, rotation] = RowStiffness::from(&springs).with_lengths_over(0.15).direct;
     let slant = 50.0_f64.to_radians();
     let (length, depth) = (1.0 / slant.cos(), 0.3 * slant.cos());
-    // `E*/E_s` is 4/3.
+    // `E*/E_s` is 4/3, so the modulus in units of `E*` is 0.75 times the modulus in units of `E_s`.
     let bending = modulus * 0.75 * 0.8 * depth.powi(3) / 12.0;
     let shear = 5.0 / 6.0 * modulus * 0.75 / 2.7 * 0.8 * depth;
     let exact =
@@ -164,7 +173,7 @@ fn critical_force(design: &Design, bending: Bending, modulus: f64) -> f64 {
     solved.measures.critical_force.unwrap()
 }
 
-/// The difference from rigid scales falls as `1/E_c`, with the same contact law.
+/// With the same contact law, the difference from rigid scales decreases as `1/E_c`.
 #[test]
 fn stiff_elastic_scales_converge_to_rigid_ones() {
     for design in [SLENDER, GLOVE, DOMINO, UPRIGHT] {
@@ -177,7 +186,7 @@ fn stiff_elastic_scales_converge_to_rigid_ones() {
     }
 }
 
-/// The strongest design of the paper bends far before it tilts.
+/// The design of the paper with the largest critical force reaches the limit of bending first.
 #[test]
 fn a_slender_scale_fails_by_bending() {
     let design = Design { gap: 0.1, length: 0.1, slant_deg: 75.0, base: Base::L, width: 1.0 };

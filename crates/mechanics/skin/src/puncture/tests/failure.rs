@@ -1,13 +1,13 @@
-//! Loads on single scales.
+//! Tests of the loads on single scales, from which stresses are computed.
 
 use super::needle::CASES;
 use super::*;
 use crate::puncture::Needle;
 use crate::puncture::needle::unknowns;
 
-/// Compares the loads on each scale with the springs below it, along a path.
+/// Asserts that the loads on each scale and the reaction of the substrate are in equilibrium.
 ///
-/// Returns the largest number of loads on a scale.
+/// Checks every point of a path. Returns the largest number of loads on a scale.
 fn compare_loads(path: Continuation<Chain>) -> usize {
     let (chain, mut most) = (path.system().clone(), 0);
     for point in path {

@@ -1,4 +1,4 @@
-//! Friction equations against finite differences, mirror images, friction cone.
+//! Tests of friction between scales: tangent, friction cone and mirror images.
 
 use std::collections::BTreeSet;
 
@@ -27,8 +27,8 @@ fn tangent_matches_finite_differences_in_stick_and_slip() {
                         .filter(|s| s.1 > 0)
                         .map(|s| s.0),
                 );
-                // Move multipliers and slip distances away from zero, where differences are
-                // round-off.
+                // Increase small stick multipliers and slip distances, because differences near
+                // zero consist of round-off.
                 let (chain, mut state) = (path.system(), point.state);
                 for number in (0..chain.constraints().len()).filter(|&c| state.active[c]) {
                     let unknown = chain.constraints()[number];
@@ -43,7 +43,7 @@ fn tangent_matches_finite_differences_in_stick_and_slip() {
     assert_eq!(seen, BTreeSet::from(["slips", "sticks"]));
 }
 
-/// Contact forces stay within their friction cone everywhere on the path.
+/// Checks the angle between force and normal at every point of the path.
 #[test]
 fn forces_stay_within_the_friction_cone() {
     let mut compared = 0;
@@ -65,7 +65,8 @@ fn forces_stay_within_the_friction_cone() {
                 if x.hypot(y) < 1e-6 {
                     continue;
                 }
-                // Coinciding corners rotate their force from one normal to the other, so skip them.
+                // The force between two corners rotates from one normal to the other, so compare
+                // only pairs with a single contact on an edge.
                 let angle = (y.atan2(x) - normal).sin().asin();
                 let pair = &to.state.mode.contacts[2 * contact.left..2 * contact.left + 2];
                 let closed: Vec<_> = pair.iter().filter(|c| **c != CornerContact::Open).collect();
@@ -79,7 +80,7 @@ fn forces_stay_within_the_friction_cone() {
     assert!(compared > 20, "{compared}");
 }
 
-/// A row leaning left with a left needle mirrors a row leaning right.
+/// A row that leans to the left has its needle at the mirrored position.
 #[test]
 fn rows_with_friction_have_mirror_images() {
     for (gap, length, slant, needle) in

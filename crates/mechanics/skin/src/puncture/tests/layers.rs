@@ -1,4 +1,4 @@
-//! Rows on a layer, which couples forces along and across the row with moments.
+//! Tests of rows on a layer, which couples `x` with `y` and with `φ` of a scale.
 
 use approx::assert_relative_eq;
 use contact::Law;
@@ -12,6 +12,7 @@ use crate::puncture::PunctureParameters;
 use crate::puncture::row_layout::RowLayout;
 use crate::puncture::system::Chain;
 
+/// Designs with coupling and law of the substrate.
 const CASES: [(Design, Coupling, SubstrateLaw); 5] = [
     (LIVELY, Coupling::Nearest, SubstrateLaw::Linear),
     (BLOCKS, Coupling::Nearest, SubstrateLaw::NeoHookean),
@@ -20,7 +21,7 @@ const CASES: [(Design, Coupling, SubstrateLaw); 5] = [
     (DOMINO, Coupling::Full, SubstrateLaw::Linear),
 ];
 
-/// Starts the path on tissue as thick as the scales.
+/// Starts the path of a row of 21 scales on a layer that is as thick as the scales.
 fn layer_path(
     (design, coupling, substrate_law): &(Design, Coupling, SubstrateLaw),
 ) -> Continuation<Chain> {
@@ -43,9 +44,7 @@ fn work_of_the_load_equals_stored_energy() {
     }
 }
 
-/// At rest only the substrate contributes.
-///
-/// The coupling of force and rotation is symmetric.
+/// At rest the tangent contains only the substrate, including its coupling of `x` with `φ`.
 #[test]
 fn tangent_at_rest_is_symmetric() {
     for case in CASES {
@@ -63,7 +62,7 @@ fn tangent_at_rest_is_symmetric() {
     }
 }
 
-/// Reported reactions are the forces of the solved stiffness.
+/// The reported reactions must be the forces of the stiffness in the equations.
 #[test]
 fn reactions_match_the_stiffness() {
     for case in CASES {

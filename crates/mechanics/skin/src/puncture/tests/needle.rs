@@ -9,11 +9,12 @@ use super::*;
 use crate::puncture::needle::NEEDLE_UNKNOWNS;
 use crate::puncture::{self, CriticalEvent, Needle, Puncture, RowLength};
 
+/// Returns a design of width `t` with a base of `L`.
 pub(super) fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
     Design { gap, length, slant_deg, base: Base::L, width: 1.0 }
 }
 
-/// Sets the needle at the distance `inside` from the top right corner.
+/// Returns parameters with the needle at the distance `inside` to the left of the top right corner.
 fn parameters(design: &Design, friction: f64, inside: f64) -> PunctureParameters {
     let load_position = 1.0 - inside / (2.0 * design.half_base());
     let needle = Needle::Guided { friction };
@@ -29,7 +30,7 @@ fn guided(design: &Design, friction: f64, inside: f64) -> Puncture {
     puncture::solve(design, &springs(design), &Common::default(), &parameters).unwrap()
 }
 
-/// Starts the path of a row of 21 scales with steps limited to `step`.
+/// Starts the path of a row of 21 scales under a guided needle, with steps of at most `step`.
 pub(super) fn guided_path(
     design: &Design,
     friction: f64,
@@ -45,7 +46,7 @@ pub(super) fn guided_path(
     Continuation::new(chain, rest, settings)
 }
 
-/// Designs, frictions and positions of tips in all states.
+/// Gap, length, slant, friction of the needle, and its distance from the top right corner.
 ///
 /// The tips stick, slide in both directions, and pass over the right or the left corner.
 pub(super) const CASES: [(f64, f64, f64, f64, f64); 7] = [
@@ -58,7 +59,9 @@ pub(super) const CASES: [(f64, f64, f64, f64, f64); 7] = [
     (0.2, 0.1, 0.0, 0.0, 0.0),
 ];
 
-/// Integrates `F du` by the values of both at five points.
+/// Integrates `F du` by Boole's rule on `[F, u]` at five points.
+///
+/// `du` is the derivative of the polynomial through the five values of `u`.
 pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
     let u = values.map(|[_, u]| u);
     let slopes = [
@@ -73,7 +76,7 @@ pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
     (0..5).map(|k| weights[k] * values[k][0] * slopes[k]).sum::<f64>() / 90.0
 }
 
-/// Forces of an independent program for a frictionless needle on its top.
+/// Compares critical forces with an independent program; the tip stays on the top of its scale.
 #[test]
 fn a_frictionless_needle_slides_inward() {
     for (gap, length, slant, expected) in [
@@ -95,7 +98,7 @@ fn a_frictionless_needle_slides_inward() {
     assert_relative_eq!(shift, 0.12, max_relative = 0.02);
 }
 
-/// A tip that never slides, on a top or on a corner that lies on the neighbour.
+/// The tip sticks at the right corner of the top. At 45° this corner touches the next scale.
 #[test]
 fn a_needle_that_never_slides_matches_references() {
     for (slant, expected) in [(0.0, 0.2804), (45.0, 0.4314)] {
@@ -105,9 +108,9 @@ fn a_needle_that_never_slides_matches_references() {
     }
 }
 
-/// The row pushes the scale back below the needle.
+/// The row pushes the scale to the left below the needle.
 ///
-/// The needle then passes over the corner onto the neighbour's face.
+/// The tip reaches the corner of the scale, and then the face of the next scale.
 #[test]
 fn a_needle_passes_into_the_notch() {
     for (slant, friction, inside, force, tilt) in [
@@ -129,9 +132,10 @@ fn a_needle_passes_into_the_notch() {
 
 /// Compares with ten results of an independent program.
 ///
-/// It has rigid contacts, active sets, steps of 2e-4 in depth, and rows of 41 scales. The results
-/// are the force at the passage or else at 10°, the depth of the needle there, and its inward
-/// displacement.
+/// The program has rigid contacts, active sets, steps of 2e-4 in depth, and rows of 41 scales. Each
+/// row below holds gap, length and slant, friction, distance of the needle from the right corner,
+/// and the results: force, depth and distance of the tip from the corner. The results belong to the
+/// first contact beyond the initial face, or to a tilt of 10° without such a contact.
 #[test]
 fn needle_matches_an_independent_program() {
     let ten: [([f64; 3], f64, f64, [f64; 3]); 10] = [
@@ -173,8 +177,8 @@ fn tangent_matches_finite_differences() {
         let design = design(gap, length, slant);
         for_segments(guided_path(&design, friction, inside, 0.1), |path, from, to| {
             if path.spans(from, to)[0].abs() < 1e-6 {
-                // At two simultaneous events, the forces that start to act are too small for finite
-                // differences.
+                // Between two simultaneous events, forces that begin to act are too small for
+                // finite differences.
                 return;
             }
             let Some(between) = path.between(from, to, 0.5) else { return };
@@ -183,9 +187,9 @@ fn tangent_matches_finite_differences() {
     }
 }
 
-/// Compares with the dense stiffness over displacements and depth.
+/// Compares `Chain::instability` with the dense stiffness for displacements and depth.
 ///
-/// The needles slide without friction, stick and pass.
+/// The tips slide without friction, stick, and pass over corners.
 #[test]
 fn negative_eigenvalues_match_the_dense_stiffness() {
     let mut compared = HashSet::new();
@@ -233,15 +237,15 @@ fn needle_work_is_stored_or_dissipated() {
     assert!(most > 0.01, "{most}");
 }
 
-/// Computes the dissipated fraction of the work of a needle.
+/// Returns the fraction of the work of a needle that is dissipated along a path.
 ///
-/// Checks that the rest is stored.
+/// Asserts that all other work is stored as elastic energy.
 fn dissipated_fraction(path: Continuation<Chain>) -> f64 {
     let (mut done, mut dissipated, mut off) = (0.0, 0.0, 0.0_f64);
     for_segments(path, |path, from, to| {
         done += work(path, from, to);
         let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
-        // The end state, evaluated in the mode of the segment.
+        // The unknowns at the end, with the mode of the segment before it.
         let mut end = inner[2].clone();
         end.z.clone_from(&to.state.z);
         let chain = path.system();
@@ -258,9 +262,9 @@ fn dissipated_fraction(path: Continuation<Chain>) -> f64 {
     dissipated / done
 }
 
-/// One scale on its springs, `k u = f` in each direction.
+/// Compares one scale on its springs with a closed form.
 ///
-/// With the arm `ρ` of the needle along the top and the tip at `X`:
+/// With the spring constants `k`, the arm `ρ` of the needle along the top, and the tip at `X`,
 ///
 /// ```text
 /// k_φ φ = −N ρ,   N sin φ = −k_x x,   ρ cos φ − sin φ = X − x                  F = N cos φ
@@ -286,7 +290,7 @@ fn an_isolated_scale_matches_a_scalar_equation() {
     assert_relative_eq!(puncture.measures.critical_force.unwrap(), expected, max_relative = 1e-9);
 }
 
-/// Needles at the left and the right corner of upright scales are mirror images.
+/// Needles at the same distance from the left and the right corner of an upright scale.
 #[test]
 fn mirrored_needles_have_mirrored_results() {
     for friction in [0.0, 0.2] {
@@ -308,11 +312,9 @@ fn mirrored_needles_have_mirrored_results() {
     }
 }
 
-/// The tip slides down the left face of the next scale to its foot.
-///
-/// The foot is between two bases.
+/// The tip slides down the left face of the next scale to the foot of this face.
 #[test]
-fn a_needle_passes_through_between_bases() {
+fn a_needle_that_reaches_a_foot_is_through() {
     for friction in [0.0, 0.3] {
         let design = design(1.0, 1.0, 60.0);
         let parameters =
@@ -334,7 +336,7 @@ fn a_needle_passes_through_between_bases() {
     }
 }
 
-/// A row leaning left with a left needle mirrors a row leaning right.
+/// A row that leans to the left has its needle at the mirrored position.
 #[test]
 fn rows_leaning_left_mirror_rows_leaning_right() {
     for (gap, length, slant, friction, inside) in
@@ -371,7 +373,7 @@ fn an_untilted_scale_has_no_critical_force() {
     assert_eq!(puncture.measures.critical_force, None);
 }
 
-/// With small and large steps the path has the same passage and end.
+/// The passing force and the critical force must not depend on the largest step.
 #[test]
 fn passage_does_not_depend_on_the_step_size() {
     let steep = design(0.1, 1.0, 75.0);
@@ -406,17 +408,19 @@ const MEASURES: [(&str, Value); 10] = [
 /// Applies a change of the given size to a parameter.
 type Change = fn(&mut puncture::PunctureInput, f64);
 
+/// Makes the scales longer by `by`.
 fn longer(input: &mut puncture::PunctureInput, by: f64) {
     input.design.length += by;
 }
 
+/// Moves the load position to the right by `by`.
 fn set_down_further_right(input: &mut puncture::PunctureInput, by: f64) {
     input.parameters.load_position += by;
 }
 
-/// Compares derivatives with differences of whole solutions.
+/// Compares derivatives with differences of complete solutions.
 ///
-/// The needles slide, stick from the start, slide and stop, or are locked in a notch.
+/// The tips slide, stick from the start, stop sliding, or are locked in a notch.
 #[test]
 fn derivatives_account_for_history_variables() {
     let changes: [(Change, f64); 4] = [
@@ -458,13 +462,14 @@ fn derivatives_account_for_history_variables() {
     assert_eq!(ends, [false, true].into());
 }
 
+/// Returns the input after a `change` of one parameter by `step`.
 fn moved(input: &puncture::PunctureInput, change: Change, step: f64) -> puncture::PunctureInput {
     let mut input = input.clone();
     change(&mut input, step);
     input
 }
 
-/// Compares every derivative of a puncture with differences of whole solutions.
+/// Asserts that every derivative of a puncture equals a difference of complete solutions.
 fn derivatives_are_differences(
     design: Design,
     common: Common,
@@ -487,7 +492,7 @@ fn derivatives_are_differences(
         .collect();
     let (puncture, derivatives) = puncture::differentiate(&input, &variations).unwrap();
     for (parameter, &(change, step)) in changes.iter().enumerate() {
-        // A step large compared with round-off, small compared with the curvature.
+        // The step of the difference is large enough for round-off and small enough for curvature.
         let [below, above] = [-50.0, 50.0].map(|times| {
             let input = moved(&input, change, times * step);
             puncture::differentiate(&input, &[]).unwrap().0.measures

@@ -1,4 +1,4 @@
-//! Rows on a neo-Hookean substrate surface.
+//! Tests of rows on a neo-Hookean substrate.
 
 use approx::assert_relative_eq;
 use geometry::{Parallelogram, Row};
@@ -7,7 +7,7 @@ use substrate::{Coupling, SubstrateLaw};
 
 use super::*;
 
-/// Starts the path of a row of 21 scales.
+/// Starts the path of a row of 21 scales on a neo-Hookean substrate.
 fn bar_path(design: &Design, constants: Law, coupling: Coupling) -> Continuation<Chain> {
     let stiffness = RowStiffness::compute(&design.footprint(0.5).unwrap(), coupling).unwrap();
     let path = path_on(&stiffness, design, law(design, constants, HARD), 1.0);
@@ -37,7 +37,7 @@ fn tangent_matches_finite_differences() {
             check_tangent(path.system(), &state, 1e-6).unwrap();
         });
     }
-    // Strains far beyond the range in which bars behave like springs.
+    // The paths must contain gap strains at which bars differ from springs.
     assert!(farthest > 1.0, "{farthest}");
 }
 
@@ -51,7 +51,7 @@ fn work_of_the_load_equals_stored_energy() {
     }
 }
 
-/// At rest the neo-Hookean law has the tangent of the linear springs.
+/// The neo-Hookean law has the same tangent at rest as the linear springs.
 #[test]
 fn at_rest_bars_match_the_springs() {
     let linear = path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0);
@@ -68,7 +68,7 @@ fn at_rest_bars_match_the_springs() {
     }
 }
 
-/// A row leaning to the left deforms as the mirror image of one leaning right.
+/// A row that leans to the left has the mirrored forces of a row that leans to the right.
 #[test]
 fn mirrored_rows_have_mirrored_forces() {
     let layout = RowLayout { left: 3, right: 3, needle: 0, contacts: 6 };

@@ -1,4 +1,4 @@
-//! Contacts between scales that are not direct neighbours.
+//! Tests of contacts between scales that are not direct neighbours.
 
 use contact::Law;
 use solver::{Continuation, Settings, check_tangent};
@@ -10,14 +10,16 @@ use crate::puncture::row_layout::RowLayout;
 use crate::puncture::{Problem, Puncture, PunctureParameters, Rows};
 use crate::{Base, Common, Design, Status};
 
-/// Paper designs in which scales touch second neighbours under full coupling.
+/// Designs of the paper in which scales touch second neighbours under full coupling.
 const MEETING: [Design; 2] =
     [DOMINO, Design { gap: 0.1, length: 0.4, slant_deg: 75.0, base: Base::L, width: 1.0 }];
 
+/// Returns the stiffness of the substrate with full coupling.
 fn full(design: &Design) -> RowStiffness {
     RowStiffness::compute(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap()
 }
 
+/// Solves a puncture with a fixed contact reach, or for `None` with the reach that it needs.
 fn solved(design: &Design, common: &Common, contact_reach: Option<usize>) -> Puncture {
     let parameters = PunctureParameters::default();
     let rows = Rows::Even(design.row().unwrap());
@@ -44,13 +46,13 @@ fn scales_stop_at_their_second_neighbours() {
             let [left, right] = [event.left_scale, event.right_scale].map(Option::unwrap);
             right - left == 2
         });
-        // Up to that contact both paths agree.
+        // Up to the first contact of second neighbours both paths agree.
         let first = beyond.next().unwrap().point;
         let same = through.path.iter().zip(&stopped.path);
         for (ours, theirs) in same.take_while(|(_, theirs)| theirs.force < first.force) {
             assert!((ours.force - theirs.force).abs() < 1e-9 * theirs.force.abs().max(1e-3));
         }
-        // Unused contact unknowns change nothing.
+        // Unknowns of contacts that never close must not change the result.
         let longer = solved(&design, &common, Some(3));
         let [ours, theirs] = [&stopped, &longer].map(|p| p.measures.critical_force.unwrap());
         assert!((ours - theirs).abs() < 1e-9 * theirs, "{ours} {theirs}");

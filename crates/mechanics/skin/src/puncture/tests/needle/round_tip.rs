@@ -4,9 +4,9 @@ use super::*;
 use crate::contacts::OutlinePart;
 use crate::puncture::needle::{reach, unknowns};
 
-/// Gap, length and slant; radius; friction; position.
+/// Gap, length and slant; radius of the tip; friction; load position.
 ///
-/// The tips roll from face to corner, touch several scales, stick and slide in both directions.
+/// The tips move from faces to corners, touch several scales, stick, and slide in both directions.
 const TIPS: [([f64; 3], f64, f64, f64); 9] = [
     ([0.1, 1.0, 0.0], 0.1, 0.0, 1.0),
     ([0.1, 0.2, 0.0], 1.0, 0.0, 1.0),
@@ -29,7 +29,7 @@ fn work_of_a_round_tip_is_stored_or_dissipated() {
     assert!(most.into_iter().fold(0.0, f64::max) > 0.01, "{most:?}");
 }
 
-/// Checks the tangent on faces and corners, sticking and sliding.
+/// The tips touch tops and other parts, sticking and sliding: four combinations.
 #[test]
 fn tangent_of_a_round_tip_matches_finite_differences() {
     let mut tip_states = HashSet::new();
@@ -51,9 +51,9 @@ fn tangent_of_a_round_tip_matches_finite_differences() {
     assert_eq!(tip_states.len(), 4);
 }
 
-/// Compares derivatives in radius, position and length with differences of solutions.
+/// Compares derivatives with respect to radius, load position and length with differences.
 ///
-/// The tips are on a face, on a corner, and on two or three scales.
+/// The tips end on a face, on a corner, or on two or three scales.
 #[test]
 fn derivatives_of_a_round_tip_match_differences() {
     let by_radius: Change =
@@ -84,11 +84,12 @@ fn derivatives_of_a_round_tip_match_differences() {
 
 /// Starts the path of a row of 21 scales under a round tip.
 ///
-/// The parameters are radius, friction and position.
+/// `needle` holds radius, friction and load position.
 fn round_path([gap, length, slant]: [f64; 3], needle: [f64; 3], step: f64) -> Continuation<Chain> {
     path_of(&design(gap, length, slant), needle, step)
 }
 
+/// Starts the path of a row of 21 scales of a design under a round tip.
 fn path_of(
     design: &Design,
     [radius, friction, load_position]: [f64; 3],
@@ -110,7 +111,7 @@ fn path_of(
     Continuation::new(chain, rest, settings)
 }
 
-/// The corner is the nearest part up to round-off; the first tilt moves the tip onto the top.
+/// Corner and top are equally near up to round-off. The first tilt moves the tip onto the top.
 #[test]
 fn a_tip_set_down_on_a_corner_starts_on_the_top() {
     for (length, radius) in [(2.0, 0.7), (5.0, 0.3), (9.5, 0.7), (9.5, 2.0)] {
@@ -124,7 +125,7 @@ fn a_tip_set_down_on_a_corner_starts_on_the_top() {
     }
 }
 
-/// Scales at 78° on the arc stand below the tip, between the extended faces of the scale.
+/// The tip lies below the bases of scales at 78° on the arc, between their extended side faces.
 #[test]
 fn a_tip_on_a_convex_body_does_not_touch_scales_far_along_the_arc() {
     let design = design(1.145, 4.632, 54.87);
