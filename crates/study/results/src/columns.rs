@@ -1,4 +1,4 @@
-//! Columns of the tables, with their explanations.
+//! Columns of the tables, with their units and meanings.
 //!
 //! The list of measured values is in `columns/values.rs`; to add a column, start there. This module
 //! selects and orders the columns of each table for a sweep.
@@ -39,7 +39,7 @@ pub use path::{
 pub use reruns::RERUN_COLUMNS;
 pub use sensitivity::DERIVATIVE_COLUMNS;
 
-/// Lengths in mm that are columns of every skin with a given thickness.
+/// Lengths in mm that are columns if a sweep gives the thickness.
 const LENGTHS_IN_MM: [&str; 4] = ["gap_mm", "length_mm", "width_mm", key::PITCH];
 
 /// Returns the measured value with this name.
@@ -47,7 +47,7 @@ pub fn measured_value(name: &str) -> Option<&'static MeasuredValue> {
     VALUES.iter().find(|value| value.name == name)
 }
 
-/// Returns unit and meaning of a measured value by its name.
+/// Returns unit and meaning of the column `name` of a measured value.
 pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
     let column = ValueColumn::named(name).map(|column| (column.unit, column.meaning.as_ref()));
     column.or_else(|| explain_tilt_value(name))
@@ -59,7 +59,7 @@ pub fn physical_source(name: &str) -> Option<(&'static str, Quantity)> {
     Some((column.dimensionless()?.name.as_ref(), column.quantity?))
 }
 
-/// Returns the dimensionless value of a physical column, any other name unchanged.
+/// Returns the name of the dimensionless value of a physical column; other names are unchanged.
 pub fn measure_name(name: &str) -> &str {
     physical_source(name).map_or(name, |(source, _)| source)
 }
@@ -71,11 +71,11 @@ pub fn measure_of(name: &str) -> Option<Measure> {
     ValueColumn::named(name)?.value.measure()
 }
 
-/// Returns true if a column is not valid once the surface of the substrate folds.
+/// Returns true if the values of a column are not valid after the surface of the substrate folds.
 pub fn is_invalid_after_fold(name: &str) -> bool {
     about(name).is_some_and(|(value, _)| {
-        // The fold force itself, and failure forces up to the fold, stay valid. A fold counts as a
-        // failure, too.
+        // Values at the fold stay valid. The first failure is never after the fold, because the
+        // fold is a failure mode.
         let before_fold = [name::SOUND_FORCE, name::FAILURE_FORCE, name::FIRST_FAILURE];
         let is_about_fold = before_fold.contains(&value.name) || value.name.starts_with("fold_");
         value.measure() == Some(Measure::Puncture) && !is_about_fold
@@ -84,31 +84,29 @@ pub fn is_invalid_after_fold(name: &str) -> bool {
 
 /// Returns true if [`skin::PathDetail::Critical`] omits the value of a column.
 ///
-/// The name may also be a derived one, such as a quantile.
+/// `name` may also be the name of a derived column, such as a quantile.
 pub fn is_along_path(name: &str) -> bool {
     about(name).is_some_and(|(value, _)| value.is_along_path())
 }
 
-/// Returns true if a column has values only with the parameter `key`.
+/// Returns true if a column exists only in sweeps that set the parameter `key` or an alternative.
 ///
-/// An alternative to the parameter also counts.
-///
-/// The name may also be a derived one, such as a quantile.
+/// `name` may also be the name of a derived column, such as a quantile.
 pub fn needs_parameter(name: &str, key: &str) -> bool {
     about(name).is_some_and(|(value, _)| value.needs.contains(&key))
 }
 
 /// Returns the column that names the failure mode of a force, if the force is a failure force.
 ///
-/// All outputs show the two together, also for quantiles and in physical units.
+/// All outputs show force and mode together, also for quantiles and in physical units.
 pub fn mode_column(name: &str) -> Option<&'static str> {
     let (value, _) = about(name)?;
     (value.name == name::FAILURE_FORCE).then_some(name::FIRST_FAILURE)
 }
 
-/// Returns the value and quantity of a column.
+/// Returns the measured value of a column, and its quantity if the column has a physical unit.
 ///
-/// The name may also be a derived one, such as a quantile.
+/// `name` may also be the name of a derived column, such as a quantile.
 pub(crate) fn about(name: &str) -> Option<(&'static MeasuredValue, Option<Quantity>)> {
     // Take the longest stem: `critical_force_per_width` also begins with `critical_force`.
     let column = ValueColumn::named(name).or_else(|| {
@@ -125,7 +123,7 @@ pub(crate) fn about(name: &str) -> Option<(&'static MeasuredValue, Option<Quanti
 
 /// Returns whether large or small values of a column are better.
 ///
-/// `None` if that is ambiguous.
+/// `None` if neither is generally better.
 pub fn plain_goal(name: &str) -> Option<Goal> {
     let (value, quantity) = about(name)?;
     value.good_as(quantity)
@@ -147,9 +145,7 @@ pub struct TableLayout {
     pub columns: Vec<Column<DesignRow>>,
 }
 
-/// Returns the layouts of the tables of `sweep`.
-///
-/// They are `designs.csv` and a table per requested measure.
+/// Returns the layouts of `designs.csv` and of the tables of the requested measures of `sweep`.
 pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
     let asked = MEASURE_TABLES.iter().filter(|(_, measure)| sweep.measures().contains(measure));
     let mut tables = vec![TableLayout {
@@ -165,8 +161,7 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
 
 /// Returns the columns of `designs.csv`.
 ///
-/// They do not depend on the measures, but on the axes, imperfections and the number of critical
-/// tilts.
+/// The columns depend on the axes and parameters of `sweep`, but not on its measures.
 pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
     columns(sweep, None)
 }
@@ -211,9 +206,7 @@ fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     columns
 }
 
-/// Returns every column of a measured value.
-///
-/// Includes columns that only some definitions request.
+/// Returns all columns of measured values, including columns that only some sweeps have.
 pub fn value_columns() -> impl Iterator<Item = Column<DesignRow>> {
     COLUMNS.iter().map(ValueColumn::column)
 }
@@ -241,7 +234,7 @@ fn axis_columns<R: Borrow<DesignRow>>(sweep: &Sweep) -> impl Iterator<Item = Col
     axes.filter(|parameter| !parameter.has(Role::Geometry)).map(parameter_column)
 }
 
-/// Returns the columns of lengths in mm, except for axes.
+/// Returns the columns of the lengths in mm that are not axes.
 fn columns_in_mm(sweep: &Sweep) -> impl Iterator<Item = Column<DesignRow>> {
     let lengths = LENGTHS_IN_MM.into_iter().filter_map(Parameter::named);
     lengths.filter(|parameter| sweep.grid().axis(parameter.key).is_none()).map(|parameter| {
@@ -249,7 +242,7 @@ fn columns_in_mm(sweep: &Sweep) -> impl Iterator<Item = Column<DesignRow>> {
     })
 }
 
-/// Returns the column of the width, unless it is an axis.
+/// Returns the column of the width over the thickness, unless it is an axis.
 fn width_column(sweep: &Sweep) -> Option<Column<DesignRow>> {
     let width = Parameter::named(key::WIDTH)?;
     sweep.grid().axis(width.key).is_none().then(|| parameter_column(width))

@@ -1,6 +1,4 @@
-//! Parameters that define how a value is measured.
-//!
-//! Designs must share them to be compared.
+//! Parameters that define how a value is measured, and must be equal to compare designs.
 
 use sweep::{PARAMETERS, Sweep};
 
@@ -18,7 +16,7 @@ pub fn measurement_conditions(column: &str) -> Vec<&'static str> {
         .collect()
 }
 
-/// Returns a varied parameter that makes designs incomparable by a column.
+/// Returns an axis parameter that makes the designs of `sweep` incomparable by `column`, if any.
 pub fn incomparable_by(sweep: &Sweep, column: &str) -> Option<&'static str> {
     measurement_conditions(column)
         .into_iter()

@@ -20,7 +20,8 @@ use crate::folder::ResultsFolder;
 
 /// Prefix of the first line, which holds the SHA-256 of the lines after it.
 ///
-/// The key says "above"; another name would make existing folders unreadable.
+/// The key says "above" although these lines are below it. A correct key would make existing
+/// folders unreadable.
 const SEAL: &str = "sha256_of_the_above = ";
 
 /// Contents of a results folder.
@@ -35,11 +36,11 @@ pub struct Contents {
     pub done: u64,
     /// Extent of the journal when the tables were written.
     pub journal: JournalExtent,
-    /// SHA-256 of each file, by its name.
+    /// SHA-256 of each file, by the name of the file.
     pub files: BTreeMap<String, String>,
 }
 
-/// The extent of a journal.
+/// Length and checksum of the part of a journal from which the tables were written.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JournalExtent {
@@ -47,7 +48,7 @@ pub struct JournalExtent {
     pub bytes: u64,
     /// Number of lines.
     pub lines: u64,
-    /// SHA-256 of these bytes.
+    /// SHA-256 of the first `bytes` bytes.
     pub sha256: String,
 }
 
@@ -63,7 +64,7 @@ impl JournalExtent {
 }
 
 impl Contents {
-    /// Writes the contents to `folder`, as the last of its files.
+    /// Writes the contents to `folder`, after all other files have been written.
     ///
     /// # Errors
     ///
@@ -82,12 +83,12 @@ impl Contents {
 
     /// Reads the contents of `folder`. `None` if they are missing or damaged.
     pub fn stated_in(folder: &ResultsFolder) -> Option<Self> {
-        // `VerifiedFolder` reports the damage. Here a damaged statement counts as missing.
+        // Damaged contents count as missing here; `VerifiedFolder` reports the damage.
         let text = read_text(&folder.file(ResultsFolder::CONTENTS)).ok()?;
         Self::parse(&text).ok()
     }
 
-    /// Parses the contents.
+    /// Parses the text of `contents.toml` after verifying its checksum.
     fn parse(text: &str) -> Result<Self, String> {
         let sealed = text.split_once('\n').and_then(|(seal, text)| {
             let digest = seal.strip_prefix("# ")?.strip_prefix(SEAL)?;
@@ -97,12 +98,12 @@ impl Contents {
         toml::from_str(text).map_err(|error| text::one_line(error.message()))
     }
 
-    /// Returns true if every design is done.
+    /// Returns true if every design of the run is finished.
     pub fn is_whole(&self) -> bool {
         self.done == self.designs
     }
 
-    /// Returns one SHA-256 over all tables. It does not depend on the time of writing.
+    /// Returns one SHA-256 over all tables, which does not depend on the time of writing.
     pub fn digest(&self) -> String {
         // Leave out the record of the run, because it contains times.
         let tables = self.files.iter().filter(|(name, _)| *name != ResultsFolder::RUN_INFO);

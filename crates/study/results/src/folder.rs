@@ -1,4 +1,4 @@
-//! The folder of results: an entry for every file, and safe writing.
+//! The results folder: name, maker and role of every file, and safe writing of files.
 
 use std::fs::{self, File};
 use std::io::{BufRead as _, BufReader};
@@ -10,7 +10,7 @@ use sweep::Measure;
 use crate::columns::name;
 use crate::tables::csv_format::CsvFormat;
 
-/// Tables of one measure, named after their leading value.
+/// Leading value of each measure table, after which the table is named, and its measure.
 pub const MEASURE_TABLES: [(&str, Measure); 4] = [
     (name::COVERAGE, Measure::Coverage),
     (name::CRITICAL_FORCE, Measure::Puncture),
@@ -40,12 +40,12 @@ pub enum Maker {
 }
 
 impl Maker {
-    /// Returns the name of the record of this maker.
+    /// Returns the name of the record in `derived/` that lists the files of this maker.
     pub fn key(self) -> &'static str {
         self.names().0
     }
 
-    /// Returns the names of the record and of the command.
+    /// Returns the name of the record in `derived/`, and the command.
     pub(crate) fn names(self) -> (&'static str, &'static str) {
         match self {
             Self::Run => ("run", "squama run"),
@@ -65,11 +65,11 @@ impl Maker {
 pub enum Role {
     /// Lines from which all other files of the maker are written.
     Journal,
-    /// Statement of the checksums of the other files.
+    /// The file with the checksums of the other files.
     Statement,
-    /// A table, also included in workbooks.
+    /// A table that workbooks include.
     Table,
-    /// A text about the tables.
+    /// Any other file: definitions, records, and tables that workbooks do not include.
     Record,
 }
 
@@ -82,7 +82,7 @@ pub struct FileEntry {
     pub maker: Maker,
     /// Role of the file.
     pub role: Role,
-    /// Whether the maker records its SHA-256. It is verified before the file is read.
+    /// Whether the maker records the SHA-256 of the file, which every reader verifies.
     pub is_stated: bool,
 }
 
@@ -98,7 +98,7 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 
 /// Every file with a fixed name in a results folder, in reading order.
 pub static FILES: [FileEntry; 49] = [
-    // A journal grows after its extent was stated, so each line has its own checksum.
+    // The journal grows, so it has no recorded SHA-256; each of its lines has a checksum.
     plain(ResultsFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(ResultsFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
@@ -109,14 +109,14 @@ pub static FILES: [FileEntry; 49] = [
     stated(ResultsFolder::FAILURES, Maker::Run, Role::Table),
     stated(ResultsFolder::RERUNS, Maker::Run, Role::Table),
     stated(ResultsFolder::RUN_INFO, Maker::Run, Role::Record),
-    // Whoever publishes the folder completes the metadata, so it has no recorded SHA-256.
+    // Users complete the metadata before they publish the folder, so its SHA-256 is not recorded.
     plain(ResultsFolder::METADATA, Maker::Run, Role::Record),
     plain(ResultsFolder::CONTENTS, Maker::Run, Role::Statement),
     stated(ResultsFolder::RANKING[0], Maker::Ranking, Role::Table),
     stated(ResultsFolder::RANKING[1], Maker::Ranking, Role::Table),
     stated(ResultsFolder::RANKING[2], Maker::Ranking, Role::Table),
     stated(ResultsFolder::RANKING[3], Maker::Ranking, Role::Table),
-    // Workbook and page show the criteria of the ranking from this file, so it must be unchanged.
+    // Workbook and page show the criteria in this file, so its SHA-256 is recorded.
     stated(ResultsFolder::PREFERENCES, Maker::Ranking, Role::Record),
     stated(ResultsFolder::COMPARISON[0], Maker::Comparison, Role::Table),
     stated(ResultsFolder::COMPARISON[1], Maker::Comparison, Role::Table),
@@ -138,8 +138,8 @@ pub static FILES: [FileEntry; 49] = [
     stated("fitted.toml", Maker::Fit, Role::Record),
     plain("design.toml", Maker::Design, Role::Record),
     plain(ResultsFolder::MEASURES, Maker::Design, Role::Record),
-    // Runs have a file of the same name. Lookups find the entry of the run, which comes first and
-    // has a recorded SHA-256.
+    // A run also makes a file with this name. `FileEntry::named` returns the entry of the run,
+    // which comes first and has a recorded SHA-256.
     plain(ResultsFolder::SENSITIVITY, Maker::Design, Role::Record),
     plain(ResultsFolder::PUNCTURE[0], Maker::Design, Role::Record),
     plain(ResultsFolder::PUNCTURE[1], Maker::Design, Role::Record),
@@ -162,7 +162,7 @@ impl FileEntry {
         FILES.iter().find(|file| file.name == name)
     }
 
-    /// Returns the files that a maker writes from its journal, with its statement.
+    /// Returns all files of `maker` except its journal.
     pub(crate) fn products(maker: Maker) -> impl Iterator<Item = &'static Self> {
         FILES.iter().filter(move |file| file.maker == maker && file.role != Role::Journal)
     }
@@ -177,7 +177,7 @@ pub struct ResultsFolder {
 }
 
 impl ResultsFolder {
-    /// Journal: every finished design. The tables are written from it.
+    /// Journal of the finished designs, from which the tables are written.
     pub const JOURNAL: &'static str = "journal.jsonl";
     /// Journal of a search.
     pub const EVALUATIONS: &'static str = "evaluations.jsonl";
@@ -187,9 +187,9 @@ impl ResultsFolder {
     pub const CONTENTS: &'static str = "contents.toml";
     /// Metadata of the folder as an RO-Crate.
     pub const METADATA: &'static str = "ro-crate-metadata.json";
-    /// Folder of the records of products derived from the tables.
+    /// Folder with a record of each product that was derived from the tables.
     pub const DERIVED: &'static str = "derived";
-    /// Record of a ranking.
+    /// Name of the record of a ranking in `derived/`.
     pub const RANKING_RECORD: &'static str = "ranking";
     /// Table of all designs.
     pub const DESIGNS: &'static str = "designs.csv";
@@ -215,7 +215,7 @@ impl ResultsFolder {
         ["flexure_path.csv", "flexure_events.csv", "flexure_scales.csv", "flexure_steps.csv"];
     /// Tables of the unloading paths of one design, for puncture and bending.
     pub const WAY_BACK: [&'static str; 2] = ["way_back.csv", "flexure_way_back.csv"];
-    /// Table of the load positions that were evaluated.
+    /// Table of the evaluated load positions of one design.
     pub const PLACES: &'static str = "places.csv";
 
     /// Returns the folder at `path`, which need not exist.
@@ -228,9 +228,7 @@ impl ResultsFolder {
         format!("{value}.csv")
     }
 
-    /// Returns the names of all tables of a run, its ranking and its comparison.
-    ///
-    /// They are in reading order.
+    /// Returns the names of all tables of a run, its ranking and its comparison, in reading order.
     pub fn tables() -> impl Iterator<Item = &'static str> {
         FILES.iter().filter(|file| file.role == Role::Table).map(|file| file.name)
     }
@@ -275,12 +273,12 @@ impl ResultsFolder {
     ///
     /// # Errors
     ///
-    /// If it cannot be created.
+    /// If the folder cannot be created.
     pub fn make(&self) -> Result<(), OutputError> {
         make_folder(&self.path)
     }
 
-    /// Starts the file `name`, which becomes visible when it is complete.
+    /// Starts to write the file `name`, which appears in the folder when it is complete.
     ///
     /// # Errors
     ///
@@ -293,7 +291,7 @@ impl ResultsFolder {
     ///
     /// # Errors
     ///
-    /// If it cannot be written.
+    /// If the file cannot be written.
     pub fn write_text(&self, name: &str, text: &str) -> Result<String, OutputError> {
         write_text(&self.path, name, text)
     }
@@ -303,23 +301,22 @@ impl ResultsFolder {
         sync_folder(&self.path);
     }
 
-    /// Refuses to let `maker` write into a folder with files of other origin.
-    ///
-    /// Such files are the journal of another maker, and files with the names of results but without
-    /// a journal. [`Start::Fresh`] discards files without a journal.
+    /// Checks that `maker` may write its files into this folder.
     ///
     /// # Errors
     ///
-    /// If there are such files.
+    /// If the folder contains the journal of another maker. For a run also if the folder contains
+    /// files with names of its results but no journal; [`Start::Fresh`] accepts such files, because
+    /// a fresh run discards them.
     pub fn require_own(&self, maker: Maker, start: Start) -> Result<(), JournalError> {
-        // Test the link itself, because a dangling link would be replaced too.
+        // Test for links without following them, because a dangling link would be replaced too.
         let is_there = |file: &&FileEntry| fs::symlink_metadata(self.file(file.name)).is_ok();
         let mut journals = FILES.iter().filter(|file| file.role == Role::Journal).filter(is_there);
         if let Some(other) = journals.clone().find(|file| file.maker != maker) {
             let what = if other.maker == Maker::Run { "a run" } else { "a search" };
             return Err(JournalError::Holds { folder: self.path.clone(), what });
         }
-        // The records of other makers cover their files, see `Claim`.
+        // `Claim` checks the files of other makers.
         if maker != Maker::Run || start == Start::Fresh || journals.next().is_some() {
             return Ok(());
         }
@@ -330,9 +327,9 @@ impl ResultsFolder {
         })
     }
 
-    /// Removes the tables of an earlier run except `files`. A folder describes one run.
+    /// Removes the tables of an earlier run, except the tables named in `files`.
     pub fn remove_tables_but(&self, files: &[String]) {
-        // The record of the run and its contents are rewritten together with the tables.
+        // Keep the record and the contents of the run, which are overwritten after the tables.
         let tables = FileEntry::products(Maker::Run).filter(|file| file.role == Role::Table);
         let gone = tables.filter(|file| files.iter().all(|kept| kept != file.name));
         gone.for_each(|file| self.remove(file.name));
@@ -340,15 +337,15 @@ impl ResultsFolder {
 
     /// Removes the tables and the contents of an earlier run, but not its journal.
     pub fn remove_results(&self) {
-        // Remove the contents first: without them no reader accepts the remaining tables as
-        // complete.
+        // Remove the contents first: without the contents no reader accepts the remaining tables
+        // as complete.
         self.remove(Self::CONTENTS);
         FileEntry::products(Maker::Run).for_each(|file| self.remove(file.name));
     }
 
     /// Removes the file `name`, if it exists.
     pub fn remove(&self, name: &str) {
-        // Usually the file does not exist.
+        // Ignore the error, because usually the file does not exist.
         let _ = fs::remove_file(self.file(name));
     }
 }
@@ -387,14 +384,14 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_has_one_maker() {
+    fn a_folder_with_the_journal_of_another_maker_is_refused() {
         for (maker, journal) in
             [(Maker::Run, ResultsFolder::EVALUATIONS), (Maker::Search, ResultsFolder::JOURNAL)]
         {
             let place = tempfile::tempdir().expect("a folder");
             let folder = ResultsFolder::new(place.path());
             fs::write(folder.file(journal), "").expect("writable");
-            let refused = folder.require_own(maker, Start::Fresh).expect_err("another's");
+            let refused = folder.require_own(maker, Start::Fresh).expect_err("a foreign journal");
             assert!(refused.to_string().contains("holds the results of a"), "{refused}");
         }
     }

@@ -1,7 +1,7 @@
 //! Reads and writes the results folder of a run.
 //!
-//! A design result holds all measures and statuses of a solved design. Columns convert it to cells;
-//! tables are rows of cells, written in one of two CSV formats and read back from either.
+//! A design result holds all measures and statuses of a solved design. Columns convert a result to
+//! cells. Tables are rows of cells, which are written and read in one of two CSV formats.
 //!
 //! ```text
 //! DesignResult ─► columns ─► Cell ─► CsvFile ─► designs.csv ─► Results
@@ -21,7 +21,7 @@
 //! | [`ResultsFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is recorded |
 //! | [`write_measures`] | writes a table with one row per measure of a design |
 //! | [`path_tables()`], [`PathTable`], [`write_path_tables`] | the paths, events, scales and iterations of one design, in memory and as files |
-//! | [`round_off`] | the best of values that are equal up to round-off |
+//! | [`round_off`] | comparison of values that may be equal up to round-off |
 //! | [`Results`], [`Table`] | the designs read from the folder of a run, and their cells |
 //! | [`Contents`], [`VerifiedFolder`], [`Completeness`] | the checksums of a run, and a folder verified against them |
 //! | [`Derivation`], [`Claim`] | products derived from the tables; the exclusive claim of a command to its files |

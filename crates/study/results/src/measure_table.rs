@@ -21,9 +21,9 @@ pub struct DesignMeasure {
 /// Columns of `measures.csv`.
 pub static MEASURE_COLUMNS: &[Column<DesignMeasure>] = &columns! { DesignMeasure:
     "measure", "-", |m| m.name.clone().into_owned(), "column of `designs.csv`";
-    "value", "-", |m| m.value.clone(), "value, in its unit";
-    "unit", "-", |m| m.unit, "unit, `-` if it has none";
-    "meaning", "-", |m| m.meaning, "meaning, in half a sentence";
+    "value", "-", |m| m.value.clone(), "value of the measure, in the unit of the next column";
+    "unit", "-", |m| m.unit, "unit of the value, `-` if it has none";
+    "meaning", "-", |m| m.meaning, "meaning of the measure";
 };
 
 /// Writes every column of a row of `designs.csv` as a row of `measures.csv`.

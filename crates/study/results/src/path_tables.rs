@@ -1,4 +1,4 @@
-//! Path tables of one design: paths, events, scales and Newton iterations.
+//! Tables of the paths of one design: equilibria, events, scales and Newton iterations.
 
 use journal::OutputError;
 use skin::flexure::Flexure;
@@ -17,7 +17,7 @@ use crate::tables::csv_file::write_rows;
 pub struct PathTable {
     /// Name of the file.
     pub file: &'static str,
-    /// Columns. Their rows are row numbers from 0.
+    /// Columns, which return the cell of a row for the number of the row, from 0.
     pub columns: Vec<Column<usize>>,
     /// Number of rows.
     pub rows: usize,
@@ -25,8 +25,8 @@ pub struct PathTable {
 
 impl PathTable {
     fn new<R>(file: &'static str, columns: &[Column<R>], rows: &[R]) -> Self {
-        // Row types differ between the tables. Computing the cells first gives all tables one type,
-        // for files and for Python.
+        // The type of a row differs between the tables. Compute the cells here, so that all path
+        // tables have the same type.
         let filled = |column: &Column<R>| {
             let cells: Vec<Cell> = rows.iter().map(|row| column.cell(row)).collect();
             Column::computed(
@@ -40,7 +40,7 @@ impl PathTable {
     }
 }
 
-/// Returns the path tables of the measures that were solved.
+/// Returns the tables of the solved paths, and the table of derivatives, if there are any.
 pub fn path_tables(solved: &SolvedDesign) -> Vec<PathTable> {
     let SolvedDesign { row, puncture, flexure } = solved;
     let mut tables = Vec::new();
@@ -87,7 +87,7 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
         PathTable::new(scales, SCALES, &puncture.scales),
         PathTable::new(steps, STEPS, &puncture.history),
     ];
-    // The columns of a round tip depend on the scales touched anywhere along the path.
+    // A round tip has a column for each scale that it touches anywhere along the path.
     tables[0].columns.extend(tip_force_columns(&puncture.tip_forces));
     if let Some(back) = &puncture.unloading {
         // Stability is not computed during unloading.

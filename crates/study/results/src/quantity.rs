@@ -74,8 +74,8 @@ impl Quantity {
         match self {
             Self::Length | Self::Radius => "mm",
             Self::Force => "N",
-            // Names cannot show a division or a product. The unit beside them distinguishes N/mm
-            // from N mm.
+            // Column names contain neither `/` nor spaces, so N/mm and N mm have the same suffix.
+            // The unit of the column distinguishes them.
             Self::ForcePerWidth | Self::Stiffness | Self::Moment => "N_mm",
             Self::Rigidity => "N_mm2",
             Self::Stress => "MPa",
@@ -88,7 +88,7 @@ impl Quantity {
         matches!(self, Self::Rigidity | Self::Radius)
     }
 
-    /// Returns the material keys that the conversion needs.
+    /// Returns the keys of the material parameters that the conversion needs.
     pub fn needs(self) -> &'static [&'static str] {
         match self {
             Self::Length | Self::Radius => &[key::THICKNESS],
@@ -100,14 +100,14 @@ impl Quantity {
         }
     }
 
-    /// Returns true if the designs of a sweep have the required material.
+    /// Returns true if a sweep gives all material parameters that the conversion needs.
     pub(crate) fn is_given(self, sweep: &Sweep) -> bool {
         self.needs().iter().all(|key| sweep.gives(key))
     }
 
     /// Converts the dimensionless `value` of a case to the physical unit.
     ///
-    /// `None` if the material lacks a required value, or for the inverse of 0.
+    /// `None` if the material lacks a required value, or if the result is the inverse of 0.
     ///
     /// ```
     /// use results::Quantity;
@@ -144,21 +144,19 @@ impl Quantity {
     }
 }
 
-/// Returns the units of the curves of a puncture.
+/// Returns the units of displacement, force and energy of a puncture, in mm, N and mJ.
 ///
-/// These are the units of displacement, force and energy, in mm, N and mJ. `None` if the material
-/// lacks a required value.
+/// `None` if the material lacks a required value.
 pub fn puncture_units(case: &Case) -> Option<[f64; 3]> {
     let (length, force) =
         (Quantity::Length.physical(1.0, case)?, Quantity::Force.physical(1.0, case)?);
-    // Energies are over E_s/(1 − ν²) t³, forces over E_s/(1 − ν²) L t².
+    // Energies are over `E_s/(1 − ν²) t³`, forces over `E_s/(1 − ν²) L t`.
     Some([length, force, force / case.design.length * length])
 }
 
-/// Returns the units of the curves of bending.
+/// Returns the units of curvature, moment and energy of bending, in 1/mm, N mm and mJ.
 ///
-/// These are the units of curvature, moment and energy, in 1/mm, N mm and mJ. `None` if the
-/// material lacks a required value.
+/// `None` if the material lacks a required value.
 pub fn bending_units(case: &Case) -> Option<[f64; 3]> {
     // Energies of bending are over `E_m t³`, moments over `E_m I_m/t`.
     let (length, modulus) =
@@ -166,32 +164,32 @@ pub fn bending_units(case: &Case) -> Option<[f64; 3]> {
     Some([length.recip(), Quantity::Moment.physical(1.0, case)?, modulus * length.powi(3)])
 }
 
-/// `E_s/(1 − ν²) L t`, N.
+/// Returns the unit of puncture forces, `E_s/(1 − ν²) L t`, in N.
 fn force_unit(case: &Case) -> Option<f64> {
     let (thickness, modulus) = (case.material.thickness_mm?, case.material.substrate_modulus_mpa?);
     let plane_strain = modulus / (1.0 - case.puncture.poisson_ratio.powi(2));
     Some(plane_strain * case.design.length * thickness * thickness)
 }
 
-/// `E_m I_m`, N mm².
+/// Returns the bending stiffness `E_m I_m` of the membrane, in N mm².
 fn bending_stiffness(case: &Case) -> Option<f64> {
     let (thickness, modulus) = (case.material.thickness_mm?, case.material.membrane_modulus_mpa?);
     let (width, height) = (case.design.width, case.flexure.membrane_thickness);
-    // Width and height are over `t`: four lengths in all.
+    // The second moment of area has four lengths over `t`, so multiply it by `t⁴`.
     Some(modulus * width * height.powi(3) / 12.0 * thickness.powi(4))
 }
 
 /// Material keys required for the areal mass.
 pub(crate) const MASS_NEEDS: [&str; 2] = [key::THICKNESS, key::DENSITY];
 
-/// Returns the mass of the scales per area of the skin, kg/m².
+/// Returns the mass of the scales per area of the skin, in kg/m².
 ///
-/// Density times the area of a parallelogram (base times thickness) over the pitch, `ρ 2a t/p`
-/// (U8). `None` if thickness or density is not given.
+/// The mass is the density times the area of a parallelogram (base times thickness), divided by the
+/// pitch: `ρ 2a t/p` (U8). `None` if thickness or density is not given.
 pub fn areal_mass(case: &Case) -> Option<f64> {
     let (thickness, density) = (case.material.thickness_mm?, case.material.scale_density_kg_m3?);
     let base = 2.0 * Design::half_base(&case.design);
-    // kg/m³ times mm are 1e-3 kg/m².
+    // 1 kg/m³ times 1 mm is 1e-3 kg/m².
     Some(density * base / (base + case.design.gap) * thickness * 1e-3)
 }
 

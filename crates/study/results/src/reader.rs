@@ -18,7 +18,7 @@ use crate::tables::csv_format::CsvFormat;
 use table::Table;
 use thinning::Thinning;
 
-/// First column of a table of designs.
+/// Header of the first column of a table of designs.
 const NUMBER: &str = "design";
 
 /// The designs of a run, read from `designs.csv`.
@@ -45,7 +45,7 @@ pub enum InvalidResults {
     Unreadable {
         /// Name of the table.
         file: String,
-        /// Message of the operating system.
+        /// Reason, e.g. the message of the operating system.
         reason: String,
     },
     /// The table is not a table of designs.
@@ -53,7 +53,7 @@ pub enum InvalidResults {
     NoDesigns {
         /// Name of the table.
         file: String,
-        /// First column.
+        /// Header of the first column.
         found: String,
     },
     /// A column is missing.
@@ -100,10 +100,10 @@ impl Results {
         Self::thinned(folder, usize::MAX)
     }
 
-    /// Reads about `most` rows of a longer table.
+    /// Reads the results in a verified folder, but only about `most` rows of a longer table.
     ///
-    /// These are rows at equal distances, and the best by coverage, critical force, penetration and
-    /// compliance.
+    /// These are rows at equal distances, and the best row by each of coverage, critical force,
+    /// penetration and compliance.
     ///
     /// # Errors
     ///
@@ -112,7 +112,7 @@ impl Results {
         Self::of_table(folder, ResultsFolder::DESIGNS, most, |_| true)
     }
 
-    /// Reads the columns for which `is_read` returns true; the others are empty.
+    /// Reads only the columns for which `is_read` returns true; all other columns are empty.
     ///
     /// All columns of a million designs take 400 MB.
     ///
@@ -151,13 +151,13 @@ impl Results {
         match header.first() {
             Some(first) if first == NUMBER => {}
             first => {
-                // Debug output keeps the message on one line for any cell.
+                // Debug formatting escapes line ends, so that the message has one line.
                 let found = format!("{:?}", first.map_or("", String::as_str));
                 return Err(InvalidResults::NoDesigns { file: path.display().to_string(), found });
             }
         }
         let parameters = header.iter().enumerate();
-        // A gap in mm beside `gap_over_t` is the same parameter, not a second one.
+        // Beside `gap_over_t` a column of the gap in mm is not a second parameter.
         let parameters = parameters.filter(|(_, name)| distinguishes_designs(name, header));
         let parameters =
             parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column))).collect();
@@ -168,12 +168,12 @@ impl Results {
             parameters,
             table: Arc::new(table),
             in_table,
-            // A table without the record of its run is still readable.
+            // A table can be read without the record of its run.
             definition: definition(folder).map_err(InvalidResults::Folder)?,
         })
     }
 
-    /// Returns the results with these rows only.
+    /// Returns the results of the designs in `rows` only.
     #[must_use]
     pub fn only(&self, rows: &[usize]) -> Self {
         Self { table: Arc::new(self.table.only(rows)), ..self.clone() }
@@ -189,12 +189,12 @@ impl Results {
         &self.folder
     }
 
-    /// Returns the format of the tables.
+    /// Returns the CSV format of the tables.
     pub fn format(&self) -> CsvFormat {
         self.format
     }
 
-    /// Returns the name of the table of designs, for messages.
+    /// Returns the path of the table of designs as text, for messages.
     pub fn file(&self) -> String {
         self.folder().join(self.file).display().to_string()
     }
@@ -210,9 +210,7 @@ impl Results {
         self.table.length()
     }
 
-    /// Returns the number of designs in the table.
-    ///
-    /// It includes those that [`Results::thinned`] omits.
+    /// Returns the number of designs in the table, including those that [`Results::thinned`] omits.
     pub fn in_table(&self) -> usize {
         self.in_table
     }
@@ -250,25 +248,25 @@ impl Results {
             [] if physical_source(name).is_some() => {
                 "which needs a [material] in the definition that was run".to_owned()
             }
-            [] => "expected a name of its first line".to_owned(),
+            [] => "expected a column name of its first line".to_owned(),
             [one] => format!("did you mean {one}?"),
             _ => format!("expected one of {}", alike.join(", ")),
         });
         InvalidResults::NoColumn { file: self.file(), column: name.to_owned(), expected }
     }
 
-    /// Returns the number of a design, as written.
+    /// Returns the number of the design in `row`, as written in the table.
     pub fn design(&self, row: usize) -> &str {
         self.table.name(row)
     }
 
-    /// Returns the value of a parameter, as written. Empty if it has no column.
+    /// Returns the text of a parameter in a row. Empty if the parameter has no column.
     pub fn parameter(&self, row: usize, parameter: &Parameter) -> Cow<'_, str> {
         let column = self.parameters.iter().find(|(other, _)| other.key == parameter.key);
         column.map_or(Cow::default(), |(_, column)| self.text(row, *column))
     }
 
-    /// Returns a cell, as written.
+    /// Returns the text of a cell, in the plain CSV format.
     pub fn text(&self, row: usize, column: usize) -> Cow<'_, str> {
         self.table.text(row, column)
     }
@@ -313,7 +311,7 @@ fn read_table(
     most: usize,
     is_read: impl Fn(&str) -> bool,
 ) -> Result<(CsvFormat, Table, usize), csv::Error> {
-    // Counting reads the whole file once more, so count only if rows are left out.
+    // Counting reads the whole file once more, so count only if rows may be left out.
     let in_table = if most == usize::MAX { 0 } else { count_rows(&mut file)? };
     file.rewind()?;
     let mut file = BufReader::new(file);
@@ -325,7 +323,8 @@ fn read_table(
     let mut count = 0;
     let mut row = csv::StringRecord::new();
     while csv.read_record(&mut row)? {
-        // Convert decimals and marked texts here, so that all readers of cells see one format.
+        // Convert all cells to the plain format, so that readers of cells need not distinguish
+        // formats.
         if format == CsvFormat::ExcelEu || row.iter().any(|cell| CsvFormat::text(cell) != cell) {
             row = row.iter().map(|cell| plain(format, cell)).collect();
         }
@@ -335,7 +334,7 @@ fn read_table(
     Ok((format, kept.finish(), count))
 }
 
-/// Counts the rows of a table. Cells contain no line ends.
+/// Counts the rows of a table, without the header. No cell contains a line end.
 fn count_rows(file: impl Read) -> io::Result<usize> {
     let mut lines = 0;
     let mut file = BufReader::new(file);
@@ -344,15 +343,15 @@ fn count_rows(file: impl Read) -> io::Result<usize> {
         let length = bytes.len();
         lines += bytes.split(|byte| *byte == b'\n').count() - 1;
         if length == 0 {
-            // Without the header. A last line without a line end is not counted, which is harmless:
-            // the count only determines how many rows are left out.
+            // Subtract the header. A last line without a line end is not counted, which is
+            // harmless: the count only determines how many rows are left out.
             return Ok(lines.saturating_sub(1));
         }
         file.consume(length);
     }
 }
 
-/// Returns the text of a cell in the plain format.
+/// Converts the text of a cell in `format` to the plain format.
 fn plain(format: CsvFormat, cell: &str) -> String {
     let decimal = format.number(cell).filter(|_| cell.contains(','));
     decimal.map_or_else(|| CsvFormat::text(cell).to_owned(), number::text)
@@ -364,8 +363,8 @@ pub fn words(error: csv::Error) -> String {
         csv::ErrorKind::Io(error) => reason(&error),
         csv::ErrorKind::Utf8 { .. } => "it is not UTF-8 text".to_owned(),
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-            // No cell contains a line end, and the reader counts a line that ends with CR LF late.
-            // So the record number gives the line.
+            // The line number of the reader is too small at CR LF line ends. Use the record number,
+            // which is the line number, because no cell contains a line end.
             let line = pos.map_or(0, |position| position.record() + 1);
             format!("line {line} has {len} cells, the first one {expected_len}")
         }

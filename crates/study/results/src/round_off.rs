@@ -1,13 +1,14 @@
-//! The best of values that are equal up to round-off, see [`same`].
+//! Best values, with values that are equal up to round-off ([`same`]) treated as equal.
 
 use text::number::same;
 
 use crate::columns::Goal;
 
-/// Replaces values equal up to round-off by one of them, the best by `goal`.
+/// Replaces each group of values that are equal up to round-off by its best value.
 ///
-/// Equality is tested against the best value of a group, not from one value to the next, so that
-/// many small steps do not make all values equal. Rankings group equal scores in the same way.
+/// A value belongs to a group if it equals the best value of the group, not just any value of the
+/// group, so that many small steps do not make all values equal. Rankings group equal scores in the
+/// same way.
 pub fn merge_equal<'a>(values: impl IntoIterator<Item = &'a mut f64>, goal: Goal) {
     let mut values: Vec<&mut f64> = values.into_iter().collect();
     values.sort_by(|a, b| match goal {
@@ -24,25 +25,25 @@ pub fn merge_equal<'a>(values: impl IntoIterator<Item = &'a mut f64>, goal: Goal
     }
 }
 
-/// The best of a sequence of values, with the item that has it.
+/// The best value of a sequence, with the item that has this value.
 ///
-/// If several values are equal up to round-off, the first is the best and the others are ties.
+/// If several best values are equal up to round-off, the first is the best and the others are ties.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leader<T> {
     /// First item with the best value.
     pub first: T,
-    /// The value.
+    /// The best value.
     pub value: f64,
-    /// Number of other items with an equal value, up to round-off.
+    /// Number of other items with the same value up to round-off.
     pub ties: u64,
 }
 
 impl<T> Leader<T> {
-    /// Updates the best value with another candidate.
+    /// Updates `best` with the item `first` that has the value `value`.
     pub fn enter(best: &mut Option<Self>, first: T, value: f64, goal: Goal) {
         match best {
-            // Test for equality first: among equal values the later must not win by its last
-            // digits.
+            // Test for equality first: a later value must not replace an equal value because of
+            // its last digits.
             Some(best) if same(value, best.value) => best.ties += 1,
             Some(best) if !goal.prefers(value, best.value) => {}
             _ => *best = Some(Self { first, value, ties: 0 }),
@@ -59,7 +60,7 @@ mod tests {
         let mut values = [0.5, 0.8, 0.8 - 1e-12, 0.3, 0.8 + 1e-12, 0.5 + 1e-15];
         merge_equal(&mut values, Goal::Maximize);
         assert_eq!(values, [0.5 + 1e-15, 0.8 + 1e-12, 0.8 + 1e-12, 0.3, 0.8 + 1e-12, 0.5 + 1e-15]);
-        // Steps below round-off that add up to more.
+        // Each step is below round-off, but the sum of two steps is not.
         let mut steps = [1.0, 1.0 + 8e-10, 1.0 + 16e-10];
         merge_equal(&mut steps, Goal::Minimize);
         assert_eq!(steps, [1.0, 1.0, 1.0 + 16e-10]);

@@ -1,4 +1,4 @@
-//! The case of one design: all parameters of its solution.
+//! The case of one design: all parameters from which the design is solved.
 
 use geometry::{Body, OutOfRange};
 use skin::flexure;
@@ -9,22 +9,22 @@ use substrate::{Bases, Coupling, Footprint};
 use crate::material::Material;
 use crate::scalar::Scalar;
 
-/// All parameters of the solution of one design.
+/// All parameters from which one design is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
-    /// Geometry.
+    /// Geometry of the row: gap, length, slant, base and width.
     pub design: Design,
     /// Contact law and solver settings, shared by puncture and bending.
     pub common: Common,
     /// Parameters of the puncture.
     pub puncture: puncture::PunctureParameters,
-    /// Friction between needle and scale.
+    /// Coefficient of friction between needle and scale: a number or a list of numbers.
     ///
-    /// For a free needle it determines the critical tilts.
+    /// The critical tilts of a free needle are the arctangents of these numbers. `None`: not given.
     pub needle_friction: Option<Scalar>,
-    /// Distance of the load from the top right corner, inward.
+    /// Distance of the load from the top right corner, inward, over the thickness.
     ///
-    /// `None` if `load_position` gives it.
+    /// `None` if `puncture.load_position` gives the position of the load.
     pub load_inset: Option<f64>,
     /// Strengths over the modulus of the substrate.
     pub strengths: Strengths,
@@ -34,9 +34,9 @@ pub struct Case {
     pub needle_force: Option<f64>,
     /// Force of the needle in N, if the definition gives it in N.
     pub needle_force_n: Option<f64>,
-    /// Whether the row across (perpendicular to this row) is solved, too.
+    /// Whether the row across (perpendicular to this row) is also solved.
     pub across: bool,
-    /// Gap across the row over the thickness. `None`: the gap along the row.
+    /// Gap of the row across, over the thickness. `None`: equal to the gap of this row.
     pub gap_across: Option<f64>,
     /// Parameters of bending.
     pub flexure: flexure::FlexureParameters,
@@ -44,25 +44,25 @@ pub struct Case {
     pub tissue_thickness: Option<f64>,
     /// Radius of the body below the skin, over the scale thickness.
     ///
-    /// Negative for a concave body. `None` if the curvature is given.
+    /// Negative for a concave body. `None` if `puncture.curvature` gives the curvature.
     pub body_radius: Option<f64>,
-    /// Other end of the range of radii, over the scale thickness.
+    /// Radius of the last body of a range of bodies, over the scale thickness.
     ///
-    /// Used if forces on several bodies are compared.
+    /// The range starts at the body of this case. `None`: this body only.
     pub body_radius_to: Option<f64>,
-    /// Neighbours coupled to a scale by the substrate.
+    /// Neighbours that the substrate couples to a scale: the nearest, or all relevant ones.
     pub coupling: Coupling,
-    /// Scatter of gaps and slants.
+    /// Random scatter of the gaps and slants of imperfect rows.
     pub imperfection: Imperfection,
-    /// Number of imperfect rows that are solved, if gaps or slants scatter.
+    /// Number and seed of the imperfect rows, which are solved if gaps or slants scatter.
     pub samples: Samples,
-    /// Material of the skin in physical units, as far as it is given.
+    /// Thickness, moduli, strengths and density in physical units; each is optional.
     pub material: Material,
     /// Lengths given in mm. The lengths over the thickness follow from them.
     pub in_mm: Millimetres,
 }
 
-/// The lengths given in mm.
+/// Lengths that a definition gives in mm; `None` if a length is not given in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Millimetres {
     /// Gap between neighbouring bases.
@@ -71,9 +71,9 @@ pub struct Millimetres {
     pub length: Option<f64>,
     /// Pitch: base plus gap.
     pub pitch: Option<f64>,
-    /// Whether the pitch determines the length of a scale instead of the gap.
+    /// Whether the pitch determines the length of a scale (true) or the gap (false).
     pub pitch_determines_length: bool,
-    /// Width of the scales.
+    /// Out-of-plane width of the scales.
     pub width: Option<f64>,
     /// Thickness of the substrate.
     pub tissue_thickness: Option<f64>,
@@ -85,9 +85,9 @@ pub struct Millimetres {
     pub needle_radius: Option<f64>,
     /// Radius of the body below the skin.
     pub radius: Option<f64>,
-    /// Other end of the range of radii.
+    /// Radius of the last body of a range of bodies.
     pub radius_to: Option<f64>,
-    /// Additional depth at which the force is measured.
+    /// Depth of the punctured point at which `force_at_depth` is measured.
     pub depth: Option<f64>,
     /// Length of the membrane.
     pub membrane_length: Option<f64>,
@@ -97,16 +97,16 @@ pub struct Millimetres {
     pub membrane_axis_offset: Option<f64>,
 }
 
-/// The imperfect rows that are solved.
+/// Number of imperfect rows to solve, and seed of their random gaps and slants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
     /// Number of rows.
     pub count: usize,
-    /// Seed of the random numbers.
+    /// Seed of the random gaps and slants.
     pub seed: usize,
 }
 
-/// Largest inset of the load in the row across, over the length of its top.
+/// Maximum inset of the load in the row across, as a fraction of the top of a scale.
 const MAX_INSET: f64 = 0.5 - 1e-8;
 
 impl Case {
@@ -114,9 +114,9 @@ impl Case {
     ///
     /// Lengths are over the thickness.
     ///
-    /// The needle friction becomes the friction of a guided needle, or the critical tilts of a free
-    /// one. The load is moved to the middle of a narrow top if the inset would place it beyond the
-    /// middle, and to the left corner of the next scale if it would be on that scale.
+    /// The needle friction is the friction of a guided needle; for a free needle its arctangents
+    /// are the critical tilts. An inset of more than half the top places the load at the middle of
+    /// the top. A load position on the next scale is moved back to the left corner of that scale.
     pub fn punctured(&self) -> puncture::PunctureParameters {
         // Limit the position here, not in the case, because the limit depends on gap and length,
         // which may be axes.
@@ -148,26 +148,24 @@ impl Case {
         Body { curvature: self.body_radius.map_or(self.puncture.curvature, f64::recip) }
     }
 
-    /// Returns the case with another detail of its recorded paths.
+    /// Returns this case with `detail` as the amount of data recorded along its paths.
     #[must_use]
     pub fn with_detail(&self, detail: PathDetail) -> Self {
         Self { common: Common { detail, ..self.common }, ..*self }
     }
 
-    /// Returns this case on a body between the two ends of the range of radii, if there is one.
+    /// Returns this case on a body of the range of radii; `None` without such a range.
     ///
-    /// The curvature is linear in `fraction`: 0 is the body of this case, 1 the other end. Requests
-    /// other than the critical force are dropped.
+    /// The curvature is linear in `fraction`: 0 is the body of this case, 1 the body of radius
+    /// `body_radius_to`. The returned case requests only the critical force.
     pub fn on_body_between(&self, fraction: f64) -> Option<Self> {
         let [from, to] = [self.body().curvature, self.body_radius_to?.recip()];
         Some(self.for_critical_force(from + fraction * (to - from)))
     }
 
-    /// Returns this case on a body with the given curvature.
+    /// Returns this case on a body with the given curvature, requesting only the critical force.
     ///
-    /// Only the critical force is requested.
-    ///
-    /// Lengths in mm are dropped, because they refer to this case.
+    /// Lengths in mm are removed, because they describe the row and the body of this case.
     fn for_critical_force(&self, curvature: f64) -> Self {
         let puncture = PunctureParameters {
             curvature,
@@ -194,7 +192,7 @@ impl Case {
         }
     }
 
-    /// Returns the pitch of the row over the thickness.
+    /// Returns the pitch of the row, base plus gap, over the thickness.
     pub fn pitch(&self) -> f64 {
         2.0 * self.design.half_base() + self.design.gap
     }
@@ -209,12 +207,12 @@ impl Case {
         Ok(if body.is_flat() { row.coverage() } else { row.coverage_on(body) })
     }
 
-    /// Returns the row across this one, if it is to be solved.
+    /// Returns the case of the row across (perpendicular to this row), if it is requested.
     ///
-    /// Its scales are upright blocks, with base and width of this row exchanged. Needle, tissue and
-    /// friction are the same. The load has the same distance from the edge; a needle between two
-    /// scales counts as one on the edge. The slant, which shifts the tops along the row, has no
-    /// effect, and the tilts of the two rows are not coupled. The body counts as flat.
+    /// The scales of the row across are upright blocks, with base and width of this row exchanged.
+    /// Needle, tissue and friction are unchanged. The load keeps its distance from the nearest
+    /// edge; a needle between two scales is placed on the edge. The row across ignores the slant of
+    /// this row and the tilts along this row, and its body is flat.
     pub fn across(&self) -> Option<Self> {
         if !self.across && self.gap_across.is_none() {
             return None;
@@ -229,26 +227,28 @@ impl Case {
         let position = self.puncture.load_position;
         let from_corner = position.min(1.0 - position).max(0.0) * design.width;
         let inset = self.load_inset.unwrap_or(from_corner);
-        // A load exactly in the middle does not tilt the scale, but this equilibrium is unstable.
+        // Keep the load off the exact middle, where the scale would not tilt: that equilibrium is
+        // unstable.
         let load_inset = Some(inset.min(MAX_INSET * design.length));
         Some(Self { design, load_inset, ..self.for_critical_force(0.0) })
     }
 
     /// Returns the factor that converts `F*` of the row across to `F*` of this row.
     ///
-    /// The two are normalised by different lengths.
+    /// `F*` is a force over the length of a scale, which is the width of this row in the row
+    /// across.
     pub fn across_factor(&self) -> f64 {
         self.design.width / self.design.length
     }
 
     /// Returns true if the load position is valid for the needle.
     ///
-    /// Only a needle with a round tip may be between two scales.
+    /// Only a needle with a round tip may be between two scales, at a position above 1.
     pub fn has_valid_load_position(&self) -> bool {
         self.puncture.load_position <= 1.0 || self.puncture.needle_radius.is_some()
     }
 
-    /// Returns the bases and the substrate, which determine the springs.
+    /// Returns the dimensions of bases and substrate, which determine the springs.
     ///
     /// Lengths are over the thickness.
     pub fn bases(&self) -> Bases {
@@ -272,9 +272,10 @@ impl Case {
     }
 }
 
-/// Sets the tilts of a puncture from a number or a list.
+/// Sets the tilts at which a puncture is measured, from a number or an ascending list.
 ///
-/// The last one is the critical tilt; the puncture is measured at the others too.
+/// `tilt` converts each number to a tilt in degrees. The last tilt is the critical tilt, which ends
+/// the puncture; the puncture is also measured at the earlier tilts.
 pub(crate) fn set_tilts(
     puncture: &mut puncture::PunctureParameters,
     given: Scalar,
@@ -282,7 +283,7 @@ pub(crate) fn set_tilts(
 ) {
     let tilts = match given {
         Scalar::Number(number) => Some((tilt(number), None)),
-        // `tilt` is increasing, so the list stays ascending.
+        // `tilt` is an increasing function, so the list stays ascending.
         Scalar::List(numbers) => {
             numbers.map(tilt).split_last().map(|(last, others)| (last, Some(others)))
         }

@@ -1,9 +1,9 @@
-//! Decimal numbers, so that ranges contain the same values as typed lists.
+//! Exact decimal numbers, so that ranges contain the same values as typed lists.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// Exponents beyond this are outside the range of `f64`.
+/// Maximum magnitude of an exponent. Larger exponents are outside the range of `f64`.
 const LARGEST_EXPONENT: i32 = 400;
 
 /// Maximum number of values in a range.
@@ -47,7 +47,7 @@ impl Decimal {
         usize::try_from(self.over(0)?).ok()
     }
 
-    /// Returns the value in units of `10^exponent`, if it is a whole number of them.
+    /// Returns the value divided by `10^exponent`, if the quotient is a whole number.
     fn over(self, exponent: i32) -> Option<i128> {
         let power = u32::try_from(self.exponent.checked_sub(exponent)?).ok()?;
         10_i128.checked_pow(power)?.checked_mul(self.digits)
@@ -68,8 +68,7 @@ fn parse(text: &str) -> Option<Decimal> {
         None => (text, 0_i32),
     };
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    // Without digits before the point, a sign after the point would parse as the sign of the
-    // number.
+    // If no digits precede the point, a sign after the point would parse as the sign of the number.
     if fraction.starts_with(['+', '-']) {
         return None;
     }
@@ -101,13 +100,13 @@ pub(crate) enum InvalidRange {
     /// The range ends before it begins.
     #[error("`to` is below `from`, expected a `to` of at least {from}")]
     Backwards { from: Decimal },
-    /// The steps miss the end.
+    /// The end is not a whole number of steps from the start.
     #[error("{to} is not reached in steps of {step}, expected a `to` of {below} or {above}")]
     Missed { to: String, step: String, below: String, above: String },
     /// The range has too many values for a list in memory.
     #[error("the range has {count} values, expected at most {LONGEST}, with a larger step")]
     TooLong { count: i128 },
-    /// Neighbours are equal up to round-off, or have too many digits.
+    /// Neighbouring numbers are equal up to round-off, or have too many digits.
     #[error(
         "the step {step} is too fine, expected numbers that differ by more than a part in 10^9"
     )]
@@ -118,8 +117,8 @@ pub(crate) enum InvalidRange {
 ///
 /// # Errors
 ///
-/// If the step is not positive, `to` is below `from` or is not reached, there are more than a
-/// million numbers, or neighbours are equal up to round-off.
+/// If the step is not positive, `to` is below `from`, the steps do not reach `to`, there are more
+/// than a million numbers, or neighbouring numbers are equal up to round-off.
 pub(crate) fn range(
     from: Decimal,
     to: Decimal,
@@ -128,7 +127,8 @@ pub(crate) fn range(
     if step.digits <= 0 {
         return Err(InvalidRange::Step { step });
     }
-    // In this unit all three are whole numbers, so the steps have no round-off.
+    // In units of `10^exponent`, `from`, `to` and `step` are whole numbers, so the steps have no
+    // round-off.
     let exponent = from.exponent.min(to.exponent).min(step.exponent);
     let scaled = [from, to, step].map(|decimal| decimal.over(exponent));
     let [Some(first), Some(last), Some(stride)] = scaled else {
@@ -145,7 +145,7 @@ pub(crate) fn range(
         let (to, step) = (to.to_string(), step.to_string());
         return Err(InvalidRange::Missed { to, step, below, above });
     }
-    // Count before creating any value: a mistyped step must not fill the memory.
+    // Check the count before creating the numbers: a mistyped step must not fill the memory.
     let count = length / stride + 1;
     if count > LONGEST {
         return Err(InvalidRange::TooLong { count });
@@ -155,9 +155,9 @@ pub(crate) fn range(
     if are_distinct(&numbers) { Ok(numbers) } else { Err(InvalidRange::TooFine { step }) }
 }
 
-/// Returns true if neighbours of a range differ by more than round-off.
+/// Returns true if neighbouring numbers of a range differ by more than round-off.
 ///
-/// Relative to their size, neighbours are closest at one of the two ends.
+/// Checks only both ends, because the relative difference is smallest at one of them.
 fn are_distinct(numbers: &[Decimal]) -> bool {
     let mut pairs = numbers.windows(2);
     let ends = [pairs.clone().next(), pairs.next_back()].into_iter().flatten();

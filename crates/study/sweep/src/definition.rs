@@ -41,7 +41,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Reads the sweep from the file at `path`. `settings` replace its values.
+    /// Reads the sweep from the file at `path`. `settings` replace values of the file.
     ///
     /// # Errors
     ///
@@ -50,7 +50,7 @@ impl Sweep {
         Self::of_entries(&read_entries(path, settings)?, &path.display().to_string())
     }
 
-    /// Parses the sweep `text` of the file `name`. `settings` replace its values.
+    /// Parses the definition `text` of the file `name`. `settings` replace values of the text.
     ///
     /// # Errors
     ///
@@ -59,11 +59,11 @@ impl Sweep {
         Self::of_entries(&entries(text, name, settings)?, name)
     }
 
-    /// Creates the sweep from the keys and values of the file `name`.
+    /// Creates the sweep from the keys and values `entries` of the file `name`.
     ///
     /// # Errors
     ///
-    /// If they do not define a sweep.
+    /// If the entries do not define a sweep. The error lists all problems.
     pub fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
         let mut reader = Reader::default();
         for entry in entries {
@@ -72,7 +72,7 @@ impl Sweep {
         reader.finish(&Place::File { name: name.into(), line: None })
     }
 
-    /// Returns the name, which is also the name of the results folder.
+    /// Returns the name of the sweep, which is also the name of its results folder.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -98,14 +98,14 @@ impl Sweep {
         self
     }
 
-    /// Returns the designs.
+    /// Returns the grid of designs.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// Returns the parameters that are not fixed by any design.
+    /// Returns the variables, which no design fixes.
     ///
-    /// Their value is the middle of their range until a search or a random draw sets them.
+    /// A variable has the middle of its range until a search or a random draw sets it.
     pub fn variables(&self) -> &[Variable] {
         &self.variables
     }
@@ -115,13 +115,13 @@ impl Sweep {
         &self.deviations
     }
 
-    /// Returns the sweep with design `index` alone.
+    /// Returns this sweep with design `index` as its only design.
     #[must_use]
     pub fn only(&self, index: u64) -> Self {
         Self { grid: self.grid.only(index), ..self.clone() }
     }
 
-    /// Returns the sweep with one design, which has the values of `case` on every axis.
+    /// Returns this sweep with a single design, which has the values of `case` on every axis.
     ///
     /// The values need not be values of the axes. The returned sweep has no variables.
     #[must_use]
@@ -132,7 +132,7 @@ impl Sweep {
     /// Returns true if any design is also solved with imperfections.
     pub fn is_imperfect(&self) -> bool {
         ["gap_cv", "slant_sd_deg"].into_iter().any(|key| {
-            // One imperfect design suffices: the table then has the columns of the samples.
+            // Check the largest value: with one imperfect design the table has sample columns.
             let largest = self.grid.axis(key).map(|axis| axis.span().1);
             largest
                 .or_else(|| Parameter::named(key)?.get(self.grid.base()).number())
@@ -148,7 +148,7 @@ impl Sweep {
         )
     }
 
-    /// Returns true if the designs have a value for the parameter `key`, also in mm.
+    /// Returns true if the designs have a value for the parameter `key`, directly or in mm.
     pub fn gives(&self, key: &str) -> bool {
         Parameter::named(key).is_some_and(|parameter| {
             std::iter::once(parameter)
@@ -157,14 +157,15 @@ impl Sweep {
         })
     }
 
-    /// Returns true if lengths are given in mm, so that they depend on the thickness.
+    /// Returns true if a length is given in mm, so that its ratio depends on the thickness.
     pub fn gives_millimetres(&self) -> bool {
         PARAMETERS.iter().any(|parameter| parameter.is_in_mm() && self.gives(parameter.key))
     }
 
-    /// Returns true if another parameter of the skin follows from this one.
+    /// Returns true if another parameter of the skin follows from `parameter`.
     ///
-    /// A length over the thickness follows from the thickness, a contact ratio from a modulus.
+    /// Lengths over the thickness follow from the thickness and from lengths in mm. Ratios follow
+    /// from moduli, strengths and the force.
     pub fn has_followers(&self, parameter: &Parameter) -> bool {
         match parameter.key {
             key::THICKNESS => self.gives_millimetres() || self.gives(key::NEEDLE_FORCE_N),
@@ -184,7 +185,7 @@ impl Sweep {
 
     /// Returns a note on a convex body that is narrow for the pitch of the scales.
     fn narrow_body(&self) -> Option<String> {
-        // Most sweeps are flat, and creating all their cases takes time.
+        // Return early for flat bodies, because creating the cases of a large grid takes time.
         let axis =
             self.grid.axis_in_any_unit(key::CURVATURE).or(self.grid.axis_in_any_unit(key::RADIUS));
         if axis.is_none() && self.grid.base().body().is_flat() {
@@ -203,15 +204,17 @@ impl Sweep {
             several => format!("in {several} designs"),
         };
         Some(format!(
-            "the radius of the convex body is less than {FEWEST_PITCHES} pitches {of}, at least \
+            "the radius of the convex body is less than {FEWEST_PITCHES} pitches {of}, the smallest \
              {least:.1}: the tissue then differs from the half-space or layer of the model"
         ))
     }
 
-    /// Returns a question about a substrate modulus that seems in another unit.
+    /// Returns a note on a substrate modulus that is too large for soft tissue.
+    ///
+    /// Such a modulus is probably in `kPa` or `Pa` instead of `MPa`.
     fn question(&self) -> Option<String> {
         let parameter = Parameter::named(key::SUBSTRATE_MODULUS)?;
-        // Check the largest value: one design with a wrong unit is enough.
+        // Check the largest value of the axis or the variable.
         let axis = self.grid.axis(parameter.key).map(|axis| axis.span().1);
         let variable = self.variables.iter().find(|v| v.parameter() == parameter);
         let variable = variable.and_then(|variable| variable.at(1.0).number());
@@ -235,10 +238,10 @@ impl Sweep {
 
     /// Returns the parameters shared by all designs, with their values.
     ///
-    /// Omits the length of a strip if the number of gaps is given, and the critical tilt if the
-    /// friction of the needle is given.
+    /// Omits parameters that follow from others: from a length in mm, a modulus, or an alternative,
+    /// as the critical tilt of a free needle follows from its friction.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
-        // Filter the list once: comparing all pairs of parameters was slow.
+        // Filter the list once, because comparing all pairs of parameters is slow.
         let alone: Vec<_> = PARAMETERS.iter().filter(|other| self.gives_alone(other)).collect();
         PARAMETERS
             .iter()
@@ -255,9 +258,7 @@ impl Sweep {
 }
 
 impl Sweep {
-    /// Returns true if the definition gives this parameter.
-    ///
-    /// Its alternatives do not apply then.
+    /// Returns true if the definition gives `parameter`, so that its alternatives do not apply.
     fn gives_alone(&self, parameter: &Parameter) -> bool {
         let value = parameter.get(self.grid.base());
         let follows = parameter.follows(self.grid.base());
@@ -268,26 +269,27 @@ impl Sweep {
 
 /// Modulus in `MPa` above which a substrate is not soft tissue.
 ///
-/// Cartilage has a hundredth of it, bone ten times as much.
+/// Cartilage has a hundredth of this modulus, bone ten times this modulus.
 const STIFFEST_TISSUE: f64 = 1e3;
 
-/// Radius of a convex body in pitches below which the substrate differs from a flat one.
+/// Radius of a convex body, in pitches, below which the flat model of the substrate is inaccurate.
 const FEWEST_PITCHES: f64 = 2.0;
 
-/// Maximum number of designs that are checked for notes.
+/// Maximum number of designs that the note on narrow bodies checks.
 const MOST_CHECKED: u64 = 100_000;
 
 /// Maximum length of a definition in bytes.
 ///
-/// A million values of an axis take a third of it.
+/// A list of a million axis values takes a third of this length.
 const LONGEST: u64 = 1 << 26;
 
 /// Maximum number of keys in a definition.
 ///
-/// A parsed key takes a kilobyte, so a file of empty sections would exhaust the memory.
+/// A parsed key takes a kilobyte, so a file with millions of empty sections would exhaust the
+/// memory.
 const MAX_KEYS: usize = 100_000;
 
-/// Reads the keys and values of the file at `path`. `settings` replace its values.
+/// Reads the keys and values of the file at `path`. `settings` replace values of the file.
 ///
 /// # Errors
 ///
@@ -298,7 +300,7 @@ pub fn read_entries(path: &Path, settings: &[Setting]) -> Result<KeyValues, Inva
 
 /// Parses the keys and values of the definition `text`.
 ///
-/// `settings` replace its values. `name` is the file name for messages.
+/// `settings` replace values of the text. `name` is the file name in messages.
 ///
 /// # Errors
 ///
@@ -331,9 +333,9 @@ pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
     })
 }
 
-/// Estimates the number of keys and sections without parsing, at most a few too high.
+/// Estimates the number of keys and sections of a TOML text.
 ///
-/// Allocates no memory.
+/// Neither parses the text nor allocates memory. The estimate is at most a few too high.
 fn keys(text: &str) -> usize {
     text.matches('=').count()
         + text
@@ -347,11 +349,13 @@ fn keys(text: &str) -> usize {
             .count()
 }
 
-/// Returns the definition in the record of a run, or the table itself.
+/// Returns the definition inside the record of a run; any other table is returned unchanged.
+///
+/// A record, such as the file `run.toml`, has the tables `run` and `definition`.
 fn definition_of(mut table: KeyValues) -> KeyValues {
     let holds =
         |key: &str, entry: &KeyValue| entry.key == key && matches!(entry.value, Value::Table(_));
-    // A table `definition` without a table `run` is not a record, and is refused as an unknown key.
+    // A table `definition` without a table `run` is no record; later it is refused as unknown key.
     if table.iter().any(|entry| holds("run", entry))
         && let Some(position) = table.iter().position(|entry| holds("definition", entry))
         && let Value::Table(definition) = table.swap_remove(position).value

@@ -6,7 +6,8 @@ use text::number;
 
 /// Deviation of a parameter from its nominal value.
 ///
-/// One part is common to all scales of a batch, one part varies from scale to scale.
+/// The part `batch` is common to all scales of a batch; the part `scale_sd`, a standard deviation,
+/// varies from scale to scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviation {
     pub(crate) parameter: &'static Parameter,
@@ -19,7 +20,7 @@ pub struct Deviation {
 pub enum BatchDeviation {
     /// Normal distribution with this standard deviation.
     Normal(f64),
-    /// Uniform distribution within this distance to either side.
+    /// Uniform distribution between minus and plus this half-width.
     Uniform(f64),
 }
 
@@ -35,19 +36,22 @@ impl BatchDeviation {
 }
 
 impl Deviation {
-    /// Returns the parameter.
+    /// Returns the parameter that deviates.
     ///
-    /// For a deviation in mm this is the length over the thickness.
+    /// For a deviation in mm this is the same length over the thickness.
     pub fn parameter(&self) -> &'static Parameter {
         self.parameter.over_t().unwrap_or(self.parameter)
     }
 
-    /// Returns the key in the definition: the parameter, or the same length in mm.
+    /// Returns the key of the deviation in the definition, e.g. `gap_over_t` or `gap_mm`.
     pub fn key(&self) -> String {
         self.parameter.key.to_owned()
     }
 
-    /// Returns the required keys: the parameter without default, and the thickness.
+    /// Returns the keys of the parameters that the definition must also give.
+    ///
+    /// These are the parameter that deviates, if it has no default, and the thickness, if the
+    /// deviation is in mm.
     pub(crate) fn needs(&self) -> impl Iterator<Item = &'static str> {
         let own = (!self.parameter().is_given(&Case::default())).then_some(self.parameter().key);
         own.into_iter().chain(self.parameter.is_in_mm().then_some(key::THICKNESS))
@@ -58,25 +62,26 @@ impl Deviation {
         self.batch
     }
 
-    /// Returns the standard deviation from scale to scale.
+    /// Returns the standard deviation from scale to scale, in the unit of [`Self::parameter`].
     ///
-    /// It is in the unit of the parameter.
+    /// `None` if the parameter does not vary from scale to scale.
     pub fn scale_sd(&self, case: &Case) -> Option<f64> {
         Some(self.scale_sd? / self.unit(case)?)
     }
 
-    /// Returns the case with the parameter changed by `by`.
+    /// Returns the case with the parameter increased by `by`; `None` if it has no value.
     ///
     /// `by` is in the unit of this deviation. The value may leave its bounds. A deviation of the
-    /// thickness keeps all other lengths in mm, and a deviation of a modulus keeps modulus and
-    /// strengths of the scales.
+    /// thickness keeps all other lengths in mm. A deviation of the modulus of substrate or membrane
+    /// keeps the modulus and the strengths of scales and bonds.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
         match self.parameter.key {
             key::THICKNESS => length::with_thickness(case, case.material.thickness_mm? + by),
             key::SUBSTRATE_MODULUS => {
                 let (mut moved, modulus) = (*case, case.material.substrate_modulus_mpa?);
                 moved.material.substrate_modulus_mpa = Some(modulus + by);
-                // Without values in MPa only these ratios keep modulus and strengths of the scales.
+                // The ratios change so that the modulus of the scales and the strengths, numerators
+                // of the ratios, stay constant.
                 let factor = modulus / (modulus + by);
                 moved.puncture.contact_modulus_over_substrate *= factor;
                 moved.strengths.scale = moved.strengths.scale.map(|strength| strength * factor);
@@ -93,7 +98,9 @@ impl Deviation {
         }
     }
 
-    /// Changes `case` as [`Self::moved`] does. `None` if a parameter leaves its bounds.
+    /// Returns the case with the parameter increased by `by`, within the bounds of all parameters.
+    ///
+    /// Like [`Self::moved`], but returns `None` if a parameter leaves its bounds.
     pub fn applied(&self, case: &Case, by: f64) -> Option<Case> {
         let moved = self.moved(case, by)?;
         let is_made =
@@ -101,7 +108,7 @@ impl Deviation {
         (is_made && moved.has_valid_load_position()).then_some(moved)
     }
 
-    /// Returns one unit of the parameter in the unit of the deviation.
+    /// Returns the unit of the parameter in the unit of the deviation: the thickness in mm, or 1.
     fn unit(&self, case: &Case) -> Option<f64> {
         if self.parameter.is_in_mm() { case.material.thickness_mm } else { Some(1.0) }
     }

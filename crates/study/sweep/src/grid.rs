@@ -1,4 +1,4 @@
-//! Grid of designs: all combinations of values, numbered but never stored.
+//! Grid of designs: all combinations of the axis values, numbered but never stored.
 
 use std::ops::RangeInclusive;
 
@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::parameter::Parameter;
 use crate::scalar::Scalar;
 
-/// A parameter with several values.
+/// A parameter and its values in a grid, in order.
 #[derive(Clone, Debug)]
 pub struct Axis {
     parameter: &'static Parameter,
@@ -26,7 +26,7 @@ impl Axis {
         Self { parameter, values, range: Some(range) }
     }
 
-    /// Returns the parameter.
+    /// Returns the parameter of the axis.
     pub fn parameter(&self) -> &'static Parameter {
         self.parameter
     }
@@ -37,18 +37,18 @@ impl Axis {
         self.values.len() as u64
     }
 
-    /// Returns value `index`, from 0.
+    /// Returns the value at `index`, which counts from 0.
     pub fn value(&self, index: u64) -> Scalar {
         self.values[usize::try_from(index).unwrap_or(usize::MAX)]
     }
 
-    /// Returns the smallest and the largest value, if they are numbers.
+    /// Returns the smallest and the largest number of the axis; for words `(inf, -inf)`.
     pub(crate) fn span(&self) -> (f64, f64) {
         let numbers = self.values.iter().filter_map(|value| value.number());
         numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     }
 
-    /// Returns the index of `value`, up to round-off.
+    /// Returns the index of the value that equals `value` up to round-off.
     pub fn position(&self, value: Scalar) -> Option<u64> {
         self.values.iter().position(|other| other.same(value)).map(|index| index as u64)
     }
@@ -66,7 +66,7 @@ impl Axis {
 #[derive(Clone, Debug)]
 pub struct Grid {
     axes: Vec<Axis>,
-    /// Case shared by all designs.
+    /// Values of the parameters that are not axes.
     base: Case,
     count: u64,
 }
@@ -100,7 +100,7 @@ impl Grid {
         Ok(Self { axes, base, count })
     }
 
-    /// Returns the axes, the slowest first.
+    /// Returns the axes. The first axis varies slowest, the last axis fastest.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
     }
@@ -115,9 +115,9 @@ impl Grid {
         self.axes.iter().find(|axis| axis.parameter.is_or_determines(key))
     }
 
-    /// Returns the case shared by all designs.
+    /// Returns the case that all designs share, except for the parameters of the axes.
     ///
-    /// Its values of axis parameters are meaningless.
+    /// The values of the axis parameters in this case are meaningless.
     pub fn base(&self) -> &Case {
         &self.base
     }
@@ -128,7 +128,7 @@ impl Grid {
         self.count
     }
 
-    /// Returns the case of design `index`, from 0 and below [`Self::len`].
+    /// Returns the case of design `index`, which counts from 0 and is below [`Self::len`].
     pub fn case(&self, index: u64) -> Case {
         let mut case = self.base;
         let mut rest = index;
@@ -140,7 +140,7 @@ impl Grid {
         case
     }
 
-    /// Returns the index of the design with the values of `case` on every axis.
+    /// Returns the index of the design with the values of `case` on every axis, if there is one.
     pub fn find(&self, case: &Case) -> Option<u64> {
         self.axes.iter().try_fold(0, |index, axis| {
             let position = axis.position(axis.parameter.get(case))?;
@@ -148,12 +148,12 @@ impl Grid {
         })
     }
 
-    /// Returns the grid of design `index` alone.
+    /// Returns a grid with the design `index` of this grid as its only design.
     pub(crate) fn only(&self, index: u64) -> Self {
         self.at(&self.case(index))
     }
 
-    /// Returns the grid of one design, with the values of `case` on every axis.
+    /// Returns a grid with a single design, which has the values of `case` on every axis.
     pub(crate) fn at(&self, case: &Case) -> Self {
         let parameters = self.axes.iter().map(|axis| axis.parameter);
         let axes = parameters.map(|parameter| Axis::list(parameter, vec![parameter.get(case)]));
@@ -174,11 +174,11 @@ impl Grid {
 
     /// Parses one design number, such as `7`, or a range, such as `1-12`.
     ///
-    /// Returns the indices.
+    /// Returns the indices of the designs.
     ///
     /// # Errors
     ///
-    /// If a number is not in the grid, or the first is above the last.
+    /// If a number is not in the grid, or the first number is above the last.
     pub fn parse_numbers(&self, text: &str) -> Result<RangeInclusive<u64>, NoSuchDesign> {
         let Some((first, last)) = text.split_once('-') else {
             return self.parse_number(text).map(|index| index..=index);

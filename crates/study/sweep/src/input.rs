@@ -4,13 +4,13 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::Path;
 
-/// Folders of the streams of a shell, such as `/dev/stdin` and `<(...)`.
+/// Prefixes of paths of shell streams: standard input, and process substitution `<(...)`.
 const STREAMS: [&str; 3] = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
 
-/// Reads the text at `path`, of at most `max_bytes` bytes.
+/// Reads the text file at `path`, which may have at most `max_bytes` bytes.
 ///
-/// Named pipes and devices are refused because reading one may never end; the streams of a shell
-/// are accepted.
+/// Named pipes and devices are refused, because reading them may never end. Shell streams, such as
+/// `/dev/stdin`, are accepted.
 ///
 /// # Errors
 /// If the file cannot be read, is too long or is not UTF-8.
@@ -20,7 +20,9 @@ pub fn read_input(path: &Path, max_bytes: u64) -> io::Result<String> {
     })
 }
 
-/// Reads the file at `path`, of at most `max_bytes` bytes; see [`read_input`].
+/// Reads the bytes of the file at `path`, which may have at most `max_bytes` bytes.
+///
+/// Named pipes and devices are refused, as by [`read_input`].
 ///
 /// # Errors
 /// If the file cannot be read or is too long.
@@ -30,7 +32,7 @@ pub fn read_input_bytes(path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
         return Err(io::Error::other("it is not a regular file"));
     }
     let mut bytes = Vec::new();
-    // One byte more than is accepted shows that the file is too long.
+    // Read one byte more than the limit, to detect a file that is too long.
     File::open(path)?.take(max_bytes + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > max_bytes {
         let limit = max_bytes >> 20;

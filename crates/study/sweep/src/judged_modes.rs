@@ -1,4 +1,4 @@
-//! The failure modes that a puncture is judged by.
+//! States which failure modes of a puncture are judged, and the reasons for the others.
 
 use std::fmt;
 
@@ -6,19 +6,19 @@ use skin::puncture::FailureMode;
 
 use crate::case::Case;
 
-/// Failure modes of a design: judged, or not and why.
+/// All failure modes, each with the reason if it is not judged (`None`: it is judged).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JudgedModes(Vec<(FailureMode, Option<&'static str>)>);
 
 impl JudgedModes {
-    /// Returns the name of every mode, with the reason for which it is not judged.
+    /// Returns the name of every mode, and the reason if it is not judged (`None`: it is judged).
     pub fn reasons(&self) -> impl Iterator<Item = (&'static str, Option<&'static str>)> {
         self.0.iter().map(|(mode, reason)| (mode.name(), *reason))
     }
 }
 
 impl Case {
-    /// Returns the judged failure modes; `None` unless the first failure is requested.
+    /// Returns which failure modes are judged; `None` unless the first failure is requested.
     pub fn judged_modes(&self) -> Option<JudgedModes> {
         let (parameters, across) = (self.punctured(), self.across().is_some());
         parameters.failure?;
@@ -28,7 +28,9 @@ impl Case {
     }
 }
 
-/// Writes a line of the judged modes and, if there are others, a line with the reasons.
+/// Writes one line with the judged modes and, if any mode is not judged, a second line.
+///
+/// The second line lists the modes that are not judged, with the reasons.
 impl fmt::Display for JudgedModes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (mut judged, mut others) = (Vec::new(), Vec::new());

@@ -1,27 +1,31 @@
 //! Sweep definitions: from TOML to the cases of the designs.
 //!
-//! A sweep is a grid of designs, every combination of the values of its axes. It is never stored:
-//! the number of a design gives its parameters, and its parameters give its number.
+//! A sweep is a grid of designs: all combinations of the values of its axes. The grid is never
+//! stored, because the number of a design determines its parameters, and its parameters determine
+//! its number.
 //!
 //! ```text
-//! file ─► text::toml_source ─► Sweep ─► Grid ─► Case
-//!        settings ─┘   (valid)  number ─┘
+//! definition in TOML ─► keys and values ─► validated Sweep ─► Grid ─► Case
+//!                         settings ─┘                design number ─┘
 //! ```
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Setting`] | a key set from outside, which replaces the value in the file |
-//! | [`PARAMETERS`], [`Parameter`], [`Scalar`] | the list of all parameters with their accepted values; a value |
-//! | [`Role`], [`key`] | roles of parameters in the model; the keys that code refers to |
+//! | [`Setting`] | a key with a value that replaces the value in the file, e.g. from `--set` |
+//! | [`PARAMETERS`], [`Parameter`] | all parameters, with keys, units and accepted values |
+//! | [`Scalar`] | the value of one parameter |
+//! | [`Role`] | the roles of parameters in the model |
+//! | [`key`] | the keys of parameters that code refers to |
 //! | [`Measure`] | the measures: coverage, puncture, flexure, and their derivatives |
 //! | [`Sweep`] | the validated definition |
-//! | [`Grid`], [`Axis`], [`DesignNumber`] | the designs, by number |
-//! | [`Case`] | all parameters of the solution of one design |
-//! | [`Variable`], [`VariableValues`] | a parameter that is searched over or drawn, of `[variables]` |
-//! | [`Deviation`], [`BatchDeviation`] | manufacturing deviations, of `[tolerance]` |
-//! | [`Material`] | thickness, moduli and density of the skin, in physical units |
-//! | [`JudgedModes`] | the failure modes that a puncture is judged by |
-//! | [`NamedValues`], [`SCALE_MATERIALS`], [`TISSUE_MATERIALS`], [`BODIES`] | named values |
+//! | [`Grid`], [`Axis`], [`DesignNumber`] | the numbered designs and their axes |
+//! | [`Case`] | all parameters from which one design is solved |
+//! | [`Variable`], [`VariableValues`] | an entry of `[variables]`: a parameter that a search or a random draw varies |
+//! | [`Deviation`], [`BatchDeviation`] | an entry of `[tolerance]`: a manufacturing deviation |
+//! | [`Material`] | thickness, moduli, strengths and density of the skin, in physical units |
+//! | [`JudgedModes`] | the failure modes, each judged or with the reason if it is not |
+//! | [`NamedValues`] | values that a name, such as `PLA`, supplies to a definition |
+//! | [`SCALE_MATERIALS`], [`TISSUE_MATERIALS`], [`BODIES`] | the named materials and bodies |
 //! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | the designs that a run solves |
 //!
 //! ```

@@ -1,8 +1,8 @@
 //! The material of a skin, in physical units.
 
-/// Thickness, moduli, strengths and density of a skin, as far as they are given.
+/// Thickness, moduli, strengths and density of a skin; `None` if a value is not given.
 ///
-/// The mechanics is dimensionless and needs none of them.
+/// The solvers use only dimensionless ratios, so every value is optional.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Material {
     /// Thickness `t` of the scales, mm.
@@ -13,7 +13,7 @@ pub struct Material {
     pub membrane_modulus_mpa: Option<f64>,
     /// Modulus `E_ct` of the scales in contact, in `MPa`.
     ///
-    /// The ratios to the other two follow from it.
+    /// The contact ratios `E_ct/E_s` and `E_ct/E_m` follow from this modulus.
     pub scale_modulus_mpa: Option<f64>,
     /// Bending strength of the scales, in `MPa`.
     pub scale_strength_mpa: Option<f64>,

@@ -10,11 +10,11 @@ use crate::parameter::key;
 pub struct NamedValues {
     /// Name in a definition.
     pub name: &'static str,
-    /// Keys of parameters with the supplied values.
+    /// Keys of parameters, each with the supplied value.
     pub values: &'static [(&'static str, f64)],
 }
 
-/// Lists scales as `name: modulus, strength in MPa, density in kg/m³`.
+/// Lists materials of scales as `name: modulus in MPa, strength in MPa, density in kg/m³`.
 macro_rules! scales {
     ($($name:literal: $modulus:literal, $strength:literal, $density:literal;)*) => {
         &[$(NamedValues {
@@ -62,7 +62,7 @@ pub const TISSUE_MATERIALS: &[NamedValues] = &[
     NamedValues { name: "muscle", values: &[(key::SUBSTRATE_MODULUS, 0.015)] },
 ];
 
-/// Lists bodies as `name: radius, thickness of the tissue on the bone in mm`.
+/// Lists bodies as `name: radius in mm, thickness of the tissue on the bone in mm`.
 macro_rules! bodies {
     ($($name:literal: $radius:literal, $tissue:literal;)*) => {
         &[$(NamedValues {
@@ -72,7 +72,7 @@ macro_rules! bodies {
     };
 }
 
-/// Bodies below a skin.
+/// Bodies below a skin, with their radius and thickness of tissue.
 pub const BODIES: &[NamedValues] = bodies! {
     "finger": 10.0, 5.0;
     "forearm": 45.0, 20.0;
@@ -80,13 +80,13 @@ pub const BODIES: &[NamedValues] = bodies! {
     "torso": 145.0, 30.0;
 };
 
-/// Key that names one of several sets of values.
+/// A key with a name as its value, such as `material.scale = "PLA"`.
 pub(crate) struct NameKey {
     /// Section of the key.
     pub section: &'static str,
     /// Key within its section.
     pub key: &'static str,
-    /// Known names.
+    /// Known names with their values.
     pub known: &'static [NamedValues],
 }
 
@@ -97,7 +97,7 @@ impl NameKey {
     }
 }
 
-/// Keys that name materials or a body.
+/// Keys with names of materials or bodies as their values.
 ///
 /// The first key of a section may also be given as the value of the whole section. An example is
 /// `material = "PLA"`.
@@ -107,7 +107,7 @@ pub(crate) const NAME_KEYS: [NameKey; 3] = [
     NameKey { section: "body", key: "name", known: BODIES },
 ];
 
-/// Returns the key that a section without further keys names.
+/// Returns the key that is set if a section is given a name, as in `material = "PLA"`.
 pub(crate) fn short_name_key(section: &str) -> Option<&'static NameKey> {
     NAME_KEYS.iter().find(|name| name.section == section)
 }

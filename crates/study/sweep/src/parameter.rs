@@ -1,4 +1,4 @@
-//! Parameters of a design or a sweep. To add one, follow the steps in `parameter/list.rs`.
+//! Parameters of definitions. To add a parameter, follow the steps in `parameter/list.rs`.
 
 mod continuous;
 pub mod key;
@@ -26,15 +26,15 @@ pub use role::Role;
 pub struct Parameter {
     /// Key in the definition, and name of its axis and column.
     pub key: &'static str,
-    /// Section of the parameter when it is not an axis.
+    /// Section of the definition that contains the parameter unless it is an axis.
     pub section: &'static str,
-    /// Unit, or `-`.
+    /// Unit, or `-` for a parameter without a unit.
     pub unit: &'static str,
-    /// Meaning, in half a sentence.
+    /// Meaning, as a phrase without a full stop.
     pub meaning: &'static str,
     /// Roles in the model.
     pub(crate) roles: &'static [Role],
-    /// Accepted values and field of a case.
+    /// Accepted values, and the field of [`Case`] that holds the value.
     pub(crate) kind: ParameterKind,
 }
 
@@ -45,7 +45,7 @@ impl PartialEq for Parameter {
     }
 }
 
-/// Accepted values of a parameter, and its field in a case.
+/// Accepted values of a parameter, and access to its field of [`Case`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum ParameterKind {
     Number {
@@ -71,14 +71,14 @@ pub(crate) enum ParameterKind {
         range: Range,
         field: fn(&mut Case) -> &mut Option<f64>,
     },
-    /// A count, or a word that stands for no count.
+    /// A whole number, or a word instead of it, such as `auto`.
     CountOrWord {
         range: CountRange,
         word: &'static str,
         get: fn(&Case) -> Option<usize>,
         set: fn(&mut Case, Option<usize>),
     },
-    /// A number, a short ascending list of numbers, or the word.
+    /// A number, an ascending list of up to [`MOST_NUMBERS`] numbers, or `word`, if there is one.
     Numbers {
         range: Range,
         word: Option<&'static str>,
@@ -108,7 +108,7 @@ pub(crate) struct CountRange {
     pub high: usize,
 }
 
-/// Placeholder for a missing number. It cannot be written in a definition.
+/// Word that represents a missing number. A definition cannot contain it.
 const NOT_GIVEN: &str = "not given";
 
 /// A value that a parameter does not accept.
@@ -136,7 +136,7 @@ pub enum WrongValue {
 }
 
 impl WrongValue {
-    /// Creates the error of a refused value with the accepted values.
+    /// Creates the error of the refused value `found`, with the accepted values `expected`.
     pub fn not_accepted(found: impl fmt::Display, expected: impl Into<String>) -> Self {
         Self::NotAccepted { found: found.to_string(), expected: expected.into() }
     }
@@ -155,7 +155,7 @@ impl Parameter {
 
     /// Returns the value of this parameter in `case`.
     pub fn get(&self, case: &Case) -> Scalar {
-        // One mutable accessor serves for reading and writing, so reading needs a copy of the case.
+        // The accessor `field` needs a mutable case, also for reading, so copy the case.
         let mut case = *case;
         match &self.kind {
             ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. } => {
@@ -183,28 +183,29 @@ impl Parameter {
         self.get(&Case::default())
     }
 
-    /// Sets this parameter in `case`, and the parameters that follow from it.
+    /// Sets this parameter in `case`, and updates the parameters that follow from it.
     ///
     /// The value must come from [`Self::read`] or [`Self::scalar`].
     pub(crate) fn set(&self, case: &mut Case, value: Scalar) {
-        // Update after each parameter, because axes and sections set them in any order.
+        // Update the dependent parameters after each change, because axes and sections set
+        // parameters in any order.
         self.assign(case, value);
         length::settle(case);
         modulus::settle(case);
     }
 
-    /// Sets this parameter alone.
+    /// Sets this parameter without updating the parameters that follow from it.
     fn assign(&self, case: &mut Case, value: Scalar) {
         match (&self.kind, value) {
             (
                 ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. },
                 Scalar::Number(number),
             ) => *field(case) = number,
-            // The placeholder of a missing number removes the value.
+            // The word for a missing number removes the value.
             (ParameterKind::OptionalNumber { field, .. }, value) => *field(case) = value.number(),
             (ParameterKind::Count { field, .. }, Scalar::Count(count)) => *field(case) = count,
             (ParameterKind::Word { words, set, .. }, Scalar::Word(word)) => {
-                // `read` accepts no other words.
+                // `read` accepts only these words, so the position always exists.
                 set(case, words.iter().position(|known| *known == word).unwrap_or(0));
             }
             (ParameterKind::CountOrWord { set, .. }, Scalar::Count(count)) => {
@@ -212,16 +213,16 @@ impl Parameter {
             }
             (ParameterKind::CountOrWord { set, .. }, Scalar::Word(_)) => set(case, None),
             (ParameterKind::Numbers { set, .. }, value) => set(case, value),
-            // `read` checks the kind, so any other kind is an internal error.
+            // `read` returns values of the right kind, so any other value is an internal error.
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
     }
 
-    /// Reads the value `written`.
+    /// Converts the value `written` in a definition to a value of this parameter.
     ///
     /// # Errors
     ///
-    /// If it has another type or is out of range.
+    /// If `written` has another type or is out of range.
     pub fn read(&self, written: &Value) -> Result<Scalar, WrongValue> {
         let value = match (&self.kind, written) {
             (
@@ -244,14 +245,14 @@ impl Parameter {
                 let decimal = text.parse::<Decimal>().ok();
                 decimal.and_then(Decimal::to_usize).map(Scalar::Count)
             }
-            // A boolean is one of the two words of a yes-or-no parameter.
+            // A boolean of TOML is one of the words `true` and `false`.
             (ParameterKind::Word { words, .. }, Value::Text(text) | Value::Other(text)) => {
                 words.iter().find(|word| *word == text).map(|word| Scalar::Word(word))
             }
             _ => None,
         };
         match value {
-            // TOML has `nan` and `inf` too; no bounds contain them.
+            // TOML also has the numbers `nan` and `inf`; no range contains them.
             Some(value) if self.contains(value) => Ok(tidy(value)),
             _ => Err(self.wrong(written)),
         }
@@ -266,13 +267,14 @@ impl Parameter {
             | ParameterKind::Numbers { .. }
             | ParameterKind::Word { .. } => Scalar::Number(number.to_f64()),
             ParameterKind::Count { .. } | ParameterKind::CountOrWord { .. } => {
-                // Whole and within bounds: both ends and the step of the range were checked.
+                // The number is whole and within bounds, because both ends and the step of the
+                // range were checked.
                 Scalar::Count(number.to_usize().unwrap_or(usize::MAX))
             }
         }
     }
 
-    /// Returns `case` with this parameter set to `value`.
+    /// Returns `case` with this parameter set to `value`, and the dependent parameters updated.
     ///
     /// `value` comes from [`Self::read`] or is a number.
     pub fn put(&self, case: &Case, value: Scalar) -> Case {
@@ -281,10 +283,10 @@ impl Parameter {
         changed
     }
 
-    /// Returns `case` with this parameter alone changed.
+    /// Returns `case` with this parameter set to `value`, although another key may define it.
     ///
-    /// Lengths in mm are updated to agree. A number that is given instead of this parameter is
-    /// removed.
+    /// The same length in mm is updated to agree with `value`. A number given for an alternative of
+    /// this parameter, such as the radius for the curvature, is removed.
     pub fn replace(&self, case: &Case, value: Scalar) -> Case {
         let mut changed = *case;
         for instead in self.others_in(case).filter(|other| other.replaces(self)) {
@@ -295,7 +297,7 @@ impl Parameter {
         changed
     }
 
-    /// Returns true for a length in mm of a parameter over the thickness.
+    /// Returns true if the parameter is a length in mm.
     pub fn is_in_mm(&self) -> bool {
         self.over_t().is_some()
     }
@@ -313,7 +315,7 @@ impl Parameter {
         )
     }
 
-    /// Returns true if the number may be missing.
+    /// Returns true if a case may have no number for the parameter.
     pub(crate) fn is_optional(&self) -> bool {
         self.takes_word() || matches!(self.kind, ParameterKind::OptionalNumber { .. })
     }
@@ -337,7 +339,7 @@ impl Parameter {
         }
     }
 
-    /// Returns true if a value is within the bounds.
+    /// Returns true if `value` is within the bounds of the parameter. Words have no bounds.
     pub(crate) fn contains(&self, value: Scalar) -> bool {
         match (&self.kind, value) {
             (
@@ -360,7 +362,7 @@ impl Parameter {
         }
     }
 
-    /// Returns the accepted values in words.
+    /// Returns a phrase for messages that describes the accepted values.
     pub fn expected(&self) -> String {
         match &self.kind {
             ParameterKind::Number { range, .. } | ParameterKind::OptionalNumber { range, .. } => {
@@ -382,7 +384,7 @@ impl Parameter {
         }
     }
 
-    /// Returns the numbers within bounds in words.
+    /// Returns a phrase that describes the numbers in `range`, such as "a length above 0".
     fn numbers(&self, range: Range) -> String {
         let noun = match self.unit {
             "t" | "mm" => "a length",
@@ -401,7 +403,7 @@ pub(crate) fn any_of(words: &[&str]) -> String {
 
 /// Returns the numbers of `items` as a list.
 ///
-/// `None` if one is not a number, or they are too many or not ascending.
+/// `None` if an item is not a number, the list is empty or too long, or the numbers do not ascend.
 fn list(items: &[Value]) -> Option<NumberList> {
     let numbers: Vec<f64> = items
         .iter()
@@ -410,7 +412,7 @@ fn list(items: &[Value]) -> Option<NumberList> {
             _ => None,
         })
         .collect::<Option<_>>()?;
-    // An empty list is the internal form of a single tilt, so refuse it here.
+    // Refuse an empty list, which is the internal form of a single tilt.
     NumberList::new(&numbers).filter(|list| !list.is_empty())
 }
 

@@ -44,7 +44,7 @@ impl Scalar {
         }
     }
 
-    /// Returns true if both are the same value up to round-off.
+    /// Returns true if `self` and `other` are equal up to round-off.
     pub fn same(self, other: Self) -> bool {
         match (self, other) {
             (Self::Number(one), Self::Number(other)) => number::same(one, other),

@@ -1,4 +1,4 @@
-//! The designs that a run solves: the grid, a sample, or a shard of either.
+//! The designs that a run solves: the whole grid, a random sample, or a shard of grid or sample.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -29,7 +29,7 @@ pub struct RandomSample {
     pub seed: u64,
 }
 
-/// Every N-th design, starting with the i-th.
+/// The shard `i/N`: every N-th design, starting with the i-th.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Shard {
@@ -100,21 +100,21 @@ impl fmt::Display for Subset {
     }
 }
 
-/// The designs that a run solves, in order.
+/// The designs of a [`Subset`] of a grid, in ascending order.
 ///
-/// Stores the sample, if there is one, but never the grid.
+/// Stores the indices of a sample, if there is one, but never the indices of the whole grid.
 #[derive(Clone, Debug)]
 pub struct SubsetDesigns {
-    /// Designs of the sample, ascending.
+    /// Grid indices of the sample, ascending.
     sample: Option<Vec<u64>>,
-    /// Number of designs of which every `step`-th is taken.
+    /// Number of designs in the sample or the grid, before the shard is selected.
     whole: u64,
     first: u64,
     step: u64,
 }
 
 impl SubsetDesigns {
-    /// Creates the designs of `part` of a grid of `designs` designs.
+    /// Selects the designs of `part` from a grid with `designs` designs.
     ///
     /// # Errors
     ///
@@ -126,7 +126,7 @@ impl SubsetDesigns {
         Ok(Self { sample, whole, first, step })
     }
 
-    /// Returns the number of designs. A shard of few designs may be empty.
+    /// Returns the number of selected designs, which may be 0 for a shard of a small grid.
     pub fn len(&self) -> u64 {
         self.whole.saturating_sub(self.first).div_ceil(self.step)
     }
@@ -136,10 +136,10 @@ impl SubsetDesigns {
         self.len() == 0
     }
 
-    /// Returns the grid index of the design at `position`. It is below [`Self::len`].
+    /// Returns the grid index of the selected design at `position`, which is below [`Self::len`].
     pub fn design(&self, position: u64) -> u64 {
         let position = self.first + position * self.step;
-        // No grid has this design, so an invalid position cannot return another design.
+        // An invalid position returns `u64::MAX`, which is not the index of any design.
         self.sample
             .as_ref()
             .map_or(Some(position), |sample| {
@@ -148,7 +148,7 @@ impl SubsetDesigns {
             .unwrap_or(u64::MAX)
     }
 
-    /// Returns the position of the design with grid index `index`, if it is included.
+    /// Returns the position of the design with grid index `index`, if it is selected.
     pub fn position(&self, index: u64) -> Option<u64> {
         let position = match &self.sample {
             // `draw` returns an ascending sample.
@@ -156,19 +156,19 @@ impl SubsetDesigns {
             None => index,
         };
         let offset = position.checked_sub(self.first).filter(|offset| offset % self.step == 0)?;
-        // Without a sample, `index` may still be beyond the grid.
+        // Without a sample, `index` may be beyond the grid, so check the position.
         Some(offset / self.step).filter(|position| *position < self.len())
     }
 }
 
-/// Draws a sample by Floyd's algorithm.
+/// Draws a random sample by Floyd's algorithm, which stores only the sample.
 ///
-/// See Bentley & Floyd 1987, doi 10.1145/30401.315746. It needs memory for the sample alone.
+/// See Bentley & Floyd 1987, doi 10.1145/30401.315746.
 fn draw(designs: u64, sample: RandomSample) -> Result<Vec<u64>, SampleTooLarge> {
     if !(1..=designs).contains(&sample.designs) {
         return Err(SampleTooLarge { asked: sample.designs, designs });
     }
-    // This generator is specified permanently; the default generator of a library may change.
+    // The output of ChaCha8 never changes; a default generator of `rand` may change.
     let mut random = ChaCha8Rng::seed_from_u64(sample.seed);
     let mut chosen = BTreeSet::new();
     for last in designs - sample.designs..designs {
@@ -197,16 +197,16 @@ mod tests {
     #[test]
     fn the_sample_of_a_seed_never_changes() {
         let drawn =
-            |seed| all(&SubsetDesigns::new(720, part(Some((8, seed)), None)).expect("fewer"));
+            |seed| all(&SubsetDesigns::new(720, part(Some((8, seed)), None)).expect("a sample"));
         assert_eq!(drawn(7), [59, 112, 119, 258, 431, 503, 520, 611]);
         assert_ne!(drawn(8), drawn(7));
     }
 
     #[test]
     fn a_sample_of_a_huge_grid_needs_little_memory() {
-        let huge = SubsetDesigns::new(u64::MAX, part(Some((1000, 1)), None)).expect("fewer");
+        let huge = SubsetDesigns::new(u64::MAX, part(Some((1000, 1)), None)).expect("a sample");
         assert_eq!(huge.len(), 1000);
-        let error = SubsetDesigns::new(5, part(Some((6, 0)), None)).expect_err("more");
+        let error = SubsetDesigns::new(5, part(Some((6, 0)), None)).expect_err("too large");
         let message = "--sample 6: there are only 5 designs, expected from 1 to 5";
         assert_eq!(error.to_string(), message);
     }
@@ -216,7 +216,7 @@ mod tests {
         for text in ["", "1", "0/3", "4/3", "1/0", "-1/3", "1/3/5", "a/b"] {
             let message =
                 format!("{text:?} is not a shard, expected i/N with i from 1 to N, e.g. 3/8");
-            assert_eq!(text.parse::<Shard>().expect_err("none").to_string(), message);
+            assert_eq!(text.parse::<Shard>().expect_err("no shard").to_string(), message);
         }
     }
 
@@ -224,11 +224,11 @@ mod tests {
         #[test]
         fn every_design_is_in_exactly_one_shard(designs in 1..500_u64, count in 1..9_u64, half: bool) {
             let sample = half.then_some((designs.div_ceil(2), 3));
-            let whole = all(&SubsetDesigns::new(designs, part(sample, None)).expect("fewer"));
+            let whole = all(&SubsetDesigns::new(designs, part(sample, None)).expect("a sample"));
             let mut dealt = Vec::new();
             for index in 1..=count {
                 let shard = format!("{index}/{count}");
-                let shard = SubsetDesigns::new(designs, part(sample, Some(&shard))).expect("fewer");
+                let shard = SubsetDesigns::new(designs, part(sample, Some(&shard))).expect("shard");
                 for (position, design) in all(&shard).into_iter().enumerate() {
                     prop_assert_eq!(shard.position(design), Some(position as u64));
                     dealt.push(design);

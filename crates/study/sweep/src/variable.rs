@@ -1,36 +1,36 @@
-//! A variable: a parameter searched over or drawn, within bounds or from a list.
+//! Variables: parameters that a search or a random draw varies, within bounds or from a list.
 
 use crate::case::Case;
 use crate::parameter::Parameter;
 use crate::scalar::Scalar;
 use text::number;
 
-/// A parameter of `[variables]`.
+/// A parameter in the section `[variables]` of a definition.
 ///
-/// No design fixes it. An optimisation searches over it, and a global sensitivity analysis draws
-/// it.
+/// The designs of the grid do not fix its value. An optimisation searches for the best value, and a
+/// global sensitivity analysis draws the value at random.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
     pub(crate) parameter: &'static Parameter,
     pub(crate) values: VariableValues,
 }
 
-/// The values of a variable.
+/// The values that a variable may have.
 #[derive(Clone, Debug, PartialEq)]
 pub enum VariableValues {
-    /// Every number from the first to the second, which is larger.
+    /// Any number from a lower bound (first) to an upper bound (second).
     Between(f64, f64),
-    /// One of these values, at least two.
+    /// One value of this list, which has at least two values.
     OneOf(Vec<Scalar>),
 }
 
 impl Variable {
-    /// Returns the parameter.
+    /// Returns the parameter that varies.
     pub fn parameter(&self) -> &'static Parameter {
         self.parameter
     }
 
-    /// Returns the values.
+    /// Returns the values that the parameter may have.
     pub fn values(&self) -> &VariableValues {
         &self.values
     }
@@ -54,13 +54,13 @@ impl Variable {
             VariableValues::Between(from, to) => Scalar::Number(from + fraction * (to - from)),
             VariableValues::OneOf(values) => {
                 let index = (fraction * values.len() as f64) as usize;
-                // The upper end, a `fraction` of 1, belongs to the last value.
+                // A `fraction` of 1 gives an index beyond the list; it belongs to the last value.
                 values[index.min(values.len() - 1)]
             }
         }
     }
 
-    /// Sets this variable in `case`.
+    /// Sets the parameter of this variable to `value` in `case`.
     pub fn set(&self, case: &mut Case, value: Scalar) {
         self.parameter.set(case, value);
     }

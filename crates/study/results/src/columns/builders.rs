@@ -20,7 +20,7 @@ pub(super) const DEPTH: &[&str] = &[name::PENETRATION];
 pub(super) const BOTH: &[&str] = &[name::CRITICAL_FORCE, name::PENETRATION];
 pub(super) const COMPLIANCE: &[&str] = &[name::COMPLIANCE];
 
-/// Defaults of an entry.
+/// Default values of an entry.
 const BLANK: MeasuredValue = MeasuredValue {
     name: "",
     unit: "-",
@@ -42,11 +42,12 @@ type PunctureField = fn(&mut PunctureMeasures) -> &mut Option<f64>;
 type FlexureField = fn(&mut FlexureMeasures) -> &mut Option<f64>;
 
 // The builders are `const`, because the list of entries is a static.
+/// Builds a conversion to a quantity with the same column name.
 pub(super) const fn same(quantity: Quantity) -> Physical {
     Physical { quantity, other: None }
 }
 
-/// Builds a conversion to a quantity with another name, such as a rigidity from a compliance.
+/// Builds a conversion to a quantity with another column name, such as compliance to rigidity.
 pub(super) const fn renamed(
     quantity: Quantity,
     name: &'static str,
@@ -55,7 +56,7 @@ pub(super) const fn renamed(
     Physical { quantity, other: Some((name, meaning)) }
 }
 
-/// Builds an entry for a value of a result, with the tables that contain it.
+/// Builds an entry with the accessor `value` and the measure tables that contain the value.
 pub(super) const fn value(
     name: &'static str,
     tables: &'static [&'static str],
@@ -82,7 +83,7 @@ pub(super) const fn of_bending(
     value(name, tables, Value::OfBending(cell))
 }
 
-/// Builds an entry for a number of a puncture.
+/// Builds an entry for a number of a puncture with derivatives.
 pub(super) const fn number(
     name: &'static str,
     point: PathPoint,
@@ -119,7 +120,7 @@ pub(super) const fn stiffness(
     number(name, point, field).in_unit("E_s t").physical(PER_MM)
 }
 
-/// Builds an entry for a number of bending.
+/// Builds an entry for a number of bending with derivatives.
 pub(super) const fn bending(
     name: &'static str,
     point: PathPoint,
@@ -134,17 +135,17 @@ impl MeasuredValue {
         Self { unit, ..self }
     }
 
-    /// Restricts the value to runs with a guided needle.
+    /// Restricts the value to sweeps with a guided needle.
     pub(super) const fn guided(self) -> Self {
         Self { is_of_guided_needle: true, ..self }
     }
 
-    /// Marks a value of a puncture that needs more of the path than its critical state.
+    /// Marks a value of a puncture that needs more of the path than the critical state.
     pub(super) const fn along_path(self) -> Self {
         Self { needs_path: true, ..self }
     }
 
-    /// Restricts the value to runs that set one of these parameters.
+    /// Restricts the value to sweeps that set one of these parameters.
     pub(super) const fn needing(self, needs: &'static [&'static str]) -> Self {
         Self { needs, ..self }
     }
@@ -159,7 +160,7 @@ impl MeasuredValue {
         Self { good: Some(Goal::Minimize), ..self }
     }
 
-    /// Sets the tables that contain the value.
+    /// Sets the measure tables that contain the value.
     pub(super) const fn within(self, tables: &'static [&'static str]) -> Self {
         Self { tables, ..self }
     }
@@ -174,7 +175,7 @@ impl MeasuredValue {
         Self { physical, ..self }
     }
 
-    /// Adds statistics over imperfect samples, and the noun for their descriptions.
+    /// Adds statistics over imperfect samples, with a noun that describes the value.
     pub(super) const fn sampled(
         self,
         noun: &'static str,

@@ -9,7 +9,7 @@ use text::number;
 
 use crate::design::failure::finite;
 
-/// One cell of a table before formatting, which depends on the output format.
+/// The value of one cell of a table, before it is formatted for a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Cell {
@@ -60,7 +60,7 @@ impl From<i64> for Cell {
 
 impl From<usize> for Cell {
     fn from(count: usize) -> Self {
-        // Counts of things in memory are far below 2^63.
+        // Counts of objects in memory are far below 2^63.
         Self::Count(i64::try_from(count).unwrap_or(i64::MAX))
     }
 }

@@ -10,17 +10,17 @@ use super::cell::Cell;
 pub struct Column<R> {
     /// Header of the column.
     pub name: Cow<'static, str>,
-    /// Unit, or `-`.
+    /// Unit, or `-` for cells without a unit.
     pub unit: &'static str,
-    /// Meaning of the cells, in half a sentence.
+    /// Meaning of the cells, as a phrase without a full stop.
     pub meaning: &'static str,
     cell: CellSource<R>,
 }
 
-/// Computes the cell of a row.
+/// The function that computes the cell of a row.
 ///
-/// Static column lists need function pointers, because a boxed closure cannot be built in a
-/// constant.
+/// Static lists of columns need function pointers, because a constant cannot contain a boxed
+/// closure.
 enum CellSource<R> {
     /// Column of a static list.
     Function(fn(&R) -> Cell),
@@ -29,7 +29,7 @@ enum CellSource<R> {
 }
 
 impl<R> Column<R> {
-    /// Creates a column from a function pointer.
+    /// Creates a column with the function pointer `cell`, which computes the cell of a row.
     pub const fn new(
         name: &'static str,
         unit: &'static str,
@@ -39,7 +39,7 @@ impl<R> Column<R> {
         Self { name: Cow::Borrowed(name), unit, meaning, cell: CellSource::Function(cell) }
     }
 
-    /// Creates a column from a closure.
+    /// Creates a column with the closure `cell`, which computes the cell of a row.
     pub fn computed(
         name: Cow<'static, str>,
         unit: &'static str,
@@ -93,9 +93,10 @@ fn header(parameter: &Parameter) -> &'static str {
     }
 }
 
-/// Returns true if a column is a parameter that distinguishes designs.
+/// Returns true if the column `name` is a parameter that distinguishes designs.
 ///
-/// A length in mm does not count if the same length over the thickness is a column too.
+/// A length in mm does not distinguish designs if the same length over the thickness is also among
+/// the columns `headers`.
 pub fn distinguishes_designs(name: &str, headers: &[String]) -> bool {
     let over_t = parameter_of(name).map(Parameter::over_t);
     over_t.is_some_and(|over_t| {
@@ -103,7 +104,7 @@ pub fn distinguishes_designs(name: &str, headers: &[String]) -> bool {
     })
 }
 
-/// Returns the `columns` that are measures and not parameters, without duplicates.
+/// Returns the `columns` that are not parameters, without duplicates.
 pub fn measures_among<'a>(columns: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut measured: Vec<&str> = Vec::new();
     for column in columns {

@@ -1,6 +1,7 @@
 //! Columns derived from the entries of measured values.
 //!
-//! Each entry gives the value, its statistics over imperfect samples, and both in physical units.
+//! An entry gives a column for the value, columns for statistics over imperfect samples, and the
+//! same columns in physical units.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;
@@ -30,7 +31,7 @@ pub struct ValueColumn {
 
 /// Statistics over imperfect samples, in column order.
 ///
-/// Each entry holds the suffix of the name and the description.
+/// Each item holds the suffix of the column name and the description.
 const STATISTICS: [(&str, &str); 4] = [
     ("mean", "mean"),
     (QUANTILES[0].0, "5 % quantile"),
@@ -49,7 +50,7 @@ pub(super) static COLUMNS: LazyLock<Vec<ValueColumn>> = LazyLock::new(|| {
     columns
 });
 
-/// Returns the column of the value itself.
+/// Returns the column of the dimensionless value itself.
 fn value_column(value: &'static MeasuredValue) -> ValueColumn {
     let (name, meaning) = (value.name.into(), value.meaning.into());
     ValueColumn { value, quantity: None, statistic: None, name, unit: value.unit, meaning }
@@ -69,9 +70,9 @@ fn statistics_columns(value: &'static MeasuredValue) -> Vec<ValueColumn> {
     count.into_iter().chain(statistics).collect()
 }
 
-/// Returns the physical columns.
+/// Returns the columns in physical units.
 ///
-/// The order is leading values, limits of the skin, other values, statistics, mass.
+/// The order is leading values, limits of the skin, other values, statistics, areal mass.
 fn in_physical_units() -> impl Iterator<Item = ValueColumn> {
     let mut values: Vec<_> = VALUES.iter().collect();
     // Stable sort: each of the three groups keeps the order of `designs.csv`.
@@ -104,8 +105,9 @@ fn physical_column(value: &'static MeasuredValue, physical: &Physical) -> ValueC
 
 /// Returns the statistics of a value in physical units.
 ///
-/// A quantile of an inverse is the inverse of the opposite quantile. The mean of an inverse is not
-/// the inverse of the mean, so it is omitted.
+/// For an inverse quantity, the 5 % quantile is computed from the 95 % quantile of the value, and
+/// the 95 % quantile from the 5 % quantile. The mean is omitted, because the mean of an inverse is
+/// not the inverse of the mean.
 fn physical_statistics(
     value: &'static MeasuredValue,
     Physical { quantity, other }: &'static Physical,
@@ -130,9 +132,9 @@ fn physical_statistics(
 }
 
 impl MeasuredValue {
-    /// Returns whether large or small values are better in this unit.
+    /// Returns whether large or small values are better in the unit of `quantity`.
     ///
-    /// `None` if that is ambiguous.
+    /// `None` if neither is generally better.
     pub(super) fn good_as(&self, quantity: Option<Quantity>) -> Option<Goal> {
         let is_inverse = quantity.is_some_and(Quantity::is_inverse);
         self.good.map(|goal| if is_inverse { goal.inverse() } else { goal })
@@ -142,7 +144,8 @@ impl MeasuredValue {
     fn cell(&self, result: &DesignResult) -> Cell {
         match self.value {
             Value::Coverage => result.coverage.into(),
-            // Copying the measures, a few hundred bytes, avoids a second accessor for each of them.
+            // The accessor needs mutable measures. Copying them, a few hundred bytes, avoids a
+            // second accessor for each measure.
             Value::Puncture(field) => {
                 result.puncture.and_then(|mut p| *field(&mut p.measures)).into()
             }
@@ -164,7 +167,7 @@ impl MeasuredValue {
 }
 
 impl ValueColumn {
-    /// Returns the column of a nominal value, in physical units if `sweep` defines them.
+    /// Returns the column of the value `name`, in physical units if `sweep` gives the material.
     ///
     /// `None` if the designs of `sweep` do not have the value.
     pub fn in_units_of(sweep: &Sweep, name: &str) -> Option<&'static Self> {
@@ -186,12 +189,12 @@ impl ValueColumn {
         self.quantity.map(Quantity::unit)
     }
 
-    /// Returns the number in a row, if it has one.
+    /// Returns the number of this column in a row, if there is one.
     pub fn number(&self, row: &DesignRow) -> Option<f64> {
         self.cell(row).number()
     }
 
-    /// Returns whether large or small numbers are better. `None` if that is ambiguous.
+    /// Returns whether large or small numbers are better; `None` if neither is generally better.
     pub fn good(&self) -> Option<Goal> {
         self.value.good_as(self.quantity)
     }
@@ -223,16 +226,16 @@ impl ValueColumn {
         self.statistic.is_some() || matches!(self.value.value, Value::Samples(_))
     }
 
-    /// Returns true for the mass and for columns in physical units.
+    /// Returns true for columns in physical units, including the areal mass.
     pub(super) fn is_physical(&self) -> bool {
         self.quantity.is_some() || matches!(self.value.value, Value::ArealMass)
     }
 
-    /// Returns true if designs of `sweep` have this column in `table`.
+    /// Returns true if `table` has this column for the designs of `sweep`.
     ///
-    /// `None` means in any table.
+    /// For `None`, returns true if any table has this column.
     pub(super) fn is_available(&self, sweep: &Sweep, table: Option<&str>) -> bool {
-        // The search for parameters by key is slow, so it comes last.
+        // The conditions that search for parameters by key are slow, so they come last.
         table.is_none_or(|table| self.value.tables.contains(&table))
             && (sweep.is_imperfect() || !self.is_of_samples())
             && (sweep.is_guided() || !self.value.is_of_guided_needle)
@@ -258,7 +261,8 @@ impl ValueColumn {
         match (self.quantity, dimensionless) {
             (None, cell) => cell,
             (Some(quantity), Cell::Number(value)) => quantity.physical(value, &row.case).into(),
-            // Without a closing gap there is no contact curvature: the skin bends to any radius.
+            // If no gap closes, there is no contact curvature and the skin bends to any radius, so
+            // the smallest bend radius is 0.
             (Some(Quantity::Radius), Cell::Empty)
                 if self.statistic.is_none() && row.result.flexure.is_some() =>
             {

@@ -1,6 +1,4 @@
-//! Measured values of a design.
-//!
-//! Columns, ranking criteria and page layout derive from each entry.
+//! Entries of measured values, from which columns, ranking criteria and page layout derive.
 
 use skin::flexure::FlexureMeasures;
 use skin::puncture::{PunctureMeasures, TiltMeasures};
@@ -12,14 +10,14 @@ use crate::design::sample_statistics::{SampleStatistics, Statistics};
 use crate::folder::MEASURE_TABLES;
 use crate::quantity::Quantity;
 
-/// A measured value, with all that tables, rankings, derivatives and pages need.
+/// A measured value, with the data that tables, rankings, derivatives and pages need.
 #[derive(Debug)]
 pub struct MeasuredValue {
     /// Header of the column.
     pub name: &'static str,
-    /// Unit, or `-`.
+    /// Unit, or `-` for a value without a unit.
     pub unit: &'static str,
-    /// Meaning, in half a sentence.
+    /// Meaning, as a phrase without a full stop.
     pub meaning: &'static str,
     /// Tables that contain the value in addition to `designs.csv`.
     pub(super) tables: &'static [&'static str],
@@ -27,11 +25,9 @@ pub struct MeasuredValue {
     pub(super) point: PathPoint,
     /// Accessor of the value in a result.
     pub(crate) value: Value,
-    /// Conversions to physical units.
-    ///
-    /// Statistics of samples are written for the first one.
+    /// Conversions to physical units. Statistics over samples use only the first conversion.
     pub(super) physical: &'static [Physical],
-    /// Whether large or small values are better, if that is unambiguous.
+    /// Whether large or small values are better; `None` if neither is generally better.
     pub good: Option<Goal>,
     /// Statistics over imperfect samples.
     pub(super) samples: Option<SampledValue>,
@@ -39,13 +35,13 @@ pub struct MeasuredValue {
     pub(super) at_tilts: Option<TiltValue>,
     /// Position in the default table of a page.
     pub shown: Shown,
-    /// Whether the value exists only in runs with a guided needle.
+    /// Whether the value exists only in sweeps with a guided needle.
     pub(super) is_of_guided_needle: bool,
-    /// Whether the value of a puncture needs more of the path than its critical state.
+    /// Whether the value of a puncture needs more of the path than the critical state.
     pub(super) needs_path: bool,
-    /// Parameters, in both units, that define how the value is measured.
+    /// Keys of the parameters, in both units, that request the value.
     ///
-    /// It exists only in runs that set one of them.
+    /// Unless the list is empty, the value exists only in sweeps that set one of these parameters.
     pub(super) needs: &'static [&'static str],
 }
 
@@ -76,12 +72,12 @@ pub(crate) enum Value {
 /// Determines whether the value depends on the end of the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PathPoint {
-    /// On no path, or on the whole path without a physical meaning.
+    /// At no point: without a path, or a property of the path without a physical meaning.
     Nowhere,
     Rest,
     /// At first contact of scales.
     Contact,
-    /// At the loss of stability of the row.
+    /// At the point where the row loses its stability.
     Instability,
     /// At the first fold of the surface.
     Fold,
@@ -89,7 +85,7 @@ pub(super) enum PathPoint {
     FoldOrEnd,
     /// At the largest load.
     Peak,
-    /// Anywhere up to the end.
+    /// At any point up to the end of the path.
     Anywhere,
     /// At the end of the path.
     End,
@@ -111,14 +107,14 @@ impl PathPoint {
 #[derive(Debug)]
 pub(super) struct Physical {
     pub(super) quantity: Quantity,
-    /// Name without the unit, and meaning, if they differ from the dimensionless value.
+    /// Name without the unit, and meaning; `None` if both are as for the dimensionless value.
     pub(super) other: Option<(&'static str, &'static str)>,
 }
 
 /// Statistics of a value over imperfect samples.
 #[derive(Debug)]
 pub(super) struct SampledValue {
-    /// Noun for descriptions of the statistics.
+    /// Noun that describes the value, in the meanings of the statistics.
     pub(super) noun: &'static str,
     pub(super) statistics: fn(&SampleStatistics) -> Option<Statistics>,
 }
@@ -135,7 +131,7 @@ pub(super) struct TiltValue {
 pub enum Shown {
     /// Among the first columns.
     First,
-    /// After the physical columns.
+    /// After the columns in physical units.
     Then,
     /// After all other columns.
     Last,
@@ -179,13 +175,13 @@ impl Goal {
 }
 
 impl MeasuredValue {
-    /// Returns true unless this is a number of a puncture that is not finite.
+    /// Returns false if the value is a number of a puncture that is not finite.
     pub(crate) fn is_finite_in_puncture(&self, measures: &mut PunctureMeasures) -> bool {
         let Value::Puncture(field) = self.value else { return true };
         field(measures).is_none_or(f64::is_finite)
     }
 
-    /// Returns true unless this is a number of bending that is not finite.
+    /// Returns false if the value is a number of bending that is not finite.
     pub(crate) fn is_finite_in_flexure(&self, measures: &mut FlexureMeasures) -> bool {
         let Value::Flexure(field) = self.value else { return true };
         field(measures).is_none_or(f64::is_finite)
@@ -198,11 +194,11 @@ impl MeasuredValue {
 
     /// Returns the measure that must be solved for this value.
     ///
-    /// `None` for values that need no solution and for solver information.
+    /// `None` for the areal mass, which needs no solution, and for solver information.
     pub fn measure(&self) -> Option<Measure> {
         let of =
             |(table, measure): &(&str, Measure)| self.tables.contains(table).then_some(*measure);
-        // The table of coverage contains the mass, but the mass needs no measure to be solved.
+        // The areal mass is in the table of coverage, but needs no measure to be solved.
         let is_solved = !matches!(self.value, Value::ArealMass);
         MEASURE_TABLES.iter().find_map(of).filter(|_| is_solved)
     }
@@ -227,9 +223,10 @@ impl MeasuredValue {
             Some(Measure::Flexure) => parameter.has(Role::EndsBending),
             _ => false,
         };
-        // Physical units include the membrane, so that any two designs can be compared.
+        // Values in physical units can be compared between designs with different membranes.
         let is_unit = quantity.is_none() && self.unit.contains("E_m I_m");
-        // Properties of the product stay comparable: designs with and without friction may compete.
+        // A parameter with deviations is a property of the product, not of the measurement: designs
+        // with and without friction can be compared.
         let marks = self.needs.contains(&parameter.key) && !parameter.has(Role::Made);
         marks
             || (ends && self.point.depends_on_end())

@@ -1,12 +1,8 @@
-//! Names of the measured values that code refers to.
-//!
-//! Tables, derivatives, rankings and pages use them.
+//! Names of the measured values that code refers to, such as tables, rankings and pages.
 
-/// Coverage: fraction of the scale layer crossed as solid scale.
-///
-/// It is measured along a vertical line.
+/// Coverage: fraction of the scale layer that a vertical line crosses as solid scale.
 pub const COVERAGE: &str = "coverage";
-/// Force at the critical tilt.
+/// Puncture force at the critical tilt.
 pub const CRITICAL_FORCE: &str = "critical_force";
 /// Depth of the deepest base corner at the critical tilt.
 pub const PENETRATION: &str = "penetration";
@@ -14,21 +10,21 @@ pub const PENETRATION: &str = "penetration";
 pub const COMPLIANCE: &str = "compliance";
 /// Flexural compliance at rest.
 pub const INITIAL_COMPLIANCE: &str = "initial_compliance";
-/// Force at the first fold of the surface.
+/// Puncture force at the first fold of the surface.
 pub const FOLD_FORCE: &str = "fold_force";
-/// Largest force at which the model is valid.
+/// Largest puncture force at which the model is valid.
 pub const SOUND_FORCE: &str = "sound_force";
 /// Smallest critical force over the load positions.
 pub const WEAKEST_FORCE: &str = "weakest_force";
 /// Load position with the smallest critical force.
 pub const WEAKEST_PLACE: &str = "weakest_place";
-/// Depth of the load at the critical tilt.
+/// Depth of the punctured point at the critical tilt.
 pub const CRITICAL_DISPLACEMENT: &str = "critical_displacement";
-/// Force at the first failure.
+/// Puncture force at the first failure.
 pub const FAILURE_FORCE: &str = "failure_force";
-/// Critical force across the row.
+/// Critical force of the row across.
 pub const FORCE_ACROSS: &str = "force_across";
-/// Smaller critical force of both directions.
+/// Smaller critical force of the row and of the row across.
 pub const FORCE_ANY_DIRECTION: &str = "force_any_direction";
 /// Smallest puncture force on bodies between two radii.
 pub const WORST_FORCE_BETWEEN: &str = "worst_force_between";
@@ -40,19 +36,19 @@ pub const TISSUE_PRESSURE_AT_FORCE: &str = "tissue_pressure_at_force";
 pub const FIRST_FAILURE: &str = "first_failure";
 /// Event that ended the path of a guided needle.
 pub const CRITICAL_EVENT: &str = "critical_event";
-/// Depth at first contact of scales.
+/// Depth of the punctured point at first contact of scales.
 pub const FIRST_CONTACT: &str = "first_contact_displacement";
-/// Tilt at which a guided needle first touches a face other than its initial one.
+/// Tilt of the punctured scale where a guided needle first touches a corner or another scale.
 pub const PASSING_TILT: &str = "passing_tilt_deg";
-/// Stretch of the tightest gap. Not above 0 where the surface is folded.
+/// Width of the tightest gap at the critical tilt over its width at rest; at most 0 if folded.
 pub const GAP_STRETCH_MIN: &str = "gap_stretch_min";
-/// Stretch of the widest gap.
+/// Width of the widest gap at the critical tilt over its width at rest.
 pub const GAP_STRETCH_MAX: &str = "gap_stretch_max";
-/// Stiffness at rest.
+/// Puncture stiffness at rest.
 pub const INITIAL_STIFFNESS: &str = "initial_stiffness";
-/// Largest stiffness on the path.
+/// Largest puncture stiffness on the path.
 pub const MAX_STIFFNESS: &str = "max_stiffness";
-/// Secant stiffness.
+/// Puncture force over displacement at the critical tilt.
 pub const SECANT_STIFFNESS: &str = "secant_stiffness";
 /// Number of closed contacts.
 pub const CONTACTS: &str = "contacts";
@@ -60,7 +56,7 @@ pub const CONTACTS: &str = "contacts";
 pub const FRICTION_WORK: &str = "friction_work";
 /// Whether bending closes contacts.
 pub const FLEXURE_CONTACT: &str = "flexure_contact";
-/// Curvature at first contact, computed even if the path ends before it.
+/// Curvature at first contact in closed form, also if the path ends before first contact.
 pub const CONTACT_CURVATURE: &str = "contact_curvature";
 /// Mean curvature at first contact on the path.
 pub const FIRST_CONTACT_CURVATURE: &str = "first_contact_curvature";
@@ -68,7 +64,7 @@ pub const FIRST_CONTACT_CURVATURE: &str = "first_contact_curvature";
 pub const MEMBRANE_STRAIN: &str = "membrane_strain_max";
 /// Settings of a rerun design.
 pub const SETTINGS: &str = "settings";
-/// Mass of the scales per area, computed without a solution.
+/// Mass of the scales per area of the skin.
 pub const AREAL_MASS: &str = "areal_mass_kg_m2";
 
 #[cfg(test)]
@@ -78,12 +74,13 @@ mod tests {
 
     use crate::columns::values::VALUES;
 
-    /// Names that code also uses for parameters, charts, drawing groups or measures.
+    /// Names that code also uses for other objects: parameters, charts, drawing groups or measures.
     const WORDS: [&str; 5] = ["compliance", "coverage", "gaps", "penetration", "scales"];
 
     /// Collects the source files of the program below `folder`.
     fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-        for path in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("it").path()) {
+        for path in fs::read_dir(folder).expect("folder").map(|entry| entry.expect("entry").path())
+        {
             let is = |names: &[&str]| names.iter().any(|name| path.ends_with(name));
             let kind = path.extension().unwrap_or_default().to_string_lossy();
             if path.is_dir() && !is(&["tests", "benches", "examples", "target", "doc"]) {
@@ -107,11 +104,11 @@ mod tests {
             .join("\n")
     }
 
-    /// Each name occurs in this file and in at most one other.
+    /// The first file is `name.rs` or `values.rs`.
     ///
-    /// The other file is the one in which the mechanics names a derivative.
+    /// The second file, if there is one, is in `mechanics`, where it names a derivative.
     #[test]
-    fn a_name_occurs_in_two_files_at_most() {
+    fn the_name_of_a_value_occurs_in_at_most_two_source_files() {
         let mut paths = Vec::new();
         sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."), &mut paths);
         let files: Vec<_> = paths.iter().map(|path| (path, code(path))).collect();

@@ -1,4 +1,4 @@
-//! The columns of a design's path tables: paths, events, scales, iterations.
+//! The columns of the path tables of a design: equilibria, events, scales, iterations.
 
 use skin::flexure;
 use skin::puncture::{
@@ -12,19 +12,19 @@ use super::name;
 use crate::columns;
 use crate::design::outcome::Outcome;
 
-/// Equilibrium of a puncture with its instability.
+/// Equilibrium of a puncture, with its numbers of negative eigenvalues.
 pub type StabilityPoint = (PuncturePoint, Instability);
 
 /// Returns the columns of `path.csv`.
 ///
-/// Some exist only for guided needles or scales with friction.
+/// Some columns exist only for a guided needle or for scales with friction.
 pub fn path_columns(is_guided: bool, has_friction: bool) -> Vec<Column<StabilityPoint>> {
     let mut columns = Vec::from(columns! { StabilityPoint:
         "displacement", "t", |(p, _)| p.displacement,
             "downward displacement of the punctured point";
         "force", "E_s L t/(1-nu^2)", |(p, _)| p.force, "puncture force";
         "tilt_deg", "deg", |(p, _)| p.tilt_deg, "clockwise tilt of the punctured scale";
-        name::CONTACTS, "-", |(p, _)| p.contacts, "closed contacts";
+        name::CONTACTS, "-", |(p, _)| p.contacts, "number of closed contacts";
         "unstable_under_load", "-", |(_, i)| i.load,
             "number of negative eigenvalues of the stiffness under load control, on the outgoing branch";
         "unstable_under_depth", "-", |(_, i)| i.depth,
@@ -51,15 +51,15 @@ pub fn path_columns(is_guided: bool, has_friction: bool) -> Vec<Column<Stability
     columns
 }
 
-/// Returns the columns of the forces of a round tip.
+/// Returns the columns of the forces of a round tip on the scales.
 ///
-/// There is one for each scale from the first to the last touched scale.
+/// There is a column for each scale from the first to the last scale that the tip touches.
 pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
     let scales = forces.iter().flatten().map(|(scale, _)| *scale);
     let (Some(first), Some(last)) = (scales.clone().min(), scales.max()) else { return Vec::new() };
     (first..=last).map(|scale| {
         let on = |of: &TipForces| of.iter().find(|(touched, _)| *touched == scale).map(|of| of.1);
-        // A scale without contact to the tip carries the known force 0, so its cell is not empty.
+        // If the tip does not touch a scale, its force is known to be 0, so the cell is not empty.
         let values: Vec<f64> = forces.iter().map(|of| on(of).unwrap_or(0.0)).collect();
         Column::computed(
             format!("tip_force_{scale}").into(),
@@ -70,7 +70,7 @@ pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
     }).collect()
 }
 
-/// One row of `events.csv`.
+/// One row of `events.csv`: a contact event, a snap, or a fold of the surface.
 pub struct PunctureEvent {
     point: PuncturePoint,
     left_scale: Option<i64>,
@@ -133,12 +133,13 @@ pub static EVENTS: &[Column<PunctureEvent>] = &columns! { PunctureEvent:
     "change", "-", |e| e.change,
         "change of the contact, or of the surface in the gap; snap where a needle with increasing depth leaves the path";
     "drop", "E_s L t/(1-nu^2)", |e| e.drop,
-        "drop of the force in a snap at the same depth; empty if the path ends before";
+        "drop of the force in a snap at constant depth; empty if the path ends before it reaches this depth again";
 };
 
 /// The columns of `scales.csv`.
 pub static SCALES: &[Column<ScaleState>] = &columns! { ScaleState:
-    "scale", "-", |s| s.scale, "0 is the punctured scale, positive to the right";
+    "scale", "-", |s| s.scale,
+        "number of the scale: 0 is the punctured scale, positive to the right";
     "displacement_x", "t", |s| s.displacement[0],
         "displacement of the midpoint of the base, to the right";
     "displacement_y", "t", |s| s.displacement[1],
@@ -150,11 +151,13 @@ pub static SCALES: &[Column<ScaleState>] = &columns! { ScaleState:
 /// The columns of `places.csv`.
 pub static LOADED_PLACES: &[Column<LoadPosition>] = &columns! { LoadPosition:
     "place", "-", |p| p.position,
-        "load position: 0 the left corner of the top, 1 the right; beyond, a round tip between two scales";
+        "load position: 0 the left corner of the top, 1 the right; above 1, a round tip between two scales";
     name::CRITICAL_FORCE, "E_s L t/(1-nu^2)", |p| p.force,
         "puncture force at which the scale is critically tilted in either direction, or a guided needle is through";
-    name::CRITICAL_DISPLACEMENT, "t", |p| p.displacement, "downward displacement of the load at that force";
-    "tilt_deg", "deg", |p| p.tilt_deg, "clockwise tilt of the punctured scale at that force";
+    name::CRITICAL_DISPLACEMENT, "t", |p| p.displacement,
+        "downward displacement of the load at the critical force";
+    "tilt_deg", "deg", |p| p.tilt_deg,
+        "clockwise tilt of the punctured scale at the critical force";
     name::CRITICAL_EVENT, "-", |p| p.critical_event.map(CriticalEvent::name),
         "event that ended the path of a guided needle: tilt or through";
     "largest_force", "E_s L t/(1-nu^2)", |p| p.largest_force,
@@ -173,7 +176,7 @@ pub static STEPS: &[Column<Iteration>] = &columns! { Iteration:
 
 /// Returns the columns of `flexure_path.csv`.
 ///
-/// One exists only for scales with friction.
+/// The column of the work of friction exists only for scales with friction.
 pub fn flexure_path_columns(has_friction: bool) -> Vec<Column<flexure::FlexurePoint>> {
     let mut columns = Vec::from(columns! { flexure::FlexurePoint:
         "curvature", "1/t", |p| p.curvature, "curvature of the strip";
@@ -184,7 +187,8 @@ pub fn flexure_path_columns(has_friction: bool) -> Vec<Column<flexure::FlexurePo
         "bending_energy", "E_m t^3", |p| p.bending_energy, "energy that bends the membrane";
         "axial_energy", "E_m t^3", |p| p.axial_energy, "energy that stretches the membrane";
         "contact_energy", "E_m t^3", |p| p.contact_energy, "energy of the contacts";
-        name::CONTACTS, "-", |p| p.contacts, "closed contacts of the strip, rounded to whole gaps";
+        name::CONTACTS, "-", |p| p.contacts,
+            "number of closed contacts of the strip, rounded to whole gaps";
         "membrane_strain", "-", |p| p.membrane_strain,
             "largest strain at the surface of the membrane";
     });
@@ -201,7 +205,7 @@ pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::FlexurePoint>>] = &col
     "curvature", "1/t", |e| e.point.curvature, "curvature of the strip";
     "moment", "E_m I_m/t", |e| e.point.moment, "bending moment";
     "end_rotation_deg", "deg", |e| e.point.end_rotation_deg, "rotation of each end";
-    "gap", "-", |e| e.left_scale, "gap, 0 is the first; empty if all gaps change alike";
+    "gap", "-", |e| e.left_scale, "number of the gap, from 0; empty if all gaps change alike";
     "kind", "-", |e| e.corner_edge.name(), "corner and edge in contact";
     "change", "-", |e| e.change.name(), "change of the contact";
 };
@@ -213,7 +217,7 @@ pub type BentScale = (usize, [f64; 3]);
 
 /// The columns of `flexure_scales.csv`.
 pub static FLEXURE_SCALES: &[Column<BentScale>] = &columns! { BentScale:
-    "scale", "-", |s| s.0, "scale; 0 is the first one, which is fixed";
+    "scale", "-", |s| s.0, "number of the scale; 0 is the first scale, which is fixed";
     "displacement_x", "t", |s| s.1[0], "displacement of the midpoint of the base, to the right";
     "displacement_y", "t", |s| s.1[1], "displacement of the midpoint of the base, upward";
     "rotation_deg", "deg", |s| s.1[2].to_degrees(), "counter-clockwise rotation";

@@ -12,9 +12,10 @@ pub static RERUN_COLUMNS: &[Column<RerunChange>] = &columns! { RerunChange:
     "rerun", "-", |c| c.rerun.to_string(), "number of the rerun of the design, from 1";
     name::SETTINGS, "-", |c| c.settings[1].clone(),
         "settings of the rerun that differ from the sweep";
-    "old_settings", "-", |c| c.settings[0].clone(), "settings before";
+    "old_settings", "-", |c| c.settings[0].clone(),
+        "settings before the rerun that differ from the sweep";
     "column", "-", |c| Cell::Text(c.column.clone()),
-        "column of `designs.csv` that changed, empty if none did";
-    "old", "as the column", |c| c.values[0].clone(), "its value before";
-    "new", "as the column", |c| c.values[1].clone(), "its value after";
+        "column of `designs.csv` with a changed value, empty if no value changed";
+    "old", "as the column", |c| c.values[0].clone(), "value of that column before the rerun";
+    "new", "as the column", |c| c.values[1].clone(), "value of that column after the rerun";
 };

@@ -16,9 +16,9 @@ fn tilt_values() -> Vec<(&'static MeasuredValue, &'static TiltValue)> {
     values
 }
 
-/// Returns the columns at every tilt of `sweep`.
+/// Returns the columns of the values at each of several critical tilts of `sweep`.
 ///
-/// They belong to one measure table or, for `None`, to all.
+/// `table` selects the columns of one measure table; `None` selects all.
 pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     let places = tilt_suffixes(sweep);
     let columns = tilt_values()
@@ -36,7 +36,9 @@ pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<Des
     columns.collect()
 }
 
-/// Returns the tilts of `sweep` as parts of column names: `5deg` or `friction_0.1`.
+/// Returns the tilts of `sweep` as parts of column names, such as `5deg` or `friction_0.1`.
+///
+/// Empty unless the sweep has several critical tilts.
 fn tilt_suffixes(sweep: &Sweep) -> Vec<String> {
     let list = |key: &str| match Parameter::named(key)?.get(sweep.grid().base()) {
         // The base value of a parameter that is an axis is meaningless.

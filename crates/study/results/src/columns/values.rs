@@ -1,4 +1,4 @@
-//! The single list of measured values. To add a column of a measure, add an entry here.
+//! The list of all measured values, from which the columns of the tables derive.
 //!
 //! To add a value, add a field to its measures, compute it there, and add an entry to [`VALUES`]:
 //!
@@ -12,7 +12,7 @@
 //! | coverage | `run/src/solve/evaluator.rs` |
 //! | areal mass | `quantity.rs` |
 //!
-//! With `"sensitivity"` a value with derivatives also needs its point of the path in
+//! A value with derivatives also needs an entry for its point of the path in
 //! `skin/src/puncture/sensitivity.rs` or `skin/src/flexure/sensitivity.rs`.
 
 use skin::puncture::{CriticalEvent, FailureMode};
@@ -35,7 +35,7 @@ use crate::quantity::Quantity;
 /// Parameter that enables the search for the weakest load position.
 const PLACES: &[&str] = &[key::PLACES];
 
-/// Parameters that request the row across.
+/// Parameters that request the row across (perpendicular to the row).
 const ACROSS: &[&str] = &[key::ACROSS, key::GAP_ACROSS, key::GAP_ACROSS_MM];
 
 /// Parameters that request bodies between two radii.
@@ -54,7 +54,8 @@ const FAILURE: &[&str] = &[
 
 /// Builds the list of measured values.
 ///
-/// Each entry: name of the column, point of the path or tables, accessor, options, meaning.
+/// Each entry has the name of the column, the point of the path or the tables, the accessor,
+/// options, and the meaning.
 macro_rules! values {
     ($(
         $kind:ident($name:expr, $of:expr, $value:expr)$(.$has:ident($($what:expr),*))*: $meaning:expr;
@@ -82,7 +83,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         .first():
         "depth of the deepest base corner of any scale at the critical tilt";
     value("puncture_samples_failed", BOTH, Samples(|s| s.puncture_failed)):
-        "imperfect samples without puncture values, excluded from mean and quantiles";
+        "number of imperfect samples without puncture values, excluded from mean and quantiles";
     of_puncture("puncture_status", BOTH, |p| p.outcome.text().into()).last():
         "complete, or why the puncture has no values";
     force("peak_force", Peak, |m| &mut m.peak_force).large().then():
@@ -99,12 +100,12 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     // Contact counts depend on the end of the path: counts at tilts of 5° and 10° must not be
     // compared.
     of_puncture(name::CONTACTS, BOTH, |p| p.measures.contacts.into()).at(End).then():
-        "closed contacts at the critical tilt";
+        "number of closed contacts at the critical tilt";
     of_puncture("engaged_scales", BOTH, |p| p.measures.engaged_scales.into()).at(End).large():
-        "scales in contact with a neighbour at the critical tilt, including the punctured one";
+        "number of scales in contact with a neighbour at the critical tilt, including the punctured scale";
     of_puncture(name::CRITICAL_EVENT, BOTH, |p| p.measures.passage.critical_event.map(CriticalEvent::name).into())
         .guided():
-        "event that ended the path of a guided needle: tilt, a scale in contact with it is critically tilted; through, it has reached the soft surface";
+        "event that ended the path of a guided needle: tilt if a scale in contact with the needle is critically tilted, through if the needle has reached the soft surface";
     force("passing_force", Anywhere, |m| &mut m.passage.passing_force).large().guided():
         "puncture force where a guided needle first touches a corner or another scale in addition to its face; empty if it does not";
     depth("passing_displacement", Anywhere, |m| &mut m.passage.passing_displacement)
@@ -196,16 +197,16 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         .large().first().needing(PLACES):
         "smallest puncture force, over the evaluated load positions, at which the scale is critically tilted or a guided needle is through";
     of_puncture(name::WEAKEST_PLACE, FORCE, |p| p.measures.weakest.place.into()).then().needing(PLACES):
-        "load position with that force: 0 the left corner of the top, 1 the right";
+        "load position with the smallest puncture force: 0 the left corner of the top, 1 the right";
     of_puncture("weakest_status", FORCE, |p| p.weakest.map(Outcome::text).into())
         .last().needing(PLACES):
-        "complete, or why a load position that may be weaker has no force, so that the weakest is unknown";
+        "complete, or why a load position that may have a smaller force has no force, so that weakest_force is unknown";
     force(name::FORCE_ACROSS, End, |m| &mut m.across.force)
         .large().first().needing(ACROSS):
         "puncture force at the critical tilt across the row, with the load at the side of a scale";
     force(name::FORCE_ANY_DIRECTION, End, |m| &mut m.across.any_direction)
         .large().first().needing(ACROSS):
-        "smaller puncture force of both directions; along the row the weakest_force, if load positions are compared, otherwise the critical_force";
+        "smaller one of force_across and the force along the row, which is weakest_force if load positions are compared, otherwise critical_force";
     of_puncture("across_status", FORCE, |p| p.across.map(Outcome::text).into())
         .last().needing(ACROSS):
         "complete, or why the row across has no critical force";
@@ -214,10 +215,10 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "smallest puncture force at the critical tilt on bodies between the two radii";
     of_puncture("worst_curvature", FORCE, |p| p.measures.between.curvature.into())
         .in_unit("1/t").needing(BETWEEN):
-        "curvature of the body with that force: positive for a convex one";
+        "curvature of the body with the smallest puncture force: positive for a convex body";
     of_puncture("between_status", FORCE, |p| p.between.map(Outcome::text).into())
         .last().needing(BETWEEN):
-        "complete, or why a body between the two radii has no critical force, so that the smallest is unknown";
+        "complete, or why a body between the two radii has no critical force, so that worst_force_between is unknown";
     force(name::FAILURE_FORCE, Anywhere, |m| &mut m.failure.force)
         .large().first().needing(FAILURE):
         "puncture force at the first failure: where a scale is critically tilted, breaks or bends by 5 deg, a bond fails, the needle is through or perforates a scale, or the surface folds; or the force across the row, if that is smaller";
@@ -282,7 +283,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         .sampled("curvature range from the first to the last gap that closes,", |s| s.closing_range):
         "";
     value("flexure_samples_failed", COMPLIANCE, Samples(|s| s.flexure_failed)):
-        "imperfect samples without bending values, excluded from mean and quantiles";
+        "number of imperfect samples without bending values, excluded from mean and quantiles";
     value(name::AREAL_MASS, COVERAGE, ArealMass).in_unit("kg/m^2").small():
         "mass of the scales over the area of the skin";
 };

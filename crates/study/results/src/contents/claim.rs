@@ -1,8 +1,8 @@
 //! The claim of a command to the files that it writes into a folder.
 //!
-//! A record in `derived/` lists the files before the first one is written, and their SHA-256 after
-//! the last one. The files of a killed command are therefore known as unfinished, changed files are
-//! detected, and squama never overwrites a file that it did not write.
+//! A record in `derived/` lists the files before the first file is written, and their SHA-256 after
+//! the last file is written. Therefore the files of a killed command count as unfinished, changed
+//! files are detected, and squama never overwrites a file that it did not write.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -12,7 +12,7 @@ use journal::{OutputError, lock_folder, sha256_of};
 use super::derivation::Derivation;
 use crate::folder::{FileEntry, Maker, ResultsFolder};
 
-/// Exclusive claim of one command to its files in one folder.
+/// The exclusive claim of one command to its files in one folder.
 #[derive(Debug)]
 pub struct Claim<'f> {
     folder: &'f ResultsFolder,
@@ -23,11 +23,11 @@ pub struct Claim<'f> {
 }
 
 impl<'f> Claim<'f> {
-    /// Refuses to let `maker` overwrite a file that squama did not write.
+    /// Checks that `maker` would not overwrite a file that squama did not write.
     ///
     /// # Errors
     ///
-    /// If such a file exists.
+    /// If `maker` would overwrite such a file.
     pub fn check(folder: &ResultsFolder, maker: Maker) -> Result<(), OutputError> {
         let stated = Self::stated(folder, maker);
         // A damaged record lists no files, but proves that the command wrote some.
@@ -41,9 +41,9 @@ impl<'f> Claim<'f> {
         strange.try_for_each(|file| require_none(folder, file.name))
     }
 
-    /// Returns the SHA-256 of the recorded files of `maker`, by name.
+    /// Returns the recorded SHA-256 of each file of `maker`, by name.
     ///
-    /// `None` without a record.
+    /// `None` if `maker` has no record, or a damaged one.
     pub fn stated(folder: &ResultsFolder, maker: Maker) -> Option<BTreeMap<String, String>> {
         Derivation::read(folder, maker.key()).map(|made| made.files)
     }
@@ -59,11 +59,10 @@ impl<'f> Claim<'f> {
     pub fn take(folder: &'f ResultsFolder, maker: Maker) -> Result<Self, OutputError> {
         folder.make()?;
         let lock = lock_folder(folder.path())?;
-        // Check again under the lock, because another process may have written since the first
-        // check.
+        // Check after locking, because another process may have written since an earlier check.
         Self::check(folder, maker)?;
         Self::release(folder, maker);
-        // The digests stay empty until `state`, so that the files of a killed command count as
+        // Leave the digests empty until `state`, so that the files of a killed command count as
         // unfinished.
         let names = FileEntry::products(maker).map(|file| (file.name.to_owned(), String::new()));
         let (product, command) = maker.names();
@@ -74,7 +73,7 @@ impl<'f> Claim<'f> {
         Ok(Self { folder, maker, made, lock })
     }
 
-    /// Claims one more file.
+    /// Claims the file `name` in addition.
     ///
     /// # Errors
     ///
@@ -155,7 +154,8 @@ mod tests {
                 write(text);
                 claim.state(&[file.name]).expect("written");
             }
-            // A killed command leaves files between claim and statement; they are its own too.
+            // A command that is killed between `take` and `state` leaves files that it may remove
+            // in the next run.
             drop(Claim::take(&folder, file.maker).expect(file.name));
             write("half of it");
             Claim::take(&folder, file.maker).expect(file.name);
@@ -177,7 +177,7 @@ mod tests {
         write("yield.csv", "changed");
         let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");
         assert!(!folder.holds("tolerance.csv") && folder.holds("yield.csv"));
-        // A changed file stays foreign if the command then ends without writing it.
+        // The changed file counts as foreign after a run that did not write it.
         write("tolerance.csv", "again");
         claim.state(&files[..1]).expect("written");
         let refused = Claim::take(&folder, Maker::Tolerance).expect_err("a stranger's").to_string();

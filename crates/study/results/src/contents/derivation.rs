@@ -1,4 +1,4 @@
-//! Products derived from the tables of a folder, with the SHA-256 of these tables.
+//! Records of products derived from the tables of a folder, with the SHA-256 of these tables.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder::ResultsFolder;
 
-/// A product of the tables of a results folder: ranking, workbook, figures, page.
+/// Record of a product of the tables of a results folder: ranking, workbook, figures or page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Derivation {
-    /// Name of the product, in a word or two.
+    /// Name of the product, of one or two words.
     pub product: String,
     /// Command that makes the product again.
     pub command: String,
@@ -31,7 +31,7 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// Writes the product to `folder` under the name `record`.
+    /// Writes this record to the file `derived/RECORD.toml` in `folder`, for the name `record`.
     ///
     /// # Errors
     ///
@@ -46,18 +46,19 @@ impl Derivation {
         Ok(())
     }
 
-    /// Reads the product with the name `record` from `folder`.
+    /// Reads the record with the name `record` from `folder`.
+    ///
+    /// `None` if the record does not exist or is damaged.
     pub fn read(folder: &ResultsFolder, record: &str) -> Option<Self> {
-        // Ignore a damaged record.
         toml::from_str(&read_text(&Self::path(folder, record)).ok()?).ok()
     }
 
-    /// Returns the path of the record `record` of `folder`.
+    /// Returns the path of the file of the record `record` in `folder`.
     pub(super) fn path(folder: &ResultsFolder, record: &str) -> PathBuf {
         folder.file(ResultsFolder::DERIVED).join(format!("{record}.toml"))
     }
 
-    /// Returns all products of `folder`, in the order of their records.
+    /// Returns all readable records of `folder`, in the order of their names.
     pub fn all(folder: &ResultsFolder) -> Vec<Self> {
         Self::records(folder).iter().filter_map(|record| Self::read(folder, record)).collect()
     }
@@ -68,7 +69,7 @@ impl Derivation {
         let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
         let mut records: Vec<_> =
             names.filter_map(|name| name.strip_suffix(".toml").map(str::to_owned)).collect();
-        // The order of directory entries depends on the file system.
+        // Sort the names, because the order of directory entries depends on the file system.
         records.sort();
         records
     }
@@ -78,16 +79,16 @@ impl Derivation {
         self.files.keys().any(|name| folder.file(name).is_file())
     }
 
-    /// Removes the unchanged files of the product in `folder` and returns their names.
+    /// Removes the unchanged files of the product in `folder`, and returns their names.
     ///
-    /// Files elsewhere and files that a user has changed are kept.
+    /// Files outside the folder and files that a user has changed are kept.
     pub(super) fn remove(&self, folder: &ResultsFolder) -> Vec<String> {
         // An empty digest marks an unfinished file, which squama may remove in any state.
         let is_ours = |(name, digest): &(&String, &String)| {
             let path = folder.file(name);
             let is_own =
                 || digest.is_empty() || fs::read(&path).map(sha256).ok().as_ref() == Some(digest);
-            // A record in somebody else's results may name any path, so stay inside the folder.
+            // A record from another user may name any path, so remove only files in the folder.
             let is_inside =
                 Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
             is_inside && path.is_file() && is_own()
@@ -101,14 +102,14 @@ impl Derivation {
     }
     /// Removes the unchanged files of all products of `folder`, and all records.
     ///
-    /// Returns the names of the files.
+    /// Returns the names of the removed files.
     pub fn remove_all(folder: &ResultsFolder) -> Vec<String> {
         let removed = Self::all(folder).iter().flat_map(|made| made.remove(folder)).collect();
         let records = ResultsFolder::new(folder.file(ResultsFolder::DERIVED));
         for record in Self::records(folder) {
             records.remove(&format!("{record}.toml"));
         }
-        // Fails, as intended, if the user has put other files into it.
+        // Removal fails, as intended, if the user has put other files into the folder.
         let _ = fs::remove_dir(records.path());
         removed
     }

@@ -1,4 +1,4 @@
-//! A results folder with verified contents. Every command reads results through it.
+//! A results folder with verified contents, through which every command reads results.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
@@ -14,10 +14,10 @@ use crate::folder::{FileEntry, Maker, ResultsFolder};
 use crate::tables::resaved;
 use text::shell_word;
 
-/// Whether incomplete results are accepted.
+/// Selects whether incomplete results are accepted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Completeness {
-    /// Requires the results of all designs, in agreement with the journal.
+    /// Requires the results of all designs, and tables that are not older than the journal.
     #[default]
     Whole,
     /// Also accepts the results of the designs finished so far.
@@ -26,25 +26,26 @@ pub enum Completeness {
 
 /// A results folder that agrees with its `contents.toml`.
 ///
-/// A folder with neither contents nor journal holds tables alone, which cannot be verified.
+/// A folder with neither `contents.toml` nor journal contains only tables, which are used without
+/// verification.
 #[derive(Clone, Debug)]
 pub struct VerifiedFolder {
     folder: ResultsFolder,
     contents: Option<Contents>,
     /// Whether the journal is longer than stated in the contents.
     behind: bool,
-    /// Receives the warnings about tables that were saved again.
+    /// Receives warnings about tables that another program saved again; `None`: refuse such tables.
     warn: Option<fn(&str)>,
 }
 
-/// Text of a table: its file, or the bytes as squama wrote them.
+/// Bytes of a table as squama wrote them: from a file or from memory.
 pub(crate) trait TableText: Read + Seek {}
 
 impl<T: Read + Seek> TableText for T {}
 
 /// A results folder that contradicts its contents.
 ///
-/// The one-line message names the repair.
+/// The message has one line and names the repair.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}: {problem}", path.display())]
 pub struct InvalidFolder {
@@ -77,13 +78,13 @@ impl VerifiedFolder {
     ///
     /// # Errors
     ///
-    /// If the contents are missing beside a journal, are damaged or contradict the journal. Unless
-    /// partial results are accepted, also if designs are missing or the journal is longer than the
-    /// tables.
+    /// If the folder has a journal but no `contents.toml`, or `contents.toml` is damaged or
+    /// contradicts the journal. Unless partial results are accepted, also if designs are missing or
+    /// the journal has more designs than the tables.
     pub fn open(folder: &Path, completeness: Completeness) -> Result<Self, InvalidFolder> {
         let folder = ResultsFolder::new(folder);
         let contents = read(&folder)?;
-        // Even valid tables lack the designs that only the journal contains.
+        // Valid tables lack designs that were added to the journal later.
         let behind = match &contents {
             Some(contents) => is_behind(&folder, &contents.journal)?,
             None => false,
@@ -110,7 +111,7 @@ impl VerifiedFolder {
         }
     }
 
-    /// Returns the message for a journal that is longer than the tables.
+    /// Returns the error if the journal has more designs than the tables.
     pub fn behind(&self) -> Option<InvalidFolder> {
         self.behind.then(|| {
             let problem = format!(
@@ -126,14 +127,12 @@ impl VerifiedFolder {
         self.folder.path()
     }
 
-    /// Returns true if anything named `name` exists.
-    ///
-    /// Opening it fails if it is not a file.
+    /// Returns true if a file, or anything else with the name `name`, exists in the folder.
     pub fn holds(&self, name: &str) -> bool {
         self.folder.file(name).exists()
     }
 
-    /// Returns the names of the existing and the expected tables, in reading order.
+    /// Returns the names of all tables that exist or should exist, in reading order.
     pub fn tables(&self) -> Vec<String> {
         let stated = self.contents.iter().flat_map(|contents| contents.files.keys());
         let ranking = Derivation::read(&self.folder, ResultsFolder::RANKING_RECORD);
@@ -151,7 +150,9 @@ impl VerifiedFolder {
         self.contents.as_ref().map(Contents::digest)
     }
 
-    /// Returns the extent of incomplete results in words, such as `24 of 720 designs`.
+    /// Returns the extent of incomplete results as text, such as `24 of 720 designs`.
+    ///
+    /// `None` if the results are complete or cannot be verified.
     pub fn shortfall(&self) -> Option<String> {
         let contents = self.contents.as_ref()?;
         let Contents { done, designs, .. } = contents;
@@ -164,15 +165,16 @@ impl VerifiedFolder {
     ///
     /// # Errors
     ///
-    /// If it cannot be read, or differs from the file that the run wrote.
+    /// If the file cannot be read, or differs from the file that its command wrote.
     pub fn file(&self, name: &str) -> Result<File, InvalidFolder> {
         let path = self.folder.file(name);
         let unreadable = |error| InvalidFolder::unreadable(&path, &reason(&error));
-        // Reading a named pipe might never end.
+        // Refuse anything but a regular file, because reading a named pipe may never end.
         if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
             return Err(InvalidFolder::unreadable(&path, "it is not a regular file"));
         }
-        // Verify and read through one handle, so that a file replaced in between is not read.
+        // Verify and read through one handle, so that a file replaced after the verification is not
+        // read.
         let mut file = File::open(&path).map_err(unreadable)?;
         if let Some(expected) = self.expected(name)? {
             let found = sha256_of(&file).map_err(unreadable)?;
@@ -186,13 +188,13 @@ impl VerifiedFolder {
 
     /// Accepts tables that a spreadsheet saved again with the same values.
     ///
-    /// Reports these tables to `warn`.
+    /// Calls `warn` with a message for each of these tables.
     #[must_use]
     pub fn warning(self, warn: fn(&str)) -> Self {
         Self { warn: Some(warn), ..self }
     }
 
-    /// Opens the table `name` after verifying its bytes or, if warnings are reported, its values.
+    /// Opens the table `name` after verifying its bytes or, after [`Self::warning`], its values.
     pub(crate) fn table(&self, name: &str) -> Result<Box<dyn TableText>, InvalidFolder> {
         let refusal = match self.file(name) {
             Ok(file) => return Ok(Box::new(file)),
@@ -215,7 +217,7 @@ impl VerifiedFolder {
     ///
     /// # Errors
     ///
-    /// If it cannot be read, or differs from the file that the run wrote.
+    /// If the file cannot be read, or differs from the file that its command wrote.
     pub fn text(&self, name: &str) -> Result<String, InvalidFolder> {
         let mut text = String::new();
         let read = self.file(name)?.read_to_string(&mut text);
@@ -228,12 +230,12 @@ impl VerifiedFolder {
     /// Returns the recorded SHA-256 of the file `name`, if there is one.
     fn expected(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
         let entry = FileEntry::named(name).filter(|file| file.is_stated);
-        // The contents cover the files of a run. Other commands have their own records.
+        // `contents.toml` lists the files of a run. Other commands have their own records.
         if let Some(file) = entry.filter(|file| !matches!(file.maker, Maker::Run | Maker::Ranking))
         {
             return self.claimed(file);
         }
-        // A folder without a contents file has no recorded SHA-256 for its tables.
+        // Without `contents.toml` no SHA-256 of the tables is recorded.
         let Some(contents) = &self.contents else { return Ok(None) };
         if let Some(digest) = contents.files.get(name) {
             return Ok(Some(digest.clone()));
@@ -246,7 +248,7 @@ impl VerifiedFolder {
         }
     }
 
-    /// Returns the record `name` of derived files, if there is one.
+    /// Returns the record with the name `name` in `derived/`, if there is one.
     fn derivation(&self, name: &str) -> Result<Option<Derivation>, InvalidFolder> {
         let path = Derivation::path(&self.folder, name);
         match read_text(&path) {
@@ -265,7 +267,7 @@ impl VerifiedFolder {
                 "no record in derived says that squama rank wrote it; move it out of the folder";
             InvalidFolder::new(self.folder.file(name), problem)
         })?;
-        // The files may be intact and still rank designs that were solved again since.
+        // Intact files of a ranking are outdated if the designs were solved again afterwards.
         if ranking.from != contents.digest() {
             return Err(self.refusal(name, Maker::Ranking, "was made from other tables"));
         }
@@ -277,7 +279,8 @@ impl VerifiedFolder {
 
     /// Returns the recorded SHA-256 of a file that a command has claimed.
     ///
-    /// A folder with neither the journal nor the record of a search holds tables alone.
+    /// `None` if the folder contains neither a record of the command nor the journal of a search;
+    /// the file is then used without verification.
     fn claimed(&self, file: &FileEntry) -> Result<Option<String>, InvalidFolder> {
         let made = self.derivation(file.maker.key())?;
         // A search writes its journal from the start and its record with its results. A journal
@@ -287,21 +290,21 @@ impl VerifiedFolder {
         }
         let stated = made.as_ref().and_then(|made| made.files.get(file.name).cloned());
         let problem = match (&made, &stated) {
-            // The record is complete, but the last command had no reason to write this file.
+            // The record does not list this file, because the last command did not write it.
             (Some(_), None) => "was not written by the last command",
-            // An empty digest means that the command was interrupted before it recorded the file.
+            // There is no record, or the record has an empty digest.
             _ => "its command was interrupted",
         };
         let stated = stated.filter(|digest| !digest.is_empty());
         stated.map(Some).ok_or_else(|| self.refusal(file.name, file.maker, problem))
     }
 
-    /// Returns the error of a file, with the command that writes the file again.
+    /// Returns the error of the file `name`, with `problem` and the command that repairs it.
     fn refusal(&self, name: &str, maker: Maker, problem: &str) -> InvalidFolder {
         let again = match maker {
             Maker::Run => repair_command(self.path()),
             Maker::Ranking => format!("squama rank {}", shell_word(&self.path().to_string_lossy())),
-            // Without `--resume` a search refuses a folder that contains its journal.
+            // Without `--resume` a search refuses a folder with the journal of a search.
             Maker::Search => "the same command with --resume".to_owned(),
             _ => "the same command".to_owned(),
         };
@@ -319,24 +322,24 @@ impl VerifiedFolder {
         self.refusal(name, maker, "was changed after squama wrote it")
     }
 
-    /// Returns the faults of all files named in the contents.
+    /// Returns the errors of all files that `contents.toml` lists.
     pub fn problems(&self) -> Vec<InvalidFolder> {
         let names = self.contents.iter().flat_map(|contents| contents.files.keys());
         names.filter_map(|name| self.file(name).err()).collect()
     }
 
-    /// Creates the record of a product of this folder made by `command`.
+    /// Creates the record of a product of this folder that `command` makes.
     ///
-    /// `None` if the folder has no contents.
+    /// `None` if the folder has no `contents.toml`.
     pub fn derive(&self, product: &str, command: String) -> Option<Derivation> {
         let (from, made_from) = (self.digest()?, self.shortfall());
         let (product, files) = (product.to_owned(), BTreeMap::new());
         Some(Derivation { product, command, from, made_from, files })
     }
 
-    /// Returns the outdated products of the folder.
+    /// Returns the records of the existing products that were made from other tables.
     ///
-    /// Each has the command that makes it again.
+    /// A record contains the command that makes the product again.
     pub fn outdated(&self) -> Vec<Derivation> {
         let Some(digest) = self.digest() else { return Vec::new() };
         let all = Derivation::all(&self.folder).into_iter();
@@ -346,19 +349,19 @@ impl VerifiedFolder {
     }
 }
 
-/// Refuses a definition file that is the changed record of a run.
+/// Checks that a definition file is not the changed record of a run.
 ///
 /// # Errors
 ///
 /// If `path` is the record of a run and differs from the record that the run wrote.
 pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     let (Some(name), Some(folder)) = (path.file_name(), path.parent()) else { return Ok(()) };
-    // A copy under another name is accepted as a definition, as the message advises.
+    // Check only a file with the name of the record: a copy under another name may be edited.
     let is_record = name == ResultsFolder::RUN_INFO && path.is_file();
     let stated = is_record.then(|| Contents::stated_in(&ResultsFolder::new(folder))).flatten();
     let expected = stated.and_then(|contents| contents.files.get(ResultsFolder::RUN_INFO).cloned());
     let Some(expected) = expected else { return Ok(()) };
-    // A file that cannot be read may be intact.
+    // Report a file that cannot be read as unreadable, not as edited.
     let found = fs::read(path).map_err(|error| InvalidFolder::unreadable(path, &reason(&error)))?;
     if sha256(found) == expected {
         return Ok(());
@@ -370,7 +373,7 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     Err(InvalidFolder::new(folder.join(ResultsFolder::RUN_INFO), problem))
 }
 
-/// Reads the contents of `folder`. `None` if it holds tables alone.
+/// Reads `contents.toml` of `folder`. `None` if the folder has neither contents nor journal.
 fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
     let repair_command = repair_command(folder.path());
     let path = folder.file(ResultsFolder::CONTENTS);
@@ -385,7 +388,7 @@ fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
         }
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) if error.kind() == ErrorKind::InvalidData => Err(reason(&error)),
-        // A file that cannot be opened may be intact.
+        // Report a file that cannot be opened as unreadable, not as changed.
         Err(error) => return Err(InvalidFolder::unreadable(&path, &reason(&error))),
     };
     parsed.map(Some).map_err(|problem| {
@@ -396,9 +399,9 @@ fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
     })
 }
 
-/// Returns true if the journal in `folder` is longer than `extent`.
+/// Returns true if the journal in `folder` is longer than `extent`, the part in the tables.
 ///
-/// Tables may be copied without their journal.
+/// Returns false if there is no journal, because tables may be copied without it.
 fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, InvalidFolder> {
     let path = folder.journal();
     let Ok(metadata) = fs::metadata(&path) else { return Ok(false) };
@@ -435,7 +438,7 @@ mod tests {
     use super::*;
     use crate::folder::FILES;
 
-    /// Creates a folder with contents that list these files.
+    /// Creates a results folder at `place` with a `contents.toml` that lists `files`.
     fn folder(place: &Path, files: BTreeMap<String, String>) -> ResultsFolder {
         let folder = ResultsFolder::new(place);
         let journal = JournalExtent { bytes: 0, lines: 0, sha256: sha256("") };
@@ -445,9 +448,9 @@ mod tests {
         folder
     }
 
-    /// A folder in place of a file cannot be read, even by root.
+    /// The test replaces the file by a folder, which even root cannot read as a file.
     #[test]
-    fn unreadable_files_are_not_called_changed() {
+    fn unreadable_files_are_not_reported_as_changed() {
         let records = [
             ResultsFolder::CONTENTS.to_owned(),
             ResultsFolder::RUN_INFO.to_owned(),
@@ -475,11 +478,11 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn a_record_that_cannot_be_read_is_not_called_edited() {
+    fn an_unreadable_record_is_not_reported_as_edited() {
         let place = tempfile::tempdir().expect("a folder");
         let written = BTreeMap::from([(ResultsFolder::RUN_INFO.to_owned(), sha256("name"))]);
         let record = folder(place.path(), written).file(ResultsFolder::RUN_INFO);
-        // Reading address zero is an error, even for root.
+        // The link leads to process memory, and reading address zero fails even for root.
         std::os::unix::fs::symlink("/proc/self/mem", &record).expect("writable");
         let message = verify_record(&record).expect_err("unreadable").to_string();
         assert!(message.contains("cannot be read") && !message.contains("edited"), "{message}");

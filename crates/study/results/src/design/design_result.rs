@@ -9,13 +9,13 @@ use super::path_result::{FlexureResult, PunctureResult};
 use super::sample_statistics::SampleStatistics;
 use super::stored_derivatives;
 
-/// Separator of the settings of a design.
+/// Separator between the settings in [`DesignResult::settings`].
 pub const SEPARATOR: char = ' ';
 
 /// All measures and statuses of a solved design, as stored in the journal.
 ///
-/// Its size does not depend on the length of the paths. All numbers are finite, because JSON cannot
-/// represent others. A number that is not finite is stored as a missing value.
+/// The size of a result does not depend on the length of the paths. All numbers are finite, because
+/// JSON cannot represent others. A number that is not finite is stored as a missing value.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DesignResult {
@@ -25,9 +25,9 @@ pub struct DesignResult {
     /// Puncture, if it was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub puncture: Option<PunctureResult>,
-    /// Puncture measures at several critical tilts, if requested.
+    /// Puncture measures at each of several critical tilts, if several tilts were requested.
     ///
-    /// `None` where the path did not reach the tilt.
+    /// `None` if the path did not reach the tilt.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Bending, if it was requested.

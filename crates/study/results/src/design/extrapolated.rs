@@ -1,9 +1,10 @@
-//! Linear extrapolation of a row to a neighbouring design.
+//! Linear extrapolation of a table row to a neighbouring design.
 //!
 //! The derivative of any column follows from extrapolated rows, without a rule per column. For
-//! example, `critical_force_N` is `F* E t²`. If `F*` is 0.4 and falls by 2 per unit of the gap, the
-//! row for a gap larger by 0.001 has `F*` = 0.398, and every column can be computed from that row:
-//! in newtons, per mass, or as a margin. The difference of the column over 0.001 is its derivative.
+//! example, `critical_force_N` is `F* E* L t`. If `F*` is 0.4 and falls by 2 per unit of the gap,
+//! the row for a gap larger by 0.001 has `F*` = 0.398, and every column can be computed from this
+//! row: in newtons, per mass, or as a margin. The difference of a column in the two rows, divided
+//! by 0.001, is its derivative.
 
 use skin::flexure::FlexureMeasures;
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
@@ -16,12 +17,12 @@ use crate::columns::measured_value;
 use crate::columns::measured_value::{MeasuredValue, Value};
 use crate::columns::values::VALUES;
 
-/// Relative step to find the parameters that follow another one.
+/// Relative step of a parameter, to find the parameters that follow from it.
 const STEP: f64 = 1e-6;
 
-/// The one-sided derivative used for extrapolation.
+/// The one-sided derivative that is used for extrapolation.
 ///
-/// Both sides agree except at kinks.
+/// Left- and right-sided derivatives agree except at kinks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlopeSide {
     /// Derivative for decreasing parameters.
@@ -41,18 +42,20 @@ struct MovedParameter<'p> {
 impl DesignRow {
     /// Returns the row of a neighbouring case, extrapolated by the derivatives.
     ///
-    /// It is `m + Σ Δq dm/dq`. Differences of these rows give the derivative of any column,
-    /// whatever function of measures and parameters it is.
+    /// A measure `m` becomes `m + Σ Δq dm/dq` with the changes `Δq` of the parameters. Differences
+    /// of extrapolated rows give the derivative of any column, which may be any function of
+    /// measures and parameters.
     ///
-    /// A measure that depends on a changed parameter has no value in the row if it has no
-    /// derivatives, or if it is at a kink without the requested side. If it has derivatives but
-    /// none with respect to the parameter, it does not depend on it. Counts are unchanged.
+    /// A measure that depends on a changed parameter loses its value if it has no derivatives, or
+    /// if it has a kink and the derivative on `side` is missing. A measure with derivatives, but
+    /// none with respect to a changed parameter, does not depend on this parameter. Counts are
+    /// unchanged.
     #[must_use]
     pub fn extrapolated(&self, to: &Case, side: SlopeSide) -> Self {
         self.changed(to, &changes(&self.case, to), side)
     }
 
-    /// Returns the parameters that a change of one `parameter` changes, itself included.
+    /// Returns the parameters that change if `parameter` changes, including `parameter` itself.
     ///
     /// [`Self::extrapolated_by`] needs derivatives with respect to these parameters only.
     pub fn changed_by(case: &Case, parameter: &'static Parameter) -> Vec<&'static Parameter> {
@@ -62,13 +65,13 @@ impl DesignRow {
         neighbours(case, parameter).flat_map(|to| changed_parameters(case, &to)).collect()
     }
 
-    /// Returns the extrapolated row of the case with `parameter` larger by `by`.
+    /// Returns the row extrapolated to the case with `parameter` increased by `by`.
     ///
     /// `None` if the parameter is not a number.
     pub fn extrapolated_by(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
         let to = parameter.moved(&self.case, by)?;
-        // A length in mm or a thickness changes lengths over the thickness, and measures have
-        // derivatives with respect to these.
+        // A length in mm or a thickness changes lengths over the thickness. Measures have
+        // derivatives with respect to lengths over the thickness only.
         let changes = if parameter.has(Role::Continuous) {
             vec![MovedParameter { parameter, by }]
         } else {
@@ -90,9 +93,9 @@ impl DesignRow {
         row
     }
 
-    /// Returns the row with another value of a continuous measure.
+    /// Returns the row with `value` as the value of the continuous measure `measure`.
     ///
-    /// `None` if no such measure has that name, or it was not requested.
+    /// `None` if there is no continuous measure of this name, or it was not requested.
     pub fn with_value(&self, measure: &str, value: f64) -> Option<Self> {
         let mut row = self.clone();
         *row.result.value_mut(measure)? = Some(value);
@@ -123,7 +126,7 @@ fn changes(from: &Case, to: &Case) -> Vec<MovedParameter<'static>> {
         .collect()
 }
 
-/// Returns the extrapolated value of a measure with these derivatives.
+/// Returns the extrapolated value of the measure with these derivatives.
 fn extrapolated(
     derivatives: &[ParameterDerivative],
     changes: &[MovedParameter<'_>],
@@ -140,7 +143,7 @@ fn extrapolated(
 }
 
 impl SlopeSide {
-    /// Returns the derivative on this side.
+    /// Returns the derivative on this side, for a change `by` of the parameter.
     fn slope(self, derivative: &ParameterDerivative, by: f64) -> Option<f64> {
         let is_left = self == Self::Left || (self == Self::Ahead && by < 0.0);
         if is_left { derivative.left } else { derivative.right }
@@ -148,7 +151,7 @@ impl SlopeSide {
 }
 
 impl DesignResult {
-    /// Returns the result without the values that depend on the changes.
+    /// Returns the result without the values that depend on the changed parameters.
     fn without_dependents(&self, changes: &[MovedParameter<'_>]) -> Self {
         let depends = |measure: Measure| {
             let sections = measure.sections();
@@ -166,7 +169,7 @@ impl DesignResult {
             result.coverage = None;
         }
         if depends(Measure::Puncture) {
-            // Measures at lower tilts have no derivatives.
+            // Measures at tilts below the critical tilt have no derivatives.
             result.at_tilts.clear();
             let of_puncture =
                 VALUES.iter().filter(|value| value.measure() == Some(Measure::Puncture));
@@ -179,21 +182,21 @@ impl DesignResult {
         if depends(Measure::Flexure)
             && let Some(flexure) = &mut result.flexure
         {
-            // Whether contacts close is not a number, so no derivative extrapolates it.
+            // Keep the statement whether contacts close: it is not a number and has no derivative.
             let contact = flexure.measures.contact;
             flexure.measures = FlexureMeasures { contact, ..FlexureMeasures::default() };
         }
         result
     }
 
-    /// Returns a continuous measure by name.
+    /// Returns the value of a continuous measure by name.
     ///
-    /// `None` if there is none, or it was not requested.
+    /// `None` if there is no such measure, or it was not requested.
     fn value_mut(&mut self, measure: &str) -> Option<&mut Option<f64>> {
         self.number_mut(measured_value(measure)?)
     }
 
-    /// Returns a continuous measure; `None` if it was not requested.
+    /// Returns the value of the continuous measure `of`; `None` if it was not requested.
     fn number_mut(&mut self, of: &MeasuredValue) -> Option<&mut Option<f64>> {
         match of.value {
             Value::Coverage => Some(&mut self.coverage),

@@ -1,4 +1,4 @@
-//! Failures as data: measure without value, reason, and end of the path.
+//! Failures of a design: the measure without a value, the reason, and the end of the path.
 
 use serde::{Deserialize, Serialize};
 use skin::Iteration;
@@ -20,7 +20,7 @@ pub struct Failure {
     pub end: PathEnd,
 }
 
-/// Last equilibrium of a path that stopped early, and the last iteration after it.
+/// Last equilibrium of a path that stopped early, and the last Newton iteration after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PathEnd {
@@ -32,11 +32,11 @@ pub struct PathEnd {
     pub displacement: Option<f64>,
     /// Number of closed contacts.
     pub contacts: Option<usize>,
-    /// Step of the path that failed.
+    /// Step at which the path stopped.
     pub step: Option<usize>,
-    /// Last Newton iteration of that step.
+    /// Last Newton iteration of this step.
     pub iteration: Option<usize>,
-    /// Largest scaled residual of that iteration.
+    /// Largest scaled residual of this iteration.
     pub residual: Option<f64>,
 }
 
@@ -73,7 +73,7 @@ impl PathEnd {
         }
     }
 
-    /// Adds the last iteration of the path.
+    /// Adds the last iteration of `history`.
     fn after(self, history: &[Iteration]) -> Self {
         let Some(last) = history.last() else { return self };
         Self {

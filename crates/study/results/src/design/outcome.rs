@@ -12,7 +12,7 @@ use solver::Termination;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// Every value exists.
+    /// All values of the measure exist.
     Complete,
     /// Newton's method did not converge at the smallest step.
     NoConvergence,
@@ -44,11 +44,11 @@ pub enum Outcome {
     ///
     /// In bending: the moment of several gaps in series reached its maximum.
     LimitPoint,
-    /// A needle pushed a scale straight down and tilted none critically.
+    /// The needle pushed a scale straight down, and no scale tilted critically.
     Untilted,
-    /// An elastic scale bent so far that linear bending ends.
+    /// An elastic scale bent by more than 5°, the limit of the linear beam.
     Bent,
-    /// The scales of a strip locked.
+    /// The scales of a strip locked: only the membrane still deformed.
     Locked,
     /// The path has no quasi-static continuation.
     ///
@@ -105,7 +105,7 @@ impl Outcome {
         }
     }
 
-    /// Returns the meaning of the outcome, in half a sentence.
+    /// Returns the meaning of the outcome, as a phrase without a full stop.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Complete => "the path reached its end and every check holds",
@@ -131,7 +131,7 @@ impl Outcome {
                 "the scales of a strip lock: the moment grows, and only the membrane still deforms, beyond the range of its law"
             }
             Self::Jumps => {
-                "no quasi-static continuation: contacts can neither stick nor slip, or the path goes to and fro without progress; the skin jumps"
+                "no quasi-static continuation: contacts can neither stick nor slip, or the path oscillates without progress; the skin jumps"
             }
             Self::Calibration => "the calibration of the substrate springs failed",
             Self::Internal => "an error of the program; please report the design",
@@ -141,8 +141,10 @@ impl Outcome {
             Self::LimitPoint => {
                 "load, depth and tilt decreased together, and the path ends before any of them recovers; in bending, the moment reached its maximum, beyond which a single gap bends"
             }
-            Self::Untilted => "a needle pushes a scale straight down and tilts none critically",
-            Self::Bent => "an elastic scale bends by more than 5°, where linear bending ends",
+            Self::Untilted => {
+                "the needle pushes a scale straight down, and no scale tilts critically"
+            }
+            Self::Bent => "an elastic scale bends by more than 5°, the limit of the linear beam",
         }
     }
 }
@@ -180,8 +182,8 @@ impl From<Termination> for Outcome {
             Termination::Jumps | Termination::NoProgress => Self::Jumps,
             Termination::NotFinite => Self::NotFinite,
             Termination::Unloaded => Self::Unloaded,
-            // Paths that reached their target have not stopped early, and results of interrupted
-            // paths are discarded, so these are internal errors.
+            // A path that reached its target has not stopped early, and the result of an
+            // interrupted path is discarded, so both are internal errors.
             Termination::Reached | Termination::Interrupted => Self::Internal,
         }
     }

@@ -15,11 +15,11 @@ pub struct ParameterDerivative {
     pub at: f64,
     /// Value of the measure.
     pub value: f64,
-    /// Derivative where the parameter decreases.
+    /// Left-sided derivative: for a decreasing parameter.
     pub left: Option<f64>,
-    /// Derivative where the parameter increases.
+    /// Right-sided derivative: for an increasing parameter.
     pub right: Option<f64>,
-    /// Change of the measure at a kink. `None` if both derivatives are equal.
+    /// Cause of a kink. `None` if both one-sided derivatives are equal.
     pub kink: Option<String>,
 }
 
@@ -43,14 +43,14 @@ impl ParameterDerivative {
         if self.kink.is_none() { self.left } else { None }
     }
 
-    /// Returns the elasticity `d ln m / d ln q`.
+    /// Returns the elasticity `d ln m / d ln q` of the measure `m`, for the parameter `q`.
     ///
-    /// `None` at a kink, and where the measure is zero.
+    /// `None` at a kink, or if the measure is zero.
     pub fn elasticity(&self) -> Option<f64> {
         finite(self.derivative()? * self.at / self.value)
     }
 
-    /// Returns a one-sided derivative at a kink, `None` elsewhere.
+    /// Returns the one-sided derivative `side` at a kink, `None` elsewhere.
     pub(crate) fn at_kink(&self, side: Option<f64>) -> Option<f64> {
         side.filter(|_| self.kink.is_some())
     }

@@ -11,7 +11,7 @@ use super::outcome::Outcome;
 pub struct PunctureResult {
     /// Outcome: complete, or why the path stopped.
     pub outcome: Outcome,
-    /// Measures. Those at the end of an incomplete path have no values.
+    /// Measures. The measures at the end of an incomplete path have no values.
     pub measures: puncture::PunctureMeasures,
     /// Number of equilibria of the path.
     pub points: usize,
@@ -34,7 +34,7 @@ pub struct PunctureResult {
 }
 
 impl PunctureResult {
-    /// Creates the result of a puncture without a path.
+    /// Creates the result of a puncture without a path, with `outcome` as the reason.
     pub fn without_path(outcome: Outcome) -> Self {
         Self {
             outcome,
@@ -56,7 +56,7 @@ impl PunctureResult {
 pub struct FlexureResult {
     /// Outcome: complete, or why the path stopped.
     pub outcome: Outcome,
-    /// Measures. Those at the end of an incomplete path have no values.
+    /// Measures. The measures at the end of an incomplete path have no values.
     pub measures: flexure::FlexureMeasures,
     /// Number of equilibria of the path.
     pub points: usize,
@@ -68,7 +68,7 @@ pub struct FlexureResult {
 }
 
 impl FlexureResult {
-    /// Creates the result of bending without a path.
+    /// Creates the result of bending without a path, with `outcome` as the reason.
     pub fn without_path(outcome: Outcome) -> Self {
         let measures = flexure::FlexureMeasures::default();
         Self { outcome, measures, points: 0, iterations: 0, way_back: None }

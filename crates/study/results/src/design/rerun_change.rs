@@ -1,4 +1,4 @@
-//! Values changed by a rerun.
+//! The change of one value by a rerun of a design.
 
 use std::borrow::Cow;
 
@@ -13,10 +13,10 @@ pub struct RerunChange {
     pub design: DesignNumber,
     /// Number of the rerun, from 1.
     pub rerun: u64,
-    /// Settings before and after.
+    /// Settings of the design before and after the rerun.
     pub settings: [String; 2],
-    /// Name of the column. Empty if no value changed.
+    /// Name of the column with the changed value. Empty if no value changed.
     pub column: Cow<'static, str>,
-    /// Cell before and after.
+    /// Cell of the column before and after the rerun.
     pub values: [Cell; 2],
 }

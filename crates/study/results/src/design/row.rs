@@ -1,4 +1,4 @@
-//! Rows of the tables of designs and of failures.
+//! Rows of the tables of designs, failures and derivatives.
 
 use std::borrow::Borrow;
 
@@ -45,7 +45,7 @@ impl DesignRow {
 pub struct DerivativeRow {
     /// Position of the design in the grid.
     pub design: DesignNumber,
-    /// Derivatives with respect to one parameter.
+    /// Derivative of one measure with respect to one parameter.
     pub derivative: ParameterDerivative,
 }
 
@@ -66,12 +66,12 @@ pub struct SolvedDesign {
     pub flexure: Option<Flexure>,
 }
 
-/// Row of `failures.csv`.
+/// Row of `failures.csv`: a design and the reason why one of its measures has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FailureRow {
     /// Row of the design in `designs.csv`.
     pub design: DesignRow,
-    /// Reason why one of the measures of the design has no value.
+    /// Measure without a value, and the reason.
     pub failure: Failure,
 }
 

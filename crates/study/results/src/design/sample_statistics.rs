@@ -12,17 +12,18 @@ pub struct Statistics {
     pub mean: f64,
     /// Quantiles at 5 %, 50 % and 95 %.
     ///
-    /// They are interpolated between the two nearest values ([`quantile_positions`]).
+    /// Each quantile is interpolated between the two nearest values ([`quantile_positions`]).
     pub quantiles: [f64; 3],
 }
 
 /// Names of the quantiles in tables, and their probabilities.
 pub const QUANTILES: [(&str, f64); 3] = [("p05", 0.05), ("p50", 0.5), ("p95", 0.95)];
 
-/// Returns the positions of a quantile in `count` sorted values.
+/// Returns the two positions in `count` sorted values that determine a quantile.
 ///
 /// The result holds the 0-based positions of the two nearest values, and the weight of the second
-/// (type 7 of Hyndman and Fan 1996, doi 10.1080/00031305.1996.10473566). `None` without values.
+/// value (type 7 of Hyndman and Fan 1996, doi 10.1080/00031305.1996.10473566). `None` for a count
+/// of 0.
 pub fn quantile_positions(count: usize, probability: f64) -> Option<([usize; 2], f64)> {
     let position = probability * count.checked_sub(1)? as f64;
     Some(([position.floor() as usize, position.ceil() as usize], position - position.floor()))
@@ -55,7 +56,7 @@ impl Statistics {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SampleStatistics {
-    /// Critical force.
+    /// Puncture force at the critical tilt.
     pub critical_force: Option<Statistics>,
     /// Penetration.
     pub penetration: Option<Statistics>,
@@ -63,7 +64,7 @@ pub struct SampleStatistics {
     pub puncture_failed: Option<usize>,
     /// Flexural compliance.
     pub compliance: Option<Statistics>,
-    /// Range of curvatures over which the gaps of a strip close.
+    /// Difference of the curvatures at which the last and the first gap of a strip close.
     pub closing_range: Option<Statistics>,
     /// Number of samples without bending values.
     pub flexure_failed: Option<usize>,

@@ -1,6 +1,6 @@
-//! Creates the results of solved paths.
+//! Creates the results of solved paths of puncture and bending.
 //!
-//! JSON cannot represent numbers that are not finite, so results do not contain them.
+//! Results contain only finite numbers, because JSON cannot represent others.
 
 use skin::flexure::{self, BentSample, Flexure};
 use skin::puncture::{self, Puncture};
@@ -33,8 +33,8 @@ impl PunctureResult {
             calibration_error: finite(calibration_error),
             weakest: (!puncture.places.is_empty()).then(
                 || match puncture::Weakest::from_positions(&puncture.places) {
-                    // The omitted measures lack the weakest load position even if the search found
-                    // it.
+                    // If all measures were omitted, they lack the weakest load position although
+                    // the search found it.
                     Ok(weakest) if weakest == measures.weakest => Outcome::Complete,
                     Ok(_) => Outcome::NotFinite,
                     Err(status) => status.into(),
@@ -77,7 +77,7 @@ impl FlexureResult {
     }
 }
 
-/// Returns the outcome of an unloading path.
+/// Returns the outcome of an unloading path: complete if the load returned to zero.
 fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
     match back.stop {
         Termination::Unloaded => Outcome::Complete,
@@ -85,10 +85,10 @@ fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
     }
 }
 
-/// Returns outcome and measures.
+/// Returns `outcome` and `measures` if all numbers are finite (`finite` is true).
 ///
-/// If a number is not finite, the outcome is [`Outcome::NotFinite`] unless the path stopped for
-/// another reason, and only the `few` measures are returned.
+/// Otherwise returns `few` as the measures, and [`Outcome::NotFinite`] as the outcome unless the
+/// path stopped for another reason.
 fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
     match outcome {
         _ if finite => (outcome, measures),

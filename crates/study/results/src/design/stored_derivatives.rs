@@ -15,7 +15,7 @@ struct KnownName(&'static str);
 
 impl KnownName {
     fn parse(text: &str) -> Option<Self> {
-        // Derivatives borrow static names, so unknown names are refused.
+        // The names in a derivative are static strings, so refuse a name that is not in the lists.
         let value = VALUES.iter().filter(|value| value.has_derivatives());
         let measure = value.map(|value| value.name).find(|name| *name == text);
         measure.or_else(|| Parameter::named(text).map(|parameter| parameter.key)).map(Self)
@@ -30,12 +30,13 @@ impl<'de> Deserialize<'de> for KnownName {
     }
 }
 
-/// Measures with the same parameters.
+/// Derivatives of several measures with respect to the same parameters.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Matrix {
     /// Keys and values of the parameters.
     by: Vec<(KnownName, f64)>,
+    /// Derivatives of each measure, in the order of the parameters.
     of: Vec<Measure>,
 }
 
@@ -43,19 +44,19 @@ struct Matrix {
 #[derive(Debug, Serialize, Deserialize)]
 struct Measure(KnownName, f64, Vec<Option<f64>>, Vec<Kink>);
 
-/// A kink: index of the parameter, right-sided derivative, and the change.
+/// A kink: index of the parameter, right-sided derivative, and cause.
 #[derive(Debug, Serialize, Deserialize)]
 struct Kink(usize, Option<f64>, String);
 
 impl Matrix {
-    /// Returns true if these derivatives have the parameters of this matrix.
+    /// Returns true if `derivatives` have the parameters of this matrix, with the same values.
     fn fits(&self, derivatives: &[ParameterDerivative]) -> bool {
         // Compare bit by bit: merging nearly equal values would change one of them when read back.
         let parameters = derivatives.iter().map(|d| (d.parameter, d.at.to_bits()));
         self.by.iter().map(|(key, at)| (key.0, at.to_bits())).eq(parameters)
     }
 
-    /// Creates a matrix with the parameters of these derivatives, without measures.
+    /// Creates a matrix with the parameters of `derivatives` and without measures.
     fn of_parameters(derivatives: &[ParameterDerivative]) -> Self {
         let by = derivatives.iter().map(|d| (KnownName(d.parameter), d.at)).collect();
         Self { by, of: Vec::new() }

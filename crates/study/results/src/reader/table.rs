@@ -19,9 +19,9 @@ pub struct Table {
 enum Column {
     /// A column that was not read.
     Unread,
-    /// Numbers, each written as [`number::text`] writes it. NaN for an empty cell.
+    /// Numbers, if [`number::text`] reproduces every cell. NaN represents an empty cell.
     Numbers(Vec<f64>),
-    /// Texts, for all other columns.
+    /// Texts, if the column has any other cell.
     Texts(Texts),
 }
 
@@ -64,7 +64,8 @@ impl Column {
                 if let Some(number) = number_of(cell) {
                     numbers.push(number);
                 } else {
-                    // A word, or a number written by hand: keep its digits.
+                    // The cell is a word, or a number in another notation. Store the whole column
+                    // as texts, so that the cell reads back as written.
                     *self = Self::Texts(numbers.iter().map(|number| text_of(*number)).collect());
                     self.push(cell);
                 }
@@ -103,15 +104,15 @@ fn text_of(number: f64) -> String {
 }
 
 impl Table {
-    /// Creates an empty table with the columns for which `is_read` returns true.
+    /// Creates an empty table that stores the columns for which `is_read` returns true.
     ///
-    /// The first column holds the names of the rows.
+    /// The first column holds the names of the rows and is always stored.
     pub fn new(header: Vec<String>, is_read: impl Fn(&str) -> bool) -> Self {
         let columns = header
             .iter()
             .enumerate()
             .map(|(place, name)| match place {
-                // Names stay texts: `7` and `007` are names of two rows.
+                // Store names as texts, because `7` and `007` are names of different rows.
                 0 => Column::Texts(Texts::default()),
                 _ if is_read(name) => Column::Numbers(Vec::new()),
                 _ => Column::Unread,
@@ -128,7 +129,7 @@ impl Table {
         self.length += 1;
     }
 
-    /// Returns the rows at these positions.
+    /// Returns a table with only the rows at these positions.
     #[must_use]
     pub fn only(&self, rows: &[usize]) -> Self {
         let columns = self.columns.iter().map(|column| column.only(rows)).collect();
@@ -140,7 +141,7 @@ impl Table {
         &self.header
     }
 
-    /// Returns the index of a column.
+    /// Returns the index of the column `name`.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.header.iter().position(|column| column == name)
     }
@@ -158,7 +159,7 @@ impl Table {
         }
     }
 
-    /// Returns a cell, as written.
+    /// Returns the text of a cell.
     pub fn text(&self, row: usize, column: usize) -> Cow<'_, str> {
         self.columns[column].text(row)
     }
@@ -170,7 +171,7 @@ impl Table {
         self.number(row, column).is_none() && self.text(row, column).is_empty()
     }
 
-    /// Returns the number in a cell, if there is one.
+    /// Returns the finite number in a cell, if there is one.
     pub fn number(&self, row: usize, column: usize) -> Option<f64> {
         let number = match &self.columns[column] {
             Column::Unread => return None,
@@ -181,7 +182,9 @@ impl Table {
         number.is_finite().then_some(number)
     }
 
-    /// Returns the numbers of a column, NaN for empty cells. `None` if it holds texts.
+    /// Returns the numbers of a column, with NaN for empty cells.
+    ///
+    /// `None` if the column has texts or was not read.
     pub fn numbers(&self, column: usize) -> Option<&[f64]> {
         match &self.columns[column] {
             Column::Numbers(numbers) => Some(numbers),

@@ -4,17 +4,19 @@ use super::table::Table;
 use crate::columns::{Goal, plain_goal};
 use crate::folder::MEASURE_TABLES;
 
-/// The kept rows of a table, with their positions.
+/// Collects some rows of a long table: equidistant rows, and the best rows by some columns.
 #[derive(Debug)]
 pub(super) struct Thinning {
     /// Distance of the equidistant rows.
     every: usize,
+    /// Position of each kept row in the long table.
     positions: Vec<usize>,
+    /// The kept rows.
     table: Table,
     best: Vec<BestRow>,
 }
 
-/// The best row by one column.
+/// The best row by one column: its value, its position and its cells.
 #[derive(Debug)]
 struct BestRow {
     column: usize,
@@ -23,7 +25,7 @@ struct BestRow {
 }
 
 impl Thinning {
-    /// Creates a thinning of a table with `rows` rows to about `most` rows.
+    /// Prepares to keep about `most` of the `rows` rows of a table.
     ///
     /// `table` is empty and receives the kept rows.
     pub fn new(table: Table, rows: usize, most: usize) -> Self {
@@ -31,14 +33,14 @@ impl Thinning {
             let column = table.column(name)?;
             Some(BestRow { column, goal: plain_goal(name)?, row: None })
         });
-        // A table that is kept whole contains its best rows anyway.
+        // If all rows are kept, the best rows are among them.
         let best = if rows > most { best.collect() } else { Vec::new() };
         // Without a limit `rows` is 0, and every row is kept.
         let every = rows.div_ceil(most.max(1)).max(1);
         Self { every, positions: Vec::new(), table, best }
     }
 
-    /// Keeps the row at `position` if it is due, or the best by a column so far.
+    /// Keeps `row` if `position` is a multiple of the distance, or if the row is the best so far.
     pub fn visit(&mut self, position: usize, row: &csv::StringRecord) {
         for best in &mut self.best {
             best.visit(position, row);
@@ -49,7 +51,7 @@ impl Thinning {
         }
     }
 
-    /// Returns the kept rows, in their order.
+    /// Returns the kept rows in the order of the table, each once.
     pub fn finish(mut self) -> Table {
         if self.best.is_empty() {
             return self.table;
@@ -58,8 +60,7 @@ impl Thinning {
             self.positions.push(position);
             self.table.push(&row);
         }
-        // A row may be kept more than once: as the best by several columns, or at a regular
-        // distance.
+        // Remove duplicates: a row may be equidistant, and the best row by several columns.
         let mut order: Vec<usize> = (0..self.positions.len()).collect();
         order.sort_by_key(|k| self.positions[*k]);
         order.dedup_by_key(|k| self.positions[*k]);

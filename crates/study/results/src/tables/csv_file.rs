@@ -1,4 +1,4 @@
-//! Writes tables as CSV files. Rows become file cells only here.
+//! Writes tables as CSV files.
 
 use std::borrow::Borrow;
 use std::fmt::Write as _;
@@ -13,7 +13,7 @@ use crate::folder::ResultsFolder;
 /// Number of rows that are formatted in memory at a time.
 const PORTION: usize = 1024;
 
-/// A table that grows row by row and becomes visible when it is complete.
+/// A table that is written row by row and appears in the folder when it is complete.
 pub struct CsvFile<'c, R> {
     file: BufWriter<AtomicFile>,
     format: CsvFormat,
@@ -52,7 +52,7 @@ impl<'c, R> CsvFile<'c, R> {
         &self,
         rows: impl IntoIterator<Item = impl Borrow<R>>,
     ) -> Result<Vec<u8>, OutputError> {
-        // Formats in memory without changing the table, so that all threads of a run can do it.
+        // Format in memory and leave the table unchanged, so that several threads can format rows.
         let mut csv = self.format.writer(Vec::new());
         let mut cell = String::new();
         let written = rows.into_iter().try_for_each(|row| {
@@ -67,7 +67,7 @@ impl<'c, R> CsvFile<'c, R> {
         self.text(csv, written)
     }
 
-    /// Appends formatted lines.
+    /// Appends lines that [`Self::lines`] formatted.
     ///
     /// # Errors
     ///
@@ -87,19 +87,20 @@ impl<'c, R> CsvFile<'c, R> {
         self.append(&lines)
     }
 
-    /// Moves the table into place and returns its SHA-256.
+    /// Gives the complete table its final name and returns its SHA-256.
     ///
     /// # Errors
     ///
     /// If the disk cannot be written.
     pub fn finish(self) -> Result<String, OutputError> {
         let path = self.file.get_ref().path().to_owned();
-        // Writes the last bytes and reports a full disk. Dropping the buffer would hide the error.
+        // `into_inner` writes the last bytes and reports a full disk; dropping the buffer would
+        // hide this error.
         let file = self.file.into_inner();
         file.map_err(|error| OutputError::file(&path, error.error()))?.finish()
     }
 
-    /// Returns the text written to memory.
+    /// Returns the bytes that were written to `csv`, or the error of writing them.
     fn text(
         &self,
         csv: csv::Writer<Vec<u8>>,
@@ -114,7 +115,7 @@ impl<'c, R> CsvFile<'c, R> {
     }
 }
 
-/// Writes `rows` as the file `name` in `folder`, in the given format.
+/// Writes `rows` as the file `name` in `folder`, and returns the SHA-256 of the file.
 ///
 /// # Errors
 ///

@@ -30,8 +30,8 @@ pub struct UnknownCsvFormat(String);
 /// Byte-order mark of UTF-8.
 const MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// First character of a marked text.
-// The convention of spreadsheets. Other programs show it, so numbers never have it.
+/// First character of a text that a spreadsheet would otherwise evaluate as a formula.
+// Spreadsheets hide this apostrophe, but other programs show it, so numbers are never marked.
 const TEXT_MARK: char = '\'';
 
 impl CsvFormat {
@@ -68,25 +68,25 @@ impl CsvFormat {
         }
     }
 
-    /// Returns the text of a cell in a file of this format.
+    /// Returns the text `cell` as it is written in a file of this format.
     ///
     /// An apostrophe marks texts that a spreadsheet would evaluate as formulas. [`Self::text`]
-    /// removes it.
+    /// removes this mark.
     pub fn cell(self, cell: &str) -> Cow<'_, str> {
         if needs_mark(cell) {
             return format!("{TEXT_MARK}{cell}").into();
         }
-        // Texts keep their points: `solver.max_step=0,01` would not be a valid setting.
+        // Keep the points of texts: `solver.max_step=0,01` would not be a valid setting.
         let is_decimal = self == Self::ExcelEu && cell.contains('.') && is_number(cell);
         if is_decimal { cell.replace('.', ",").into() } else { cell.into() }
     }
 
-    /// Returns the text that [`Self::cell`] wrote as `cell`.
+    /// Returns the text of the written `cell` without the mark that [`Self::cell`] adds.
     pub fn text(cell: &str) -> &str {
         cell.strip_prefix(TEXT_MARK).filter(|text| needs_mark(text)).unwrap_or(cell)
     }
 
-    /// Detects the format from the first bytes of a file, and the offset of its text.
+    /// Detects the format of a file and the offset of its text from the first bytes.
     ///
     /// The separator in the header decides, because a spreadsheet may add or remove the byte-order
     /// mark with either separator.
@@ -115,15 +115,15 @@ impl CsvFormat {
     }
 }
 
-/// Returns true for a number in digits. `inf` and `nan` are words.
+/// Returns true for a number in digits; `inf` and `nan` count as words.
 fn is_number(cell: &str) -> bool {
     cell.ends_with(|c: char| c.is_ascii_digit()) && cell.parse::<f64>().is_ok_and(f64::is_finite)
 }
 
-/// Returns true for a text that a spreadsheet evaluates, or that reads as a marked text.
+/// Returns true for a text that a spreadsheet evaluates, or that looks like a marked text.
 fn needs_mark(cell: &str) -> bool {
     let text = cell.trim_start_matches(TEXT_MARK);
-    // A single sign is text, such as `-` in place of a unit.
+    // A single sign, such as `-` for a missing unit, is not evaluated.
     text.len() > 1 && text.starts_with(['=', '+', '-', '@', '\t', '\r']) && !is_number(text)
 }
 

@@ -1,4 +1,4 @@
-//! Tables that another program has saved again with the same values.
+//! Recognises tables that another program has saved again with the same values.
 
 use std::iter;
 
@@ -10,14 +10,14 @@ use super::csv_format::CsvFormat;
 /// Separators that spreadsheets write.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
-/// Returns the bytes that squama wrote, if `bytes` hold the same values in another notation.
+/// Returns the bytes that squama wrote, if `bytes` contain the same values in another notation.
 ///
 /// A spreadsheet may add blanks and empty cells, remove leading zeros, and write other quotes, line
 /// ends, separators and notations of numbers. `digest` is the SHA-256 of the bytes as written.
 pub fn as_written(bytes: &[u8], digest: &str) -> Option<Vec<u8>> {
     let text = std::str::from_utf8(bytes).ok()?.trim_start_matches('\u{feff}');
     let rows = rows(text)?;
-    // A spreadsheet reads the number 0007 of a design as 7.
+    // Try several widths of the design numbers, because a spreadsheet replaces 0007 by 7.
     let longest = rows.iter().skip(1).map(|row| row[0].len()).max()?.max(4);
     let widths = iter::once(0).chain(longest..longest + 3);
     widths
@@ -25,7 +25,7 @@ pub fn as_written(bytes: &[u8], digest: &str) -> Option<Vec<u8>> {
         .find(|written| written.as_ref().is_some_and(|written| sha256(written) == digest))?
 }
 
-/// Reads the cells of a table in the plain notation.
+/// Reads the header and rows of a table, with cells in the notation of squama.
 fn rows(text: &str) -> Option<Vec<Vec<String>>> {
     let header = text.lines().next()?;
     let separator =
@@ -50,7 +50,7 @@ fn rows(text: &str) -> Option<Vec<Vec<String>>> {
 
 /// Returns the text of a cell as squama writes it.
 fn cell(text: &str, column: usize, separator: u8) -> String {
-    // The first column holds the numbers of designs, which are names.
+    // Keep the text of the first column: a design number, such as 0007, is a name.
     if column == 0 {
         return text.to_owned();
     }

@@ -1,7 +1,7 @@
-//! An existing table, compared with the rows that its journal gives now.
+//! Compares an existing table with rows that are computed again from the journal.
 //!
-//! The journal can be edited and its checksums renewed. The tables written from the original lines
-//! reveal such an edit.
+//! A journal may be edited, and its checksums renewed. The edit is detected because the tables were
+//! written from the original lines.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -14,17 +14,17 @@ use super::csv_format::CsvFormat;
 use crate::columns::Column;
 use crate::folder::ResultsFolder;
 
-/// A table that was written earlier.
+/// A table that an earlier command wrote, opened for comparison.
 pub struct WrittenTable {
     format: CsvFormat,
     rows: csv::Reader<BufReader<File>>,
 }
 
 impl WrittenTable {
-    /// Opens the table `name` in `folder`. `None` if there is none.
+    /// Opens the table `name` in `folder`. `None` if it does not exist or cannot be read.
     pub fn open(folder: &ResultsFolder, name: &str) -> Option<Self> {
         let path = folder.file(name);
-        // Opening a named pipe may never return.
+        // Open only regular files, because opening a named pipe may never return.
         path.is_file().then_some(())?;
         let mut file = BufReader::new(File::open(path).ok()?);
         let (format, start) = CsvFormat::detect(file.fill_buf().ok()?);
@@ -32,7 +32,7 @@ impl WrittenTable {
         Some(Self { format, rows: format.reader(file) })
     }
 
-    /// Opens the table `name` in `folder`, if its SHA-256 agrees with `stated`.
+    /// Opens the table `name` in `folder` if its SHA-256 agrees with the one in `stated`.
     pub fn as_stated(
         folder: &ResultsFolder,
         name: &str,
@@ -43,9 +43,9 @@ impl WrittenTable {
         (stated.get(name) == Some(&digest)).then_some(table)
     }
 
-    /// Returns the first cells of the rows that differ from the table.
+    /// Returns the first cell of every row that differs from its recomputed row.
     ///
-    /// `row` recomputes a row, and returns `None` for a row that is not compared.
+    /// `row` recomputes the row of a record; `None` excludes the record from the comparison.
     ///
     /// # Errors
     ///

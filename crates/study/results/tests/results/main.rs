@@ -1,10 +1,10 @@
-//! Tests of a results folder: its tables and their columns.
+//! Tests of the tables of a results folder and of their columns.
 
 mod tables;
 
 use sweep::Sweep;
 
-/// Parses the sweep `text`.
+/// Parses the valid definition `text`.
 fn sweep(text: &str) -> Sweep {
     Sweep::parse(text, "x.toml", &[]).expect("a valid sweep")
 }

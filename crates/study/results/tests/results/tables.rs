@@ -1,4 +1,4 @@
-//! Headers of the tables, which other programs rely on.
+//! Tests of the headers of the tables, on which other programs rely.
 
 use results::columns::tables;
 
@@ -29,17 +29,17 @@ fn headers_follow_the_axes_and_measures_of_a_sweep() {
 /// Returns a valid value of a parameter as an axis, in TOML.
 fn axis_value(parameter: &sweep::Parameter) -> String {
     match parameter.section {
-        // No material parameter is given by default.
+        // Material parameters have no default.
         "material" => "1".to_owned(),
         _ if !parameter.is_given(&sweep::Case::default()) => "1".to_owned(),
         _ => parameter.default().to_toml(),
     }
 }
 
-/// Returns true if a length is in the other unit, or a ratio or modulus excludes its alternative.
+/// Returns true if a parameter cannot be given in a sweep with lengths in one unit.
 ///
-/// A length is given in one unit. None in mm can be combined with parameters that define the same
-/// length in other ways.
+/// The unit is mm (`in_mm`) or the thickness. Excluded are lengths in the other unit and the pitch.
+/// Also excluded are ratios of moduli, strengths and force (in mm) or their numerators (otherwise).
 fn is_in_other_unit(parameter: &sweep::Parameter, in_mm: bool) -> bool {
     let has_other_unit = parameter.is_in_mm() || parameter.in_mm().next().is_some();
     let numerators = ["scale_modulus_MPa", "scale_strength_MPa", "bond_strength_MPa", "force_N"];
@@ -51,6 +51,8 @@ fn is_in_other_unit(parameter: &sweep::Parameter, in_mm: bool) -> bool {
 }
 
 /// Returns the columns of a sweep with an axis for every parameter except `excluded`.
+///
+/// Lengths are in mm if `in_mm`, otherwise over the thickness.
 fn columns_without(needle: &str, excluded: [&str; 5], in_mm: bool) -> Vec<String> {
     let chosen = sweep::PARAMETERS
         .iter()
@@ -63,8 +65,9 @@ fn columns_without(needle: &str, excluded: [&str; 5], in_mm: bool) -> Vec<String
 
 /// Three sweeps together have every parameter as an axis.
 ///
-/// These parameters exclude each other: length and number of gaps, critical tilt and friction, the
-/// two units of a depth, radius and curvature. A round tip needs a guided needle without friction.
+/// One sweep cannot have all axes, because some parameters exclude each other: length and number of
+/// gaps, critical tilt and needle friction, radius and curvature, both units of a length. A round
+/// tip needs a guided needle.
 #[test]
 fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     let mut names = columns_without(
@@ -99,9 +102,7 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     assert_eq!(names.len(), count);
 }
 
-/// `force_at_depth` is a column if a depth is given in either unit.
-///
-/// With a material it is also a column in newtons.
+/// With a depth in either unit, `force_at_depth` is a column, and with a material also in newtons.
 #[test]
 fn a_given_depth_adds_the_column_of_its_force() {
     assert!(!headers("name = 'x'").contains("force_at_depth"));
@@ -124,7 +125,7 @@ fn several_load_positions_add_the_columns_of_the_weakest() {
     assert!(results::measurement_conditions("weakest_force").contains(&"places"));
 }
 
-/// Each of several critical tilts or frictions has its columns, after the others.
+/// The columns of the tilts or frictions follow all other columns.
 #[test]
 fn several_critical_tilts_add_a_column_for_each() {
     let added = |text: &str| {
@@ -132,7 +133,7 @@ fn several_critical_tilts_add_a_column_for_each() {
         let added = plain
             .lines()
             .zip(with.lines())
-            .map(|(plain, with)| with.strip_prefix(plain).expect("behind the others").to_owned());
+            .map(|(plain, with)| with.strip_prefix(plain).expect("after the others").to_owned());
         added.collect::<Vec<_>>()
     };
     let force = ",critical_force_at_5deg,critical_force_at_10.5deg";
@@ -153,9 +154,9 @@ fn several_critical_tilts_add_a_column_for_each() {
     assert_eq!(added("puncture.needle_friction = 0.1").concat(), "");
 }
 
-/// With a thickness every design has each length in mm once.
+/// If the thickness is given, each length in mm is a column once, also if the length is an axis.
 ///
-/// No two columns distinguish the same parameter.
+/// The lengths in mm do not count as further parameters that distinguish designs.
 #[test]
 fn a_thickness_adds_the_columns_of_lengths_in_mm() {
     let designs = |text: &str| headers(text).lines().next().expect("designs.csv").to_owned();

@@ -1,4 +1,4 @@
-//! Synthetic results of any size, without a run.
+//! Writes synthetic results of any size, without solving designs.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -17,8 +17,8 @@ pub enum Criteria {
 
 /// Writes `designs.csv` of a synthetic run of `50 × 50 × slants` designs.
 ///
-/// Every column has cells; some designs of small slant have no coverage. `seed` changes the values
-/// alone.
+/// Every column has cells. Designs with a slant below 5° have no coverage. `seed` changes only the
+/// values of the criteria.
 pub fn write_results(folder: &Path, slants: u32, criteria: Criteria, seed: u64) {
     let text = format!(
         "name = 'x'\ndesigns.gap_over_t = {{ from = 0.02, to = 1, step = 0.02 }}\n\
@@ -55,7 +55,7 @@ fn values(criteria: Criteria, index: u64, seed: u64) -> [f64; 4] {
     match criteria {
         Criteria::Independent => random,
         Criteria::Conflicting => {
-            // On a sphere no point is larger in every coordinate.
+            // The criteria are points of a sphere, where no point is larger in all coordinates.
             let norm = random.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
             let [coverage, force, resistance, compliance] = random.map(|x| x / norm);
             [coverage, force, 1.0 / resistance, compliance]

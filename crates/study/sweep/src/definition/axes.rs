@@ -1,4 +1,4 @@
-//! Reads the axes of a grid: numbers, lists, ranges, and their order.
+//! Reads the axes of a grid from numbers, lists and ranges, and orders them.
 
 use std::collections::HashSet;
 
@@ -13,7 +13,7 @@ use text::toml_source::{self, KeyValues, Value};
 
 /// The axes of every grid, with the values of the paper as defaults.
 ///
-/// They are a text, so that these ranges give the same decimals as typed ones.
+/// The axes are a TOML text, so that its ranges give the same decimals as ranges in a file.
 const PAPER: &str = "
 gap_over_t = { from = 0.1, to = 1, step = 0.1 }
 length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]
@@ -57,7 +57,8 @@ pub(crate) fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Sc
 
 /// Returns the index of the first value that equals an earlier one up to round-off.
 fn repeated(values: &[Scalar]) -> Option<usize> {
-    // Sort numbers: comparing each value with all earlier ones took minutes for a long list.
+    // Sort the numbers, because comparing each value with all earlier ones takes minutes for a long
+    // list.
     let numbers = values.iter().enumerate();
     let mut numbers: Vec<(f64, usize)> =
         numbers.filter_map(|(index, value)| Some((value.number()?, index))).collect();
@@ -66,7 +67,7 @@ fn repeated(values: &[Scalar]) -> Option<usize> {
     let equal_number = pairs.map(|pair| pair[0].1.max(pair[1].1)).min();
     let mut seen = HashSet::with_capacity(values.len() - numbers.len());
     let equal_text = values.iter().enumerate().find(|(_, value)| {
-        // Counts and words are exact.
+        // Counts and words have no round-off.
         value.number().is_none() && !seen.insert(value.to_string())
     });
     equal_number.into_iter().chain(equal_text.map(|(index, _)| index)).min()
@@ -82,14 +83,15 @@ fn read_range(
         return Err(wrong(format!("words have no range, expected {}", parameter.expected())));
     }
     let [from, to, step] = range_values(entries).map_err(&wrong)?;
-    // Both ends within the bounds implies that all values are, because the bounds are an interval.
+    // If both ends are within the bounds, so are all values between, because the bounds are an
+    // interval.
     parameter.read(from)?;
     parameter.read(to)?;
     let [from, to, step] = [decimal(from), decimal(to), decimal(step)];
     let (from, to, step) = (from.map_err(&wrong)?, to.map_err(&wrong)?, step.map_err(&wrong)?);
     let [broken_from, broken_to, broken_step] =
         [from, to, step].map(|number| number.to_usize().is_none());
-    // A step that is not positive is reported separately.
+    // `decimal::range` refuses a step that is not positive, so do not report it as a fraction.
     let has_broken_step = step.to_f64() > 0.0 && broken_step;
     if parameter.takes_counts() && (broken_from || broken_to || has_broken_step) {
         return Err(wrong("has fractions, expected whole numbers".to_owned()));
@@ -126,8 +128,9 @@ fn decimal(value: &Value) -> Result<Decimal, String> {
 
 /// Returns `written` with the missing default axes, in the order of variation.
 ///
-/// Default axes come first (slowest), then the axes as written, and the slant last. A default axis
-/// may be replaced by another parameter, such as the gap by a pitch.
+/// Default axes that are not written come first and vary slowest. The written axes follow in their
+/// order, except the slant, which is last. A default axis is omitted if a written parameter
+/// determines its parameter, as a pitch determines the gap.
 pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
     let mut axes = paper();
     axes.retain(|axis| {
@@ -141,7 +144,9 @@ pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
     axes
 }
 
-/// Returns the axes of the paper. A test checks that none is lost.
+/// Returns the axes of [`PAPER`].
+///
+/// Invalid entries are skipped; a test checks that there are none.
 fn paper() -> Vec<Axis> {
     let table = toml_source::parse(PAPER, "the paper sweep").unwrap_or_default();
     table

@@ -1,18 +1,18 @@
-//! Reads the table `[tolerance]`.
+//! Reads the section `[tolerance]`: the manufacturing deviation of each parameter.
 
 use super::invalid::Problem;
 use crate::deviation::{BatchDeviation, Deviation};
 use crate::parameter::{Parameter, Role, WrongValue};
 use text::toml_source::{KeyValue, KeyValues, Value};
 
-/// Keys of a deviation.
+/// Keys in the table of a deviation.
 const KEYS: [&str; 3] = ["batch_sd", "batch_within", "scale_sd"];
 
 /// Description of a deviation for messages.
 const EXAMPLE: &str =
     "e.g. { batch_sd = 0.02 }, { batch_within = 0.05 } or { batch_sd = 0.02, scale_sd = 0.01 }";
 
-/// Reads the deviation in an entry of the table.
+/// Reads the deviation in `entry`, an entry of the section.
 pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
     let Some(parameter) = Parameter::named(&entry.key).filter(|p| p.has(Role::Made)) else {
         return Err(unknown(entry));
@@ -44,7 +44,7 @@ pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
     Ok(Deviation { parameter, batch, scale_sd })
 }
 
-/// Returns the number of a key, if the key exists.
+/// Returns the positive number of `key`; `None` if `entries` do not contain the key.
 fn number(entries: &KeyValues, key: &str) -> Result<Option<f64>, Problem> {
     let Some(entry) = entries.iter().find(|entry| entry.key == key) else { return Ok(None) };
     let number = match &entry.value {

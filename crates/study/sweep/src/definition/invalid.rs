@@ -15,7 +15,7 @@ pub enum InvalidDefinition {
     Unreadable {
         /// Name of the file.
         file: String,
-        /// Message of the operating system.
+        /// Reason, e.g. the message of the operating system.
         reason: String,
     },
     /// The file is not TOML.
@@ -42,7 +42,7 @@ impl InvalidDefinition {
         if errors.is_empty() { Ok(()) } else { Err(Self::several(errors)) }
     }
 
-    /// Combines errors, of which there is at least one.
+    /// Combines one or more errors into one error.
     pub fn several(mut errors: Vec<Self>) -> Self {
         if errors.len() == 1 { errors.swap_remove(0) } else { Self::Several(errors) }
     }
@@ -103,7 +103,7 @@ pub enum Problem {
         "cannot be combined with {other} at {place}: pitch = base + gap; keep two of gap, length and pitch"
     )]
     Pitch {
-        /// One of the other keys.
+        /// Key of the gap or the length.
         other: String,
         /// Position of the other key.
         place: Place,
@@ -117,9 +117,9 @@ pub enum Problem {
         beside: String,
         /// Key of the resulting ratio.
         key: &'static str,
-        /// Value of that parameter.
+        /// Value of the resulting ratio.
         found: String,
-        /// Accepted values of that parameter.
+        /// Accepted values of the ratio.
         expected: String,
     },
     /// Another key is required for the unit of a deviation or a length.
@@ -130,7 +130,7 @@ pub enum Problem {
     StepOrder {
         /// Smallest step.
         value: String,
-        /// Key and value of the other step, which is smaller.
+        /// Key and value of the other step, which is smaller than the smallest step.
         other: String,
     },
     /// The grid is too large.
@@ -138,7 +138,7 @@ pub enum Problem {
     TooManyDesigns(#[from] TooManyDesigns),
 }
 
-/// Creates the error of the key at `place`.
+/// Creates the error for `key` at `place` in the definition.
 pub fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
     let (place, key) = (place.clone(), key.to_owned());
     InvalidDefinition::Refused { place, key, problem: Box::new(problem.into()) }

@@ -38,15 +38,16 @@ fn check_load_position(
     match positions.iter().find(|x| !given.put(&case, **x).has_valid_load_position()) {
         Some(position) => Err(Problem::Value(WrongValue::OutOfRange {
             found: position.to_string(),
-            expected: "a number of at least 0 and at most 1; beyond, between two scales, only with puncture.needle_radius_over_t".to_owned(),
+            expected: "a number of at least 0 and at most 1; a load above 1, between two scales, needs puncture.needle_radius_over_t".to_owned(),
         })),
         None => Ok(()),
     }
 }
 
-/// Minimum radius of a body, over the thickness and in mm.
+/// Minimum radius of a body, over the thickness (first) and in mm (second).
 ///
-/// The radius is at least the thickness of the scales, which may be small in mm.
+/// The radius must be at least the thickness of the scales. The minimum in mm is small, because the
+/// thickness may be small.
 const LEAST_RADIUS: [f64; 2] = [1.0, 1e-3];
 
 /// Refuses a radius near zero, and a variable with a range that contains zero.
@@ -79,8 +80,8 @@ fn check_radius(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Resul
 
 /// Checks the parameter `of`, which is computed from `given` and the parameter `unit`.
 ///
-/// It is monotonic in both, and in the gap, length and base for a pitch, so checking the corners of
-/// their ranges suffices.
+/// `of` is monotonic in `given` and `unit`; if `given` is a pitch, also in gap, length and base. So
+/// checking the corners of the ranges of these parameters suffices.
 fn check_one(
     given: &Parameter,
     (of, unit): (&'static Parameter, &str),
@@ -115,7 +116,9 @@ fn check_one(
     })
 }
 
-/// Returns the extreme values of an axis or its variable.
+/// Returns the smallest and the largest value of an axis, or of the variable on this axis.
+///
+/// For words and lists of a variable, returns all values.
 fn ends(axis: &Axis, variables: &[Variable]) -> Vec<Scalar> {
     let own = variables.iter().find(|variable| variable.parameter() == axis.parameter());
     match own.map(Variable::values) {

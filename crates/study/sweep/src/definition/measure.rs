@@ -6,7 +6,7 @@ use super::invalid::Problem;
 use crate::parameter::{WrongValue, any_of};
 use text::toml_source::Value;
 
-/// A measure of a sweep.
+/// A group of results that is computed for every design of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Measure {
@@ -81,8 +81,8 @@ impl Measure {
             let expected = "sensitivity together with a measure that has derivatives".to_owned();
             return Err(WrongValue::not_accepted(value, expected).into());
         }
-        // The order has no meaning. Sort, so that a journal treats both orders as the same
-        // definition.
+        // Sort the measures, so that a journal treats definitions that differ only in the order of
+        // the measures as the same definition.
         measures.sort();
         Ok(measures)
     }

@@ -18,12 +18,12 @@ use crate::variable::{Variable, VariableValues};
 use text::number;
 use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
-/// Maximum number of refused keys.
+/// Number of errors at which reading stops.
 ///
-/// Reading stops there, so that a file in another format does not print thousands of errors.
+/// Otherwise, a file in another format would print thousands of errors.
 const MOST: usize = 50;
 
-/// A reader of definitions, with the accepted keys and the errors so far.
+/// Collects the accepted keys of a definition and the errors of the refused keys.
 #[derive(Debug, Default)]
 pub(crate) struct Reader {
     name: Option<String>,
@@ -66,7 +66,7 @@ impl Reader {
     }
 
     fn read_name(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        // A refused name must not be reported as missing too.
+        // Insert an empty name first, so that a refused name is not also reported as missing.
         let name = self.name.insert(String::new());
         *name = name_of(&entry.value)
             .map_err(|problem| refuse(&entry.place, &entry.key, Problem::Value(problem)))?;
@@ -99,7 +99,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Sets the values of materials and body that the definition does not give otherwise.
+    /// Sets the values of the named materials and body that the definition does not give itself.
     fn supply_named(&mut self) {
         for (named, place) in std::mem::take(&mut self.named) {
             for (key, value) in named.values {
@@ -119,7 +119,7 @@ impl Reader {
         self.entries(entry, |reader, entry| reader.parameter(section, entry))
     }
 
-    /// Reads the entries of a section, one by one.
+    /// Reads the entries of a section by `understand`, one by one, and collects their errors.
     fn entries(
         &mut self,
         section: &KeyValue,
@@ -189,11 +189,11 @@ impl Reader {
     /// Returns the sweep after all keys of `file` have been read, or all errors.
     pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
         self.supply_named();
-        // In addition to a gap, the pitch determines the length of a scale.
+        // If a gap is also given, the pitch determines the length of a scale.
         self.case.in_mm.pitch_determines_length = self.gives(key::PITCH) && self.gives(key::GAP);
         let wrong_together = self.wrong_together(file);
         self.refused.extend(wrong_together);
-        // The following checks need designs, which exist only for keys without contradictions.
+        // The checks below need designs, which can be created only from keys without errors.
         InvalidDefinition::refuse_any(std::mem::take(&mut self.refused))?;
         let written: Vec<_> = self.written().map(|(k, p, place)| (k, p, place.clone())).collect();
         let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
@@ -234,9 +234,9 @@ impl Reader {
         wrong
     }
 
-    /// Returns an error for every variable with a fixed value.
+    /// Returns an error for every variable that the definition also fixes.
     ///
-    /// The value may be given directly or by an alternative.
+    /// A variable is fixed by a value of its parameter or of an alternative.
     fn fixed_variables(&self) -> impl Iterator<Item = InvalidDefinition> {
         let variables = self.variables.iter().enumerate();
         variables.filter_map(|(k, (variable, place))| {
@@ -259,7 +259,9 @@ impl Reader {
         })
     }
 
-    /// Returns an error for every deviation without the required material or thickness.
+    /// Returns an error for every deviation that requires a missing key.
+    ///
+    /// For example, a deviation in mm requires the thickness.
     fn deviations_without_unit(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.deviations.iter().filter_map(|(deviation, place)| {
             let needed = deviation.needs().find(|needed| !self.gives(needed))?;
@@ -281,10 +283,10 @@ impl Reader {
         })
     }
 
-    /// Refuses alternatives that are both given.
+    /// Refuses two alternative parameters that are both given.
     ///
-    /// Examples are the number of gaps with the length of the strip, and friction with the critical
-    /// tilt.
+    /// Examples are the number of gaps and the length of the strip, and the friction and the
+    /// critical tilt of a free needle.
     fn check_alternatives(&self) -> Result<(), InvalidDefinition> {
         for (parameter, place) in &self.shared {
             let gives = !matches!(parameter.get(&self.case), Scalar::Word(_));
@@ -330,7 +332,8 @@ impl Reader {
 
     /// Returns the values of a parameter, its dotted key and its position in the definition.
     ///
-    /// For a range these are its two ends.
+    /// The values of a variable with bounds are the two bounds. `None` if the definition does not
+    /// give the parameter.
     fn values(&self, key: &str) -> Option<(Vec<Scalar>, String, &Place)> {
         let (path, parameter, place) = self.written().find(|(_, p, _)| p.key == key)?;
         let axis = self.axes.iter().find(|written| written.axis.parameter() == parameter);
@@ -361,7 +364,7 @@ impl Reader {
         Err(refuse(place, &key, Problem::Needs(needed)))
     }
 
-    /// Returns true if a parameter has a value of a kind.
+    /// Returns true if `kind` is true for any value that the definition gives to a parameter.
     fn may_be(&self, key: &str, kind: fn(&Scalar) -> bool) -> bool {
         self.values(key).is_some_and(|(values, ..)| values.iter().any(kind))
     }
@@ -392,12 +395,10 @@ impl Reader {
         })
     }
 
-    /// Returns an error for every numerator of a ratio without its denominator.
+    /// Returns an error for every numerator of a ratio with a missing modulus as denominator.
     ///
-    /// The denominator is a modulus.
-    ///
-    /// Measures use the ratios of a modulus or strength of the scales to the modulus of the
-    /// substrate or of the membrane.
+    /// Numerators are the modulus of the scales, strengths and the force; denominators are the
+    /// moduli of substrate and membrane. Only ratios that the requested measures use are checked.
     fn ratios_without_modulus(&self) -> impl Iterator<Item = InvalidDefinition> {
         let measures = self.measures.as_deref().unwrap_or(&Measure::USUAL);
         self.written().filter_map(move |(key, parameter, place)| {
@@ -416,9 +417,9 @@ impl Reader {
         Some(refuse(place, &key, Problem::Needs(format!("material.{}", key::THICKNESS))))
     }
 
-    /// Refuses a parameter if an alternative has a value, too.
+    /// Refuses a parameter if an alternative also has a value.
     ///
-    /// `gives` is false if the value of the parameter is a word that leaves it to the alternative.
+    /// `gives` is false if the value of the parameter is a word, which selects the alternative.
     fn check_alternative(
         &self,
         parameter: &Parameter,
@@ -434,7 +435,7 @@ impl Reader {
         Err(refuse(place, &parameter.path(), problem))
     }
 
-    /// Returns true if all designs have a word, such as `auto`, for a parameter.
+    /// Returns true if all designs have a word, such as `auto`, as the value of a parameter.
     fn leaves_open(&self, parameter: &Parameter) -> bool {
         let is_axis = self.axes.iter().any(|written| written.axis.parameter() == parameter);
         !is_axis && matches!(parameter.get(&self.case), Scalar::Word(_))
@@ -458,19 +459,19 @@ impl Reader {
         Ok(())
     }
 
-    /// Returns the smallest and the largest value of a number.
+    /// Returns the smallest and the largest value of a numeric parameter over all designs.
     fn span(&self, key: &str) -> (f64, f64) {
         let axis = self.axes.iter().find(|written| written.axis.parameter().key == key);
         let shared =
             || Parameter::named(key).and_then(|parameter| parameter.get(&self.case).number());
         axis.map_or_else(
-            // Comparisons with `NaN` are false, so a missing number is not refused.
+            // Comparisons with `NaN` are false, so the caller does not refuse a missing number.
             || shared().map_or((f64::NAN, f64::NAN), |number| (number, number)),
             |written| written.axis.span(),
         )
     }
 
-    /// Returns the written parameters with their dotted keys and positions.
+    /// Returns the parameters that the definition gives, with their dotted keys and positions.
     fn written(&self) -> impl Iterator<Item = (String, &'static Parameter, &Place)> {
         let shared = self.shared.iter().map(|(p, place)| (p.path(), *p, place));
         let axes = self.axes.iter().map(|WrittenAxis { axis, place }| {
@@ -538,7 +539,7 @@ fn is_device(name: &str) -> bool {
         || number.is_some_and(|n| n.chars().count() == 1 && "123456789¹²³".contains(n))
 }
 
-/// Returns a name that is a valid folder name on any system.
+/// Returns the text in `value` if it is a valid folder name on any operating system.
 fn name_of(value: &Value) -> Result<String, WrongValue> {
     match value {
         Value::Text(name)

@@ -70,14 +70,14 @@ fn section_of<'k>(about: &str, keys: impl Iterator<Item = (&'k str, Value)>) -> 
 /// Returns the schema of the names of materials or bodies.
 fn names_schema(NameKey { section, key, known }: &NameKey) -> Value {
     let names: Vec<&str> = known.iter().map(|known| known.name).collect();
-    // Editors complete the names of the list; the parser accepts them in any case.
+    // Editors complete the names of the enumeration; the pattern accepts upper and lower case.
     json!({
         "anyOf": [{ "enum": names }, { "type": "string", "pattern": in_any_case(&names) }],
         "description": format!("supplies values that the definition does not give ({section}.{key})"),
     })
 }
 
-/// Returns a regular expression of words in any case.
+/// Returns a regular expression that matches any of `words` in upper or lower case.
 fn in_any_case(words: &[&str]) -> String {
     let letters = words.join("|").chars().fold(String::new(), |letters, c| {
         if c.is_ascii_alphabetic() {

@@ -10,10 +10,11 @@ use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
 /// Maximum number of parts of a dotted key.
 ///
-/// Valid keys have two; the margin lets the message name a mistyped key.
+/// Valid keys have one or two parts. Longer keys up to this limit are parsed, so that the error of
+/// the unknown key can suggest a known key.
 const DEEPEST: usize = 8;
 
-/// A key and the value that replaces the value in the file.
+/// A key with a value that replaces the value in the file.
 ///
 /// ```
 /// use sweep::Setting;
@@ -47,15 +48,15 @@ impl Setting {
         Self::from_option(&format!("--set {text}"), text)
     }
 
-    /// Parses a setting like [`Self::parse`].
+    /// Parses the setting `text` of the command-line option `option`, like [`Self::parse`].
     ///
-    /// Errors name `option` as the user typed it.
+    /// Messages show `option`, which is the option with its setting as the user typed them.
     ///
     /// # Errors
     ///
     /// As [`Self::parse`].
     pub fn from_option(option: &str, text: &str) -> Result<Self, InvalidSetting> {
-        // An argument may have several lines, but a message has one.
+        // An argument may have several lines, but a message must have one line.
         let place = Place::Argument(Arc::from(text::one_line(option)));
         let refuse = |problem: String| InvalidSetting { place: place.clone(), problem };
         // Split at the first `=`: a table or a text may contain more of them.
@@ -71,7 +72,7 @@ impl Setting {
         let value = toml_source::parse_argument(value, &place).map_err(|message| {
             refuse(format!("`{}` is not a TOML value ({message})", value.trim()))
         })?;
-        // `material=PLA` must not replace the section.
+        // `material=PLA` sets `material.scale`; it must not replace the whole section.
         if let [section] = path.as_slice()
             && let Some(name) = short_name_key(section)
             && matches!(value, Value::Text(_))
@@ -91,7 +92,7 @@ impl Setting {
         }
     }
 
-    /// Returns the position of the setting.
+    /// Returns the origin of the setting for messages: the option as typed.
     pub fn place(&self) -> &Place {
         &self.place
     }
@@ -108,14 +109,14 @@ impl Setting {
             Some(KeyValue { value: Value::Table(inner), .. }) if !rest.is_empty() => {
                 self.put(inner, rest);
             }
-            // Keep the position, because the order of the axes determines the numbers of the
-            // designs.
+            // Keep the position of the entry, because the order of the axes determines the numbers
+            // of the designs.
             Some(entry) => *entry = self.entry(key, rest),
             None => table.push(self.entry(key, rest)),
         }
     }
 
-    /// Wraps the value in tables with the names `rest`.
+    /// Returns the entry `key` with the value, nested in tables with the names `rest`.
     fn entry(&self, key: &str, rest: &[String]) -> KeyValue {
         let value = match rest.split_first() {
             None => self.value.clone(),
@@ -126,9 +127,9 @@ impl Setting {
 
     /// Removes from `table` the values that contradict this setting.
     ///
-    /// A parameter may be written in its section, as an axis or as a variable, and some parameters
-    /// exclude each other. Values from the file are removed. Values from other settings stay and
-    /// are refused as contradictions.
+    /// A parameter may be in its section, an axis or a variable, and some parameters exclude each
+    /// other. Contradicting values from the file are removed. Contradicting values from other
+    /// settings stay, and the reader refuses them.
     fn supersede(&self, table: &mut KeyValues) {
         self.supersede_named_values(table);
         let Some(parameter) = self.parameter() else { return };
@@ -144,11 +145,11 @@ impl Setting {
         }
     }
 
-    /// Removes from the file the fixed values that a named material or body replaces.
+    /// If this setting names a material or body, removes the values of the file that it replaces.
     ///
-    /// A name in the file supplies only values that the file does not give. A name that is set
-    /// replaces them, also in definitions that squama wrote, which give every value. Axes and
-    /// variables stay.
+    /// A name in the file supplies only values that the file does not give. A name in a setting
+    /// replaces values of the file, because a definition that squama wrote gives every value. Axes
+    /// and variables stay.
     fn supersede_named_values(&self, table: &mut KeyValues) {
         let ([section, key], Value::Text(value)) = (self.path.as_slice(), &self.value) else {
             return;
@@ -164,7 +165,9 @@ impl Setting {
     }
 }
 
-/// Returns a case with the choices that determine excluded alternatives.
+/// Returns a case with the choices that decide which parameters are alternatives.
+///
+/// These choices are the parameter that the pitch determines, and the kind of needle.
 fn case_of(table: &KeyValues) -> Case {
     let mut written = Vec::new();
     for KeyValue { key: section, value, .. } in table {
@@ -176,13 +179,14 @@ fn case_of(table: &KeyValues) -> Case {
         }));
     }
     let mut case = Case::default();
-    // A pitch and a gap together determine a length.
+    // If a gap is given, the pitch determines the length.
     case.in_mm.pitch_determines_length = [key::PITCH, key::GAP]
         .iter()
         .all(|key| written.iter().any(|(parameter, _)| parameter.is_or_determines(key)));
-    // For a guided needle tilt and friction are independent.
+    // Critical tilt and needle friction are alternatives only for a free needle.
     for (parameter, value) in written.iter().filter(|(p, _)| p.key == key::NEEDLE) {
-        // An axis of needles has no single value, and an invalid one is refused when it is read.
+        // Skip an axis of needles, which has no single value, and an invalid value, which the
+        // reader refuses.
         if let Ok(needle) = parameter.read(value) {
             parameter.set(&mut case, needle);
         }
@@ -190,7 +194,7 @@ fn case_of(table: &KeyValues) -> Case {
     case
 }
 
-/// Removes a key of a section unless another setting wrote it.
+/// Removes `key` from `section` of `table`, unless another setting added the key.
 fn drop_from_file(table: &mut KeyValues, section: &str, key: &str) {
     for entry in table.iter_mut().filter(|entry| entry.key == section) {
         if let Value::Table(entries) = &mut entry.value {
@@ -212,9 +216,9 @@ mod tests {
         insta::assert_snapshot!(message("scale.base="), @"--set scale.base=: `` is not a TOML value (string values must be quoted, expected literal string), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
     }
 
-    /// A definition that squama wrote gives every value.
+    /// The file gives every value, like a definition that squama wrote.
     #[test]
-    fn a_set_name_replaces_values_of_the_file() {
+    fn a_name_in_a_setting_replaces_values_of_the_file() {
         let text = "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.5\n\
             slant_deg = 60\n[body]\ncurvature_times_t = 0\n[material]\nthickness_mm = 1\n\
             substrate_modulus_MPa = 1\nscale_modulus_MPa = 2500\nscale_strength_MPa = 50\n";
@@ -263,8 +267,8 @@ mod tests {
                 "designs.membrane_length_over_t=[50, 100]",
                 "{ flexure = {}, designs = { membrane_length_over_t = [50, 100] } }",
             ),
-            // In addition to a gap, the pitch determines a length, so it stays. Alone it determines
-            // the gap.
+            // Together with a gap, the pitch determines the length, so a setting of the gap keeps
+            // the pitch. Without a gap, the pitch determines the gap.
             (
                 "designs = { gap_mm = 0.3, pitch_mm = 2 }",
                 "designs.gap_over_t=0.2",

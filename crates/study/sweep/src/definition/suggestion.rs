@@ -14,7 +14,7 @@ pub(crate) const VARIABLES: &str = "variables";
 /// Section of the manufacturing deviations.
 pub(crate) const TOLERANCE: &str = "tolerance";
 
-/// Keys outside the sections of parameters.
+/// Keys and sections at the top level, except the sections of parameters.
 const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
 
 /// Keys with the same meaning for puncture and bending.
@@ -28,11 +28,12 @@ pub(crate) fn sections() -> Vec<&'static str> {
     sections
 }
 
-/// Suggests a replacement for `key` in `section` (empty: outside the sections).
+/// Suggests a replacement for the unknown `key` in `section` (empty for a top-level key).
 pub(crate) fn for_key(section: &str, key: &str) -> String {
     let known = keys_of(section);
     if let Some(parameter) = Parameter::named(key) {
-        // In `[substrate]`, `thickness` means the tissue rather than the scales.
+        // `key` belongs to another section. Prefer a key of this section with the same end: in
+        // `[substrate]`, `thickness_mm` means `tissue_thickness_mm`.
         let end = format!("_{key}");
         let twin = TWINS.iter().find(|twins| twins.contains(&key));
         let mut known = known.iter().filter(|_| parameter.section != section);
@@ -41,8 +42,8 @@ pub(crate) fn for_key(section: &str, key: &str) -> String {
         let path = own.map_or_else(|| parameter.path(), |own| format!("{section}.{own}"));
         return format!("did you mean {path}?");
     }
-    // Suggest the length over the thickness for a key without a unit, although its name differs
-    // more.
+    // For a key that does not end like `mm`, suggest the length over the thickness, although the
+    // name of the length in mm is more similar.
     match nearest(key, &known).map(|near| {
         let of = Parameter::named(near).filter(|_| !key.ends_with('m')).and_then(Parameter::over_t);
         of.map_or(near, |of| of.key)

@@ -48,8 +48,8 @@ impl Sweep {
             let shared = self.shared().filter(|(parameter, _)| parameter.section == section);
             return entry_lines(shared.map(|(p, value)| (p.key.to_owned(), value.to_toml())));
         }
-        // A variable adds an axis with one value, its middle, which the definition does not
-        // contain.
+        // The grid has an axis for each variable, with the middle of its range as the only value.
+        // The definition does not contain these axes.
         let fixed = self
             .grid()
             .axes()

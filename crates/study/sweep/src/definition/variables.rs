@@ -1,4 +1,4 @@
-//! Reads the table `[variables]`: bounds or a list of values.
+//! Reads the section `[variables]`: for each parameter bounds or a list of values.
 
 use super::axes;
 use super::invalid::Problem;
@@ -6,7 +6,7 @@ use crate::parameter::{Parameter, WrongValue};
 use crate::variable::{Variable, VariableValues};
 use text::toml_source::{KeyValues, Value};
 
-/// Reads the variable in `value`.
+/// Reads the variable of `parameter` from `value`: bounds or a list of values.
 pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Variable, Problem> {
     let values = match value {
         Value::Table(entries) => between(parameter, entries, value)?,
@@ -28,7 +28,7 @@ fn between(
     let wrong = |problem: String| Problem::Range { range: written.to_string(), problem };
     if parameter.takes_counts() || !parameter.takes_numbers() {
         return Err(wrong(
-            "there are no numbers between these bounds, expected a list of values".to_owned(),
+            "whole numbers and words cannot have bounds, expected a list of values".to_owned(),
         ));
     }
     if let Some(entry) = entries.iter().find(|entry| !["from", "to"].contains(&entry.key.as_str()))

@@ -1,28 +1,28 @@
-//! Continuous parameters: neighbouring cases and step sizes for derivatives.
+//! Changes of numeric parameters by small steps, and the size of these steps, for derivatives.
 
 use super::Bound::{Excluded, Included};
 use super::{Parameter, ParameterKind, key, length};
 use crate::case::Case;
 use crate::scalar::Scalar;
 
-/// Minimum friction for derivatives.
+/// Minimum coefficient of friction for derivatives.
 ///
-/// Below it, a difference step would make the friction negative.
+/// Below this value, a difference step would make the friction negative.
 const LEAST_FRICTION: f64 = 1e-4;
 
 impl Parameter {
     /// Returns this parameter's value in `case`; `None` if another key defines it.
     fn written_value(&self, case: &Case) -> Option<Scalar> {
         let first = self.instead().map(|first| first.get(case));
-        // A word such as `auto` or `none` leaves the value to this parameter.
+        // If the alternative is a word, such as `auto` or `none`, this parameter is used.
         let follows = first.is_some_and(|value| !matches!(value, Scalar::Word(_)));
         (!follows).then(|| self.get(case))
     }
 
-    /// Returns the case with this numeric parameter increased by `by`.
+    /// Returns the case with this numeric parameter increased by `by`, in its unit.
     ///
-    /// The value may leave its bounds. A length in mm changes the length over the thickness. `None`
-    /// if the parameter is not a number, not given, or follows from its alternative.
+    /// The value may leave its bounds. A change of a length in mm also changes the length over the
+    /// thickness. `None` if the parameter is not a number, not given, or defined by an alternative.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
         let mut moved = *case;
         if let Some(of) = self.over_t().filter(|_| !self.is_given(case)) {
@@ -45,8 +45,8 @@ impl Parameter {
     /// Returns the reference size for changes of this numeric parameter in `case`.
     ///
     /// The size is the magnitude of the value. If the range includes zero, it is at least 1, or
-    /// 0.05 for a curvature. `None` if the parameter is not a number, not given, or follows from
-    /// its alternative.
+    /// 0.05 for a curvature. `None` if the parameter is not a number, not given, defined by an
+    /// alternative, or a friction of almost zero.
     pub fn size(&self, case: &Case) -> Option<f64> {
         let (ParameterKind::Number { range, .. }
         | ParameterKind::SignedNumber { size: range, .. }
@@ -62,18 +62,18 @@ impl Parameter {
         let is_friction = self.key == key::FRICTION
             || (self.key == key::NEEDLE_FRICTION && case.puncture.needle.is_guided());
         if is_friction && value < LEAST_FRICTION {
-            // A path without friction has no slip directions, so it cannot predict the effect of a
+            // Without friction a path has no slip directions, so it cannot predict the effect of a
             // small friction.
             return None;
         }
-        // A range that starts above zero excludes values near zero, so a fraction of the value is a
-        // valid step.
+        // If the range starts above zero, the value is not near zero, so a fraction of the value is
+        // a valid step.
         let may_vanish = match range.low {
             Excluded(low) => low < 0.0,
             Included(low) => low <= 0.0,
         };
-        // Use the curvature of a forearm instead of 1: changes much smaller than 1 already close
-        // the gap between two scales.
+        // For a curvature use 0.05, the curvature of a forearm, instead of 1: changes much smaller
+        // than 1 already close the gap between two scales.
         let least = if self.key == key::CURVATURE { 0.05 } else { 1.0 };
         Some(if may_vanish { value.max(least) } else { value })
     }

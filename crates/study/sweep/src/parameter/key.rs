@@ -1,4 +1,4 @@
-//! Keys of the parameters that code refers to.
+//! Keys of the parameters that code refers to. Moduli and strengths are in `MPa`.
 
 /// Gap between neighbouring bases.
 pub const GAP: &str = "gap_over_t";
@@ -6,7 +6,7 @@ pub const GAP: &str = "gap_over_t";
 /// Length of a scale.
 pub const LENGTH: &str = "length_over_t";
 
-/// Distance from scale to scale, in mm.
+/// Pitch of the row, base plus gap, in mm.
 pub const PITCH: &str = "pitch_mm";
 
 /// Slant of the scales.
@@ -24,13 +24,13 @@ pub const RADIUS: &str = "radius_over_t";
 /// Radius of the body in mm.
 pub const RADIUS_MM: &str = "radius_mm";
 
-/// Other end of the range of radii.
+/// Radius of the last body of a range of bodies.
 pub const RADIUS_TO: &str = "radius_to_over_t";
 
-/// Other end of the range of radii in mm.
+/// Radius of the last body of a range of bodies, in mm.
 pub const RADIUS_TO_MM: &str = "radius_to_mm";
 
-/// Width of the scales.
+/// Out-of-plane width of the scales.
 pub const WIDTH: &str = "width_over_t";
 
 /// Rigid or elastic scales.
@@ -42,7 +42,7 @@ pub const POISSON_RATIO: &str = "poisson_ratio";
 /// Tilt at which a puncture ends.
 pub const CRITICAL_TILT: &str = "critical_tilt_deg";
 
-/// Load position, as a fraction of the top.
+/// Load position on the top of a scale, from 0 (left corner) to 1 (right corner).
 pub const LOAD_POSITION: &str = "load_position";
 
 /// Distance of the load from the right corner of the top.
@@ -63,12 +63,12 @@ pub const NEEDLE_FRICTION: &str = "needle_friction";
 /// Coefficient of friction between two scales.
 pub const FRICTION: &str = "friction";
 
-/// Additional depth at which the force is measured.
+/// Depth of the punctured point at which `force_at_depth` is measured.
 pub const DEPTH: &str = "depth_over_t";
-/// Additional depth at which the force is measured, in mm.
+/// Depth of the punctured point at which `force_at_depth` is measured, in mm.
 pub const DEPTH_MM: &str = "depth_mm";
 
-/// Force of the needle at which the pressure on the tissue is measured.
+/// Force of the needle at which the pressure on the tissue is measured, over `E_s t²`.
 pub const NEEDLE_FORCE: &str = "force_over_substrate";
 
 /// Force of the needle at which the pressure on the tissue is measured, in N.
@@ -77,10 +77,10 @@ pub const NEEDLE_FORCE_N: &str = "force_N";
 /// Number of load positions that are evaluated.
 pub const PLACES: &str = "places";
 
-/// Thickness of the tissue.
+/// Thickness of the substrate (tissue).
 pub const TISSUE: &str = "tissue_thickness_over_t";
 
-/// Thickness of the tissue in mm.
+/// Thickness of the substrate (tissue) in mm.
 pub const TISSUE_MM: &str = "tissue_thickness_mm";
 
 /// Length of the membrane.
@@ -122,12 +122,12 @@ pub const SCALE_STRENGTH: &str = "scale_strength_MPa";
 /// Strength of the bonds.
 pub const BOND_STRENGTH: &str = "bond_strength_MPa";
 
-/// Whether the row across is solved with the gap of the row along.
+/// Whether the row across, perpendicular to the row along, is also solved.
 pub const ACROSS: &str = "across";
 
-/// Gap between neighbouring scales across the row.
+/// Gap between neighbouring scales of the row across.
 pub const GAP_ACROSS: &str = "gap_across_over_t";
-/// Gap between neighbouring scales across the row, in mm.
+/// Gap between neighbouring scales of the row across, in mm.
 pub const GAP_ACROSS_MM: &str = "gap_across_mm";
 
 /// Modulus of the membrane.

@@ -11,7 +11,7 @@ use crate::case::{Case, Millimetres};
 use crate::scalar::Scalar;
 use text::number;
 
-/// Each length in mm, with the parameter of the same length over the thickness.
+/// Pairs of parameters: a length in mm, and the length over the thickness that it determines.
 ///
 /// Cached, because [`settle`] runs for every design and the search by key is slow.
 static LENGTHS_IN_MM: LazyLock<Vec<(&Parameter, &Parameter)>> = LazyLock::new(|| {
@@ -25,12 +25,14 @@ static LENGTHS_IN_MM: LazyLock<Vec<(&Parameter, &Parameter)>> = LazyLock::new(||
 });
 
 impl Parameter {
-    /// Returns the parameter of the same length over the thickness, for a length in mm.
+    /// Returns the parameter of the same length over the thickness.
+    ///
+    /// `None` if this parameter is not a length in mm.
     pub fn over_t(&self) -> Option<&'static Self> {
         LENGTHS_IN_MM.iter().find(|(in_mm, _)| *in_mm == self).map(|&(_, over_t)| over_t)
     }
 
-    /// Returns the parameters that give this length in mm.
+    /// Returns the parameters in mm that determine this length over the thickness.
     pub fn in_mm(&self) -> impl Iterator<Item = &'static Self> {
         Self::with(Role::InMm(self.key))
     }
@@ -44,6 +46,8 @@ impl Parameter {
     }
 
     /// Returns the parameter that this length in mm determines in `case`.
+    ///
+    /// A pitch determines the gap or the length. `None` if this parameter is not a length in mm.
     pub(crate) fn determines(&self, case: &Case) -> Option<&'static Self> {
         let determines_length = self.key == key::PITCH && case.in_mm.pitch_determines_length;
         if determines_length { Self::named(key::LENGTH) } else { self.over_t() }
@@ -55,11 +59,12 @@ impl Parameter {
             || self.follows_modulus(case)
     }
 
-    /// Returns the length of this parameter in mm.
+    /// Returns the value of this length in mm, which is given or follows from the thickness.
     ///
-    /// `None` if it is not a length, or the thickness is not given.
+    /// The parameter must be a length in mm. `None` if neither it nor the thickness is given.
     pub fn millimetres(&self, case: &Case) -> Option<f64> {
-        // Return the given value: conversion to the thickness and back may change its last digits.
+        // Return the given value, because dividing it by the thickness and multiplying again may
+        // change its last digits.
         if let Some(given) = self.get(case).number() {
             return Some(given);
         }
@@ -74,9 +79,9 @@ impl Parameter {
 
 /// Returns the lengths that a case gives in mm.
 ///
-/// Each has the parameter in mm, the parameter over the thickness, and the length in mm.
+/// Each item holds the parameter in mm, the parameter over the thickness, and the length in mm.
 fn given(case: &Case) -> impl Iterator<Item = (&'static Parameter, &'static Parameter, f64)> {
-    // Most cases give none, and a sweep creates one case per design.
+    // Skip the search if no length is given in mm, because a sweep creates one case per design.
     let is_none = case.in_mm == Millimetres::default();
     let all = if is_none { &[] } else { LENGTHS_IN_MM.as_slice() };
     all.iter().filter_map(|&(in_mm, over_t)| Some((in_mm, over_t, in_mm.get(case).number()?)))
@@ -90,13 +95,15 @@ pub(super) fn settle(case: &mut Case) {
             over_t.assign(case, Scalar::Number(quotient(length, thickness)));
         }
     }
-    // Last, because the effect of a pitch depends on the length or the gap.
+    // The pitch comes last, because the gap follows from the pitch and the length, or the length
+    // from the pitch and the gap.
     if let Some(pitch) = case.in_mm.pitch {
         let (pitch, design) = (quotient(pitch, thickness), &mut case.design);
         let base = 2.0 * design.half_base();
         if case.in_mm.pitch_determines_length {
-            // Scale the length, because the base is `L` or `2L`. A base of zero, from a pitch that
-            // equals the gap, stays zero and is refused; scaling it again would give NaN.
+            // Scale the length by the ratio of the bases, because the base is `L` or `2L`. A base
+            // of zero, from a pitch that equals the gap, stays zero and is refused; scaling it
+            // again would give NaN.
             if base != 0.0 {
                 let length = design.length * (pitch - design.gap) / base;
                 design.length = number::short_decimal(length, pitch);
@@ -119,10 +126,10 @@ fn product(length: f64, thickness: f64) -> f64 {
     number::short_decimal(length * thickness, length * thickness)
 }
 
-/// Updates the parameters that follow from the changed one.
+/// Updates the parameters that follow from the parameter `changed`.
 ///
-/// These are the other unit of a length, all lengths after a change of the thickness, and the
-/// contact ratios after a change of a modulus.
+/// These are the same length in the other unit, all lengths after a change of the thickness, and
+/// the ratios after a change of a modulus, strength or force.
 pub(super) fn keep_in_step(case: &mut Case, changed: &Parameter) {
     if changed.is_in_mm() || changed.key == key::THICKNESS {
         settle(case);
@@ -136,10 +143,10 @@ pub(super) fn keep_in_step(case: &mut Case, changed: &Parameter) {
     }
 }
 
-/// Updates the lengths in mm after a change of `moved`, a length over `t`.
+/// Updates the lengths in mm after a change of `moved`, a length over the thickness.
 fn restate(case: &mut Case, moved: &Parameter) {
     let Some(thickness) = case.material.thickness_mm else { return };
-    // Update the pitch too, or the next `settle` would revert the change.
+    // Update the pitch too, because otherwise the next `settle` would revert the change.
     let moves_pitch = [key::GAP, key::LENGTH].contains(&moved.key);
     for (in_mm, over_t, _) in given(case).collect::<Vec<_>>() {
         let length = match in_mm.key {
@@ -155,7 +162,9 @@ fn restate(case: &mut Case, moved: &Parameter) {
     }
 }
 
-/// Returns the case with another thickness and unchanged lengths in mm.
+/// Returns the case with another thickness, in mm, and unchanged lengths in mm.
+///
+/// `None` if the case gives no thickness.
 pub(crate) fn with_thickness(case: &Case, thickness: f64) -> Option<Case> {
     let factor = case.material.thickness_mm? / thickness;
     let lengths = PARAMETERS.iter().filter(|p| p.has(Role::Continuous) && p.unit == "t");
@@ -167,7 +176,7 @@ pub(crate) fn with_thickness(case: &Case, thickness: f64) -> Option<Case> {
         }
     }
     moved.material.thickness_mm = Some(thickness);
-    // The force in N remains the same, and its unit `E_s t²` changes.
+    // The force in N remains the same, but its unit `E_s t²` changes.
     moved.needle_force = case.needle_force.map(|force| force * factor.powi(2));
     settle(&mut moved);
     modulus::settle(&mut moved);

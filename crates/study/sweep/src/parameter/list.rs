@@ -1,6 +1,6 @@
-//! The single list of parameters.
+//! The list of all parameters of definitions.
 //!
-//! Validation, messages, axes, columns and documentation use it.
+//! Validation, messages, axes, columns, schemas and documentation use this list.
 //!
 //! To add a parameter:
 //!
@@ -44,7 +44,7 @@ pub(super) const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.
 // The model has rigid scales, which is invalid for scales softer than their substrate.
 const STIFF: Range = Range::closed(1.0, 1e9);
 
-/// Word for a count that is determined automatically.
+/// Word instead of a count that squama determines.
 const AUTO: &str = "auto";
 
 type Field<T> = fn(&mut Case) -> &mut T;
@@ -183,11 +183,10 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     "contact" {
         "c1", "-", [Continuous, Made],
             number(Range::closed(1e-3, 1e3), |c| &mut c.common.law.c1), "prefactor C1 of the contact law";
-        // Hertz contact of a flat punch has an exponent of 1, of a sphere 1.5. Above 1.5, the
-        // initial contact stiffness would be zero.
+        // The exponent of a flat punch is 1. The upper bound is the exponent of a sphere (Hertz).
         "c2", "-", [Continuous, Made],
             number(Range::closed(0.05, 1.5), |c| &mut c.common.law.c2), "exponent C2 of the contact law";
-        // Rubber on a rough surface has about 2.
+        // The upper bound is about the friction of rubber on a rough surface.
         key::FRICTION, "-", [Continuous, Made],
             number(Range::closed(0.0, 2.0), |c| &mut c.common.friction),
             "coefficient of friction between two scales";
@@ -217,7 +216,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             Word {
                 words: &["free", "guided"],
                 get: |c| usize::from(c.puncture.needle.is_guided()),
-                // The case holds the friction of a guided needle.
+                // The field `needle_friction` of the case replaces this friction of 0.
                 set: |c, word| c.puncture.needle = [Needle::Free, Needle::Guided { friction: 0.0 }][word],
             },
             "free: a load fixed to a point of the scale, which may move sideways, as in the paper; guided: a tip that moves straight down and slides on the scale";
@@ -282,7 +281,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     "array" {
         key::ACROSS, "-", [],
             words!(across: "false" = false, "true" = true),
-            "whether to puncture the row across, too; a gap across requests it as well";
+            "whether to also puncture the row across, perpendicular to the row; gap_across_over_t requests this, too";
         key::GAP_ACROSS, "t", [Continuous, Made],
             optional(LENGTH, |c| &mut c.gap_across),
             "gap between neighbouring scales across the row; the gap along it unless given";
@@ -383,7 +382,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             optional(POSITIVE, |c| &mut c.material.membrane_modulus_mpa), "modulus E_m of the membrane";
         key::SCALE_MODULUS, "MPa", [Made],
             optional(POSITIVE, |c| &mut c.material.scale_modulus_mpa),
-            "modulus E_ct of the scales in contact, instead of its ratios to the other two";
+            "modulus E_ct of the scales in contact, instead of contact_modulus_over_substrate and contact_modulus_over_membrane";
         key::SCALE_STRENGTH, "MPa", [Made],
             optional(POSITIVE, |c| &mut c.material.scale_strength_mpa),
             "bending strength of the scales, instead of scale_strength_over_substrate";
@@ -395,9 +394,9 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     }
 };
 
-/// Returns the tilts of a puncture as solved.
+/// Returns the critical tilt in degrees or, if a case has several tilts, the list of all tilts.
 ///
-/// For a free needle they may follow from its friction.
+/// The tilts of a free needle may follow from its friction.
 fn tilts(case: &Case) -> Scalar {
     let punctured = case.punctured();
     let listed = punctured.tilts_before_deg.and_then(|_| {

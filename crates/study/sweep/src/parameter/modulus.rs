@@ -8,7 +8,9 @@
 use super::{Parameter, key};
 use crate::case::Case;
 
-/// Keys of a ratio, of its numerator and of its denominator.
+/// Keys of each ratio, of its numerator, and of the modulus in its denominator.
+///
+/// The denominator of the force is `E_s t²`, all others are moduli.
 const RATIOS: [[&str; 3]; 5] = [
     [key::CONTACT_OVER_SUBSTRATE, key::SCALE_MODULUS, key::SUBSTRATE_MODULUS],
     [key::CONTACT_OVER_MEMBRANE, key::SCALE_MODULUS, key::MEMBRANE_MODULUS],
@@ -18,20 +20,20 @@ const RATIOS: [[&str; 3]; 5] = [
 ];
 
 impl Parameter {
-    /// Returns true if one of the two parameters is a ratio and the other its numerator.
+    /// Returns true if one of `self` and `other` is a ratio and the other one its numerator.
     pub(super) fn excludes(&self, other: &Self) -> bool {
         let keys = [self.key, other.key];
         RATIOS.iter().any(|&[ratio, above, _]| keys == [ratio, above] || keys == [above, ratio])
     }
 
-    /// Returns true for a ratio with its numerator given in `MPa` or N.
+    /// Returns true if this parameter is a ratio and `case` gives its numerator in `MPa` or N.
     pub(super) fn follows_modulus(&self, case: &Case) -> bool {
         RATIOS
             .iter()
             .any(|[ratio, above, _]| *ratio == self.key && numerator(case, above).is_some())
     }
 
-    /// Returns the ratios with this parameter as numerator, each with the key of its denominator.
+    /// Returns the ratios with this parameter as numerator, each with the key of the modulus below.
     pub(crate) fn ratios(&self) -> impl Iterator<Item = (&'static Self, &'static str)> {
         let of_this = RATIOS.into_iter().filter(|[_, above, _]| *above == self.key);
         of_this.filter_map(|[ratio, _, below]| Some((Self::named(ratio)?, below)))
@@ -54,9 +56,9 @@ fn numerator(case: &Case, key: &str) -> Option<f64> {
     }
 }
 
-/// Computes a ratio if both parts are given.
+/// Returns `above/below` if both numbers are given.
 ///
-/// A sweep of bending alone may leave out the modulus of the substrate.
+/// A number may be missing: a sweep of bending alone needs no modulus of the substrate.
 fn ratio(above: Option<f64>, below: Option<f64>) -> Option<f64> {
     Some(above? / below?)
 }
@@ -65,7 +67,8 @@ fn ratio(above: Option<f64>, below: Option<f64>) -> Option<f64> {
 pub(super) fn settle(case: &mut Case) {
     let material = case.material;
     let below = material.substrate_modulus_mpa;
-    // Every ratio has one of these denominators. Searches settle a case very often.
+    // Every ratio needs one of these two moduli. Return early, because searches call this function
+    // very often.
     if below.is_none() && material.membrane_modulus_mpa.is_none() {
         return;
     }

@@ -8,29 +8,30 @@ use crate::case::Case;
 /// Role of a parameter in the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Axis of every grid.
+    /// The parameter is an axis of every grid.
     Geometry,
     /// The measures are differentiable with respect to the parameter.
     ///
-    /// It is a number that describes the skin or its load, not the solver or the scatter.
+    /// The parameter is a number that describes the skin or its load, not the solver or the scatter
+    /// of imperfect rows.
     Continuous,
-    /// Has manufacturing deviations.
+    /// The parameter may have manufacturing deviations, in `[tolerance]`.
     Made,
-    /// May vary from scale to scale.
+    /// The manufacturing deviation may vary from scale to scale.
     Scattered,
     /// The springs of the substrate depend on the parameter.
     MovesSprings,
-    /// Ends a puncture: a criterion of the study, without manufacturing deviations.
+    /// The parameter defines the end of a puncture, and has no manufacturing deviations.
     EndsPuncture,
-    /// Defines the end of bending.
+    /// The parameter defines the end of bending.
     EndsBending,
     /// The unit of the bending measures depends on the parameter.
     UnitOfBending,
-    /// Alternative to the parameter with that key.
+    /// The parameter is an alternative to the parameter with this key.
     ///
-    /// One of its words may leave the value to that parameter.
+    /// A word as its value, such as `auto`, selects the parameter with this key.
     InsteadOf(&'static str),
-    /// Length in mm that determines the parameter with that key.
+    /// The parameter is a length in mm and determines the parameter with this key.
     InMm(&'static str),
 }
 
@@ -40,28 +41,28 @@ impl Parameter {
         self.roles.contains(&role)
     }
 
-    /// Returns the parameters with a role, in the order of the documentation.
+    /// Returns the parameters with `role`, in the order of the documentation.
     pub fn with(role: Role) -> impl Iterator<Item = &'static Self> {
         PARAMETERS.iter().filter(move |parameter| parameter.has(role))
     }
 
     /// Returns the alternatives of this parameter in a case.
     ///
-    /// A definition gives only one of them.
+    /// A definition gives either this parameter or one of its alternatives.
     pub(crate) fn others_in(&self, case: &Case) -> impl Iterator<Item = &'static Self> {
         PARAMETERS.iter().filter(|other| self.is_determined_by(other, case))
     }
 
     /// Returns true if `other` is an alternative of this parameter in a case.
     ///
-    /// For a guided needle tilt and friction are independent. In addition to a gap, the pitch
-    /// determines a length.
+    /// Critical tilt and needle friction are alternatives only for a free needle. A pitch is an
+    /// alternative of the length if the case also gives a gap, otherwise of the gap.
     pub(crate) fn is_determined_by(&self, other: &Self, case: &Case) -> bool {
         let origin = |parameter: &Self| {
             let says_length = parameter.key == key::PITCH && case.in_mm.pitch_determines_length;
             if says_length { key::LENGTH } else { parameter.origin() }
         };
-        // Alternatives are in one section. Comparing sections first saves most searches by key.
+        // Alternatives are in the same section. Compare sections first, because `origin` is slow.
         let is_same = other.section == self.section
             && other.key != self.key
             && origin(other) == origin(self)
@@ -80,12 +81,13 @@ impl Parameter {
         self.others_in(before).any(|other| other.is_given(before) && !other.is_given(case))
     }
 
-    /// Returns the key that this parameter finally determines, or its own.
+    /// Returns the key that this parameter finally determines, or its own key.
     ///
-    /// Follows chains of alternatives and units.
+    /// Follows alternatives and units: `load_inset_mm` determines `load_inset_over_t`, which
+    /// determines `load_position`.
     fn origin(&self) -> &'static str {
-        // Cached, because a definition requests this thousands of times and the search by key is
-        // slow.
+        // Cached, because reading a definition calls `origin` thousands of times, and the search by
+        // key is slow.
         static ORIGINS: LazyLock<Vec<(&str, &str)>> = LazyLock::new(|| {
             let origins = PARAMETERS.iter().filter_map(|p| {
                 let next = p.stands_for();
@@ -102,7 +104,7 @@ impl Parameter {
         }
     }
 
-    /// Returns the key that this parameter replaces, as alternative or in mm.
+    /// Returns the key of the parameter that this one replaces, as alternative or length in mm.
     fn stands_for(&self) -> Option<&'static str> {
         self.roles.iter().find_map(|role| match role {
             Role::InsteadOf(key) | Role::InMm(key) => Some(*key),
@@ -132,12 +134,12 @@ mod tests {
             assert_eq!(origin.section, parameter.section, "{key}");
             if let Some(instead) = parameter.instead() {
                 let open = instead.default();
-                assert!(matches!(open, Scalar::Word(_)), "{key} is left to {open}");
+                assert!(matches!(open, Scalar::Word(_)), "default of the alternative: {open}");
             }
             let is_number = parameter.moved(&Case::default(), 0.0).is_some();
             assert!(
                 !parameter.has(Role::Continuous) || is_number || parameter.is_optional(),
-                "{key} has no number"
+                "{key} is continuous, but takes no numbers"
             );
             let parameter = parameter.over_t().unwrap_or(parameter);
             let is_skin = parameter.has(Role::Continuous) || parameter.section == "material";
@@ -148,7 +150,7 @@ mod tests {
             );
             assert!(
                 !parameter.has(Role::Scattered) || parameter.has(Role::Made),
-                "{key} is not made"
+                "{key} varies from scale to scale, but has no manufacturing deviation"
             );
         }
     }
@@ -156,7 +158,7 @@ mod tests {
     /// The springs depend on the footprint and the coupling alone.
     #[test]
     fn springs_depend_on_the_parameters_with_the_role_moves_springs() {
-        // Move down, because Poisson's ratio is at its upper bound.
+        // Decrease the parameters, because the default Poisson's ratio is at its upper bound.
         let case = Case::default();
         for parameter in PARAMETERS.iter().filter(|p| p.has(Role::Continuous)) {
             let Some(moved) = parameter.moved(&case, -0.01) else { continue };

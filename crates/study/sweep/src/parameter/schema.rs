@@ -7,7 +7,7 @@ use super::{Bound, CountRange, Parameter, ParameterKind, Range};
 use crate::scalar::Scalar;
 
 impl Parameter {
-    /// Returns the schema of a value in the section of the parameter.
+    /// Returns the schema of the parameter in its own section: a value or, if allowed, a list.
     pub fn schema(&self) -> Value {
         let single = self.item_schema();
         let ParameterKind::Numbers { range, .. } = &self.kind else {
@@ -51,7 +51,7 @@ impl Parameter {
         }
     }
 
-    /// Returns the schema of the numbers of a range; `None` for words.
+    /// Returns the schema of one number; `None` if the parameter accepts only words.
     fn end_schema(&self) -> Option<Value> {
         Some(match &self.kind {
             ParameterKind::Number { range, .. }
@@ -85,7 +85,7 @@ impl Parameter {
 }
 
 impl Range {
-    /// Returns the range of the negative numbers.
+    /// Returns the range of the negatives of the numbers in this range.
     fn negative(self) -> Self {
         let [low, high] = [self.high, self.low].map(|bound| match bound {
             Bound::Included(number) => Bound::Included(-number),
@@ -124,7 +124,7 @@ fn word_value(word: &str) -> Value {
     word.parse::<bool>().map_or_else(|_| word.into(), Value::Bool)
 }
 
-/// Returns the schema of a list without repeated items.
+/// Returns the schema of a list of at least `least` items without repetition.
 fn list(item: &Value, least: usize) -> Value {
     json!({ "type": "array", "items": item, "minItems": least, "uniqueItems": true })
 }

@@ -4,7 +4,7 @@ use sweep::{Case, InvalidDefinition, Parameter, Setting, Sweep};
 
 use crate::sweep;
 
-/// Parses a definition of the name `x` and `text`.
+/// Parses a definition with the name `x` and the other keys in `text`.
 fn read(text: &str) -> Result<Sweep, InvalidDefinition> {
     Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[])
 }
@@ -89,7 +89,7 @@ fn the_record_of_a_run_is_a_definition() {
     assert_eq!(sweep(text).grid().case(0).common.law.c1.to_bits(), 2.0_f64.to_bits());
 }
 
-/// The definition is written back in the notation that was read.
+/// The notations are an inset over the thickness, and a depth in mm.
 #[test]
 fn load_position_and_depth_are_written_back_in_their_notation() {
     let text = "puncture = { load_inset_over_t = 0.05, depth_mm = 1 }\nmaterial.thickness_mm = 2\n\
@@ -112,16 +112,16 @@ fn load_position_and_depth_are_written_back_in_their_notation() {
     assert!(both.contains("cannot be combined"), "{both}");
 }
 
-/// `F/(E_s t²)` changes with the thickness and the modulus, `F*` also with the length.
+/// Over `E_s t²` the force depends on the thickness, and `F*` also on the length of a scale.
 #[test]
-fn a_force_in_newtons_stays_the_same_force() {
+fn a_force_in_newtons_does_not_change_with_the_thickness() {
     let text = "name = 'x'\npuncture.force_N = 6\n[material]\n\
         substrate_modulus_MPa = 0.5\n[designs]\nthickness_mm = [1, 2]\nlength_over_t = 0.5\ngap_over_t = 0.1\n\
         slant_deg = 0";
     let sweep = Sweep::parse(text, "x.toml", &[]).unwrap();
     let forces = [0, 1].map(|index| sweep.grid().case(index).needle_force);
     assert_eq!(forces, [Some(12.0), Some(3.0)]);
-    // (1 − 0.5²)/0.5
+    // `F*` is the force over `E_s t²` times `(1 − ν²)/(L/t)`, here (1 − 0.5²)/0.5 = 1.5.
     assert_eq!(sweep.grid().case(0).punctured().force, Some(12.0 * 1.5));
     let thickness = Parameter::named("thickness_mm").unwrap();
     let moved = thickness.moved(&sweep.grid().case(0), 1.0).unwrap();
@@ -139,16 +139,16 @@ fn the_inset_of_the_load_may_deviate_in_either_unit() {
     let moved = [one, other].map(|text| {
         let sweep = Sweep::parse(&text, "x.toml", &[]).unwrap();
         let (case, deviation) = (sweep.grid().case(0), &sweep.deviations()[0]);
-        // Beyond the corner the load is not on the scale.
+        // A negative inset is refused, because the load would be beyond the corner of the scale.
         assert_eq!(deviation.applied(&case, -0.2), None);
         deviation.applied(&case, 0.02).unwrap().load_inset.unwrap()
     });
     assert!((moved[0] - 0.07).abs() < 1e-15 && (moved[1] - 0.06).abs() < 1e-15, "{moved:?}");
 }
 
-/// Tilt and friction of a guided needle are independent, in any order.
+/// Critical tilt and friction of a guided needle may both be given, in any order.
 ///
-/// A friction of 0 is allowed.
+/// The friction of a guided needle may be 0. A free needle accepts only a positive friction.
 #[test]
 fn tilt_and_friction_of_a_guided_needle_are_independent() {
     use skin::puncture::Needle;
@@ -171,7 +171,7 @@ fn tilt_and_friction_of_a_guided_needle_are_independent() {
             "{refused}"
         );
     }
-    // The ends of a range are values of a variable too, and a search starts at them.
+    // The bounds of a variable are checked too, because a search also evaluates the bounds.
     let varied = "variables.needle_friction = { from = 0, to = 0.5 }";
     insta::assert_snapshot!(read(varied).unwrap_err(), @"x.toml:2: variables.needle_friction: 0 is not accepted, expected a number of at least 1e-10: its arctangent is the critical tilt of a free needle");
     for needle in ["puncture.needle = 'guided'", "variables.needle = ['free', 'guided']"] {
@@ -181,8 +181,8 @@ fn tilt_and_friction_of_a_guided_needle_are_independent() {
     let smooth = "puncture = { needle_friction = 0, needle = 'guided' }";
     assert_eq!(puncture(smooth, 0).needle, Needle::Guided { friction: 0.0 });
     assert_eq!(puncture(smooth, 0).critical_tilt_deg, 10.0);
-    // With both needles in one sweep, the friction applies to the guided needle and determines the
-    // tilt of the free one.
+    // In a sweep with both kinds of needle, the friction applies to the guided needle and
+    // determines the critical tilt of the free needle.
     let both = "puncture.needle_friction = 0.2\ndesigns.needle = ['free', 'guided']";
     let last = read(both).unwrap().grid().len() - 1;
     assert_eq!(puncture(both, 0).critical_tilt_deg, 0.2_f64.atan().to_degrees());
@@ -202,7 +202,7 @@ fn tilt_and_friction_of_a_guided_needle_are_independent() {
     assert_eq!(set.grid().case(0).puncture.critical_tilt_deg, 8.0);
 }
 
-/// A needle radius needs a guided needle. It may vary, and may be given in mm.
+/// The needle radius may also be an axis, or be given in mm.
 #[test]
 fn a_needle_radius_requires_a_guided_needle() {
     for (text, radius) in [
@@ -228,9 +228,10 @@ fn a_needle_radius_requires_a_guided_needle() {
     }
 }
 
-/// Only a round tip may be between two scales.
+/// Load positions above 1 are between two scales.
 ///
-/// Its largest position is the left corner of the next scale.
+/// The largest position is the left corner of the next scale: `1 + gap/length`, here 1.1 for a gap
+/// of 0.1.
 #[test]
 fn a_load_between_two_scales_requires_a_round_tip() {
     let grid = "designs = { gap_over_t = [0.1, 0.5], length_over_t = 1 }\n";
@@ -245,13 +246,13 @@ fn a_load_between_two_scales_requires_a_round_tip() {
         "variables.load_position = { from = 0.5, to = 1.3 }",
     ] {
         let refused = read(sharp).unwrap_err().to_string();
-        assert!(refused.contains("1.3 is out of range, expected a number of at least 0 and at most 1; beyond, between two scales, only with puncture.needle_radius_over_t"), "{refused}");
+        assert!(refused.contains("1.3 is out of range, expected a number of at least 0 and at most 1; a load above 1, between two scales, needs puncture.needle_radius_over_t"), "{refused}");
     }
 }
 
 /// The largest of several critical tilts ends the puncture.
 ///
-/// Frictions give tilts by their arctangents.
+/// A friction gives its arctangent as the critical tilt.
 #[test]
 fn critical_tilts_are_given_in_degrees_or_by_friction() {
     let puncture = |sweep: &Sweep, index| sweep.grid().case(index).punctured();
@@ -296,16 +297,18 @@ fn deviations_move_a_case_in_their_own_unit() {
     let gap = gap.moved(&case, 0.4).expect("a thickness").design.gap;
     assert!((gap - 0.15).abs() < 1e-15);
     assert_eq!(slant.moved(&case, -3.0).expect("an angle").design.slant_deg, 42.0);
-    // Twice as thick, with all other lengths in mm unchanged.
+    // A deviation of 8 mm doubles the thickness; all other lengths in mm stay constant.
     let thick = thickness.moved(&case, 8.0).expect("a thickness");
     assert_eq!((thick.material.thickness_mm, thick.design.gap), (Some(16.0), 0.05));
     assert_eq!((thick.design.length, thick.flexure.membrane_thickness), (0.5, 0.0625));
-    // Twice as stiff, with the scales unchanged.
+    // A deviation of 0.3 MPa doubles the modulus of the substrate; the scales stay unchanged.
     let stiff = modulus.moved(&case, 0.3).expect("a modulus");
     assert_eq!(stiff.puncture.contact_modulus_over_substrate, 9677.0 / 2.0);
 }
 
-/// Scales with contact ratios of 10 000 (substrate) and 500 (membrane).
+/// Start of a definition with a modulus of the scales of 3000 `MPa` and of the membrane of 6 `MPa`.
+///
+/// Tests append the modulus of the substrate.
 const SCALES: &str = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\nslant_deg = 45\n[material]\n\
                       scale_modulus_MPa = 3000\nmembrane_modulus_MPa = 6\n";
 
@@ -337,7 +340,8 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
         assert_eq!(again.grid().case(0), sweep.grid().case(0));
     }
     let case = sweep(&fixed).grid().case(0);
-    // The two ratios and the modulus of the scales stay consistent, whichever parameter changes.
+    // A change of a modulus updates the ratios, and a change of a ratio updates the modulus of the
+    // scales.
     let named = |key| Parameter::named(key).expect("a parameter");
     let softer = named("substrate_modulus_MPa").moved(&case, 0.3).expect("a modulus");
     assert_eq!(ratios(&softer), [5000.0, 500.0]);
@@ -345,7 +349,7 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
     assert_eq!(ratios(&stiffer), [20_000.0, 1000.0]);
     let ratio = named("contact_modulus_over_substrate").moved(&case, 1000.0).expect("a ratio");
     assert_eq!(ratio.material.scale_modulus_mpa, Some(3300.0));
-    // A ratio that is set replaces the modulus in the file.
+    // A ratio in a setting replaces the modulus of the scales in the file.
     let setting = Setting::parse("puncture.contact_modulus_over_substrate=50").expect("a setting");
     let set = Sweep::parse(&fixed, "x.toml", &[setting]).expect("a sweep");
     assert_eq!(ratios(&set.grid().case(0)), [50.0, 667.0]);
@@ -357,12 +361,12 @@ fn a_tissue_modulus_in_kpa_or_pa_raises_a_note() {
         sweep(&format!("name = 'x'\ndesigns.substrate_modulus_MPa = {modulus}")).notes().pop()
     });
     assert_eq!((soft, stiff, sweep("name = 'x'").notes().pop()), (None, None, None));
-    insta::assert_snapshot!(wrong.expect("a question"), @"material.substrate_modulus_MPa is 310000 MPa, 310 GPa: soft tissue has 0.001 to 10 MPa; check that the unit is MPa, not kPa or Pa");
+    insta::assert_snapshot!(wrong.expect("a note"), @"material.substrate_modulus_MPa is 310000 MPa, 310 GPa: soft tissue has 0.001 to 10 MPa; check that the unit is MPa, not kPa or Pa");
     let variable = "name = 'x'\nvariables.substrate_modulus_MPa = { from = 1, to = 2000 }";
     assert!(!sweep(variable).notes().is_empty());
 }
 
-/// Difference steps are fractions of these sizes.
+/// The steps of finite differences are fractions of these sizes.
 #[test]
 fn the_size_of_a_parameter_that_may_be_zero_is_at_least_one() {
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 0.5\nslant_deg = 0.25";
@@ -373,9 +377,9 @@ fn the_size_of_a_parameter_that_may_be_zero_is_at_least_one() {
     assert!(found[2].is_some_and(|size| size < 1.0) && found[3] == Some(1.0), "{found:?}");
 }
 
-/// Lengths in mm and over the thickness give the same skin.
+/// The lengths in mm are the lengths over the thickness times the thickness of 2 mm.
 ///
-/// The pitch is base plus gap.
+/// The pitch is base plus gap: 3 mm + 0.5 mm.
 #[test]
 fn lengths_in_mm_and_over_the_thickness_give_the_same_case() {
     let case = |text: &str| read(text).unwrap().grid().case(0);
@@ -416,7 +420,7 @@ fn lengths_in_mm_and_over_the_thickness_give_the_same_case() {
     }
 }
 
-/// Changes of the thickness and of lengths in mm change the lengths over `t`.
+/// A change of the thickness or of a length in mm updates the lengths over the thickness.
 #[test]
 fn lengths_in_mm_follow_changes_of_the_thickness() {
     let text = "name = 'x'\n[designs]\ngap_mm = 0.5\npitch_mm = 3.5\nthickness_mm = 2\n";
@@ -426,15 +430,14 @@ fn lengths_in_mm_follow_changes_of_the_thickness() {
     assert_eq!((thick.design.gap, thick.design.length), (0.125, 0.75));
     assert_eq!(moved("pitch_mm", 0.5).design.length, 1.75);
     assert_eq!(moved("gap_mm", 0.5).design.length, 1.25);
-    // Change the gap over the thickness alone. The pitch is updated, so that it does not revert the
-    // change.
+    // A change of the gap over the thickness updates the pitch in mm and keeps the length.
     let wide = moved("gap_over_t", 0.25);
     assert_eq!((wide.design.gap, wide.design.length, wide.in_mm.pitch), (0.5, 1.5, Some(4.0)));
     let length = sweep::Parameter::named("width_mm").unwrap().moved(&wide, 1.0).unwrap();
     assert_eq!((length.design.width, length.design.gap), (1.5, 0.5));
 }
 
-/// A deviation in mm or a depth can be combined with a variable thickness.
+/// The gap, its deviation and the depth, all in mm, follow the variable thickness.
 #[test]
 fn a_thickness_may_vary_beside_lengths_in_mm() {
     let text = "name = 'x'\npuncture.depth_mm = 1\n[designs]\ngap_mm = 0.5\n[variables]\n\
@@ -447,7 +450,7 @@ fn a_thickness_may_vary_beside_lengths_in_mm() {
     assert_eq!(deviation.moved(&case, 0.1).unwrap().in_mm.gap, Some(0.6));
 }
 
-/// Settings replace the alternative ways to give a length.
+/// The file gives the width in `[scale]` and the gap in `[variables]`.
 #[test]
 fn a_setting_in_mm_replaces_the_length_over_the_thickness() {
     let settings = ["designs.gap_mm=0.4", "scale.width_mm=3", "material.thickness_mm=2"];

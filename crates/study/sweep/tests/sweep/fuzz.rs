@@ -1,18 +1,18 @@
-//! Fuzz tests: random and nearly valid input never causes a panic.
+//! Fuzz tests: random and nearly valid definitions and settings never cause a panic.
 //!
-//! Inputs are definitions and settings. `scripts/fuzz` runs them for any length of time.
+//! `scripts/fuzz` runs these tests for any length of time.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use sweep::{PARAMETERS, Setting, Sweep};
 
-/// Generates section and key of a parameter.
+/// Generates the section and the key of a parameter.
 fn parameter() -> impl Strategy<Value = (&'static str, &'static str)> {
     (0..PARAMETERS.len()).prop_map(|i| (PARAMETERS[i].section, PARAMETERS[i].key))
 }
 
-/// Generates words of definitions and foreign ones.
+/// Generates a word, number or symbol, most of which occur in definitions.
 fn word() -> impl Strategy<Value = String> {
     let key = parameter().prop_map(|(_, key)| key.to_owned());
     let section = parameter().prop_map(|(section, _)| section.to_owned());
@@ -82,9 +82,7 @@ fn value() -> impl Strategy<Value = String> {
     ]
 }
 
-/// Generates a definition.
-///
-/// It has one line for each of some parameters, as axis or in its section.
+/// Generates a definition of up to five random parameters, each an axis or in its section.
 fn definition() -> impl Strategy<Value = String> {
     let line = (parameter(), any::<bool>(), value()).prop_map(|((section, key), axis, value)| {
         let section = if axis { "designs" } else { section };
@@ -93,7 +91,7 @@ fn definition() -> impl Strategy<Value = String> {
     vec(line, 0..6).prop_map(|lines| format!("name = 'x'\n{}", lines.concat()))
 }
 
-/// Generates `text` with some bytes replaced, removed or doubled.
+/// Generates `text` with up to three changes, which replace, remove or repeat some bytes.
 fn damaged(text: &'static [u8]) -> impl Strategy<Value = Vec<u8>> {
     let change = (any::<Index>(), 0..40_usize, 0..3_u8, any::<u8>());
     vec(change, 1..4).prop_map(move |changes| {
@@ -118,9 +116,10 @@ fn paper() -> &'static [u8] {
     include_bytes!("../../../../../sweeps/paper.toml")
 }
 
-/// Reads a definition.
+/// Parses a definition and checks the result.
 ///
-/// A valid one must have designs and read back from its complete form.
+/// In a valid definition designs are found by their parameters, and its complete form reads back as
+/// the same definition. The error of an invalid one has lines that name the file.
 fn read(text: &str) -> Result<(), TestCaseError> {
     match Sweep::parse(text, "x.toml", &[]) {
         Ok(sweep) => {

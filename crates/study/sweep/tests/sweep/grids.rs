@@ -1,4 +1,4 @@
-//! A grid numbers its designs and finds designs by parameters.
+//! Tests that a grid numbers its designs and finds designs by their parameters.
 
 use proptest::prelude::*;
 
@@ -41,7 +41,7 @@ fn a_design_that_is_not_on_the_grid_is_not_found() {
 
 proptest! {
     #[test]
-    fn every_design_is_found_under_its_number(
+    fn every_design_is_found_by_its_parameters_and_by_its_number(
         gaps in 1_u32..30,
         moduli in 1_usize..4,
         rows in 1_usize..3,

@@ -1,4 +1,4 @@
-//! Tests of sweeps: refused definitions and their messages, grid numbers.
+//! Tests of sweeps: valid and refused definitions, named values, numbers of designs.
 
 mod definitions;
 mod fuzz;
@@ -9,7 +9,7 @@ mod refusals;
 
 use sweep::Sweep;
 
-/// Parses the sweep `text`.
+/// Parses the valid definition `text`.
 fn sweep(text: &str) -> Sweep {
     Sweep::parse(text, "x.toml", &[]).expect("a valid sweep")
 }

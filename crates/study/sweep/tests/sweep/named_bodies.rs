@@ -1,4 +1,4 @@
-//! Bodies that a definition names.
+//! Tests of definitions that name a body, such as a finger.
 
 use std::path::Path;
 
@@ -59,7 +59,7 @@ fn a_convex_body_narrower_than_two_pitches_raises_a_note() {
         read(&text, &[]).expect("valid").notes().join("\n")
     });
     assert_eq!(notes[0], "");
-    insta::assert_snapshot!(notes[1], @"the radius of the convex body is less than 2 pitches in 2 designs, at least 1.0: the tissue then differs from the half-space or layer of the model");
+    insta::assert_snapshot!(notes[1], @"the radius of the convex body is less than 2 pitches in 2 designs, the smallest 1.0: the tissue then differs from the half-space or layer of the model");
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn the_range_of_radii_contains_bodies_of_equally_spaced_curvatures() {
     assert!(read("[body]\nradius_to_over_t = 0.2", &[]).is_err());
 }
 
-/// Checks that the documentation has exactly the rows of the table.
+/// Checks that `docs/bodies.md` has exactly the rows of the table [`BODIES`].
 #[test]
 fn the_documented_bodies_match_the_table() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/bodies.md");

@@ -1,4 +1,4 @@
-//! Materials that a definition names.
+//! Tests of definitions that name materials, such as PLA.
 
 use std::path::Path;
 
@@ -69,7 +69,7 @@ fn unknown_materials_are_refused_with_the_known_ones() {
     insta::assert_snapshot!(read("[material]\ntisue = 'skin'", &[]).expect_err("no key"), @r#"x.toml:3: material.tisue: unknown key (its value is "skin"), did you mean material.tissue?"#);
 }
 
-/// Checks that the documentation has exactly the rows of the table.
+/// Checks that `docs/materials.md` has exactly the rows of the tables of materials.
 #[test]
 fn the_documented_materials_match_the_table() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/materials.md");

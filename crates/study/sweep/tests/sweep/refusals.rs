@@ -1,8 +1,8 @@
-//! Refusals: one line with file, key, value and the accepted values.
+//! Tests of refused definitions: messages of one line with file, key, value and accepted values.
 
 use sweep::{PARAMETERS, Setting, Sweep};
 
-/// Returns the message, one line per error.
+/// Returns the message for the invalid definition `text`, one line per error.
 fn errors(text: &str, settings: &[&str]) -> String {
     let settings: Vec<_> = settings.iter().map(|s| Setting::parse(s).expect("valid")).collect();
     Sweep::parse(text, "x.toml", &settings).expect_err("refused").to_string()
@@ -14,7 +14,7 @@ fn refused(text: &str, settings: &[&str]) -> String {
     message
 }
 
-/// Returns the messages for definitions with a name and `lines`.
+/// Returns the messages for definitions that consist of a name and one of `lines`.
 fn all(lines: &[&str]) -> String {
     lines
         .iter()
@@ -51,8 +51,8 @@ fn extreme_lengths_and_moduli_are_refused() {
         for value in ["1e-30", "1e30"] {
             let text = format!("name = 'x'\n{} = {value}", parameter.path());
             let message = Sweep::parse(&text, "x.toml", &[]).err().map(|error| error.to_string());
-            // These lengths may be close to zero; in mm they are refused because the thickness is
-            // missing.
+            // The range of these lengths contains 1e-30, so this value is not out of range. In mm
+            // the length is still refused, because the thickness is missing.
             let places = ["load_inset", "membrane_axis_offset", "radius_mm", "radius_to_mm"];
             let is_place = places.iter().any(|place| parameter.key.starts_with(place));
             let is_refused = message.is_some_and(|message| message.contains("out of range"));
@@ -205,7 +205,7 @@ proptest::proptest! {
     }
 }
 
-/// The time for a list is linear in its length: values are not compared pairwise.
+/// Comparing all pairs of values would take minutes.
 #[test]
 fn a_long_list_with_a_repeated_value_is_refused_quickly() {
     let numbers = (1..=300_000).map(|k| format!("{k}e-3")).chain(["0.001".to_owned()]);
@@ -229,9 +229,7 @@ fn device_names_of_windows_are_refused() {
     }
 }
 
-/// The bound allows for a busy machine.
-///
-/// With quadratic time, both would take minutes.
+/// The time limit allows for a busy machine; an algorithm of quadratic time would take minutes.
 #[test]
 fn long_lists_and_many_keys_are_processed_quickly() {
     let begun = std::time::Instant::now();
@@ -317,9 +315,7 @@ fn a_definition_with_millions_of_values_is_refused_before_parsing() {
     assert_eq!(error.lines().count(), 1);
 }
 
-/// Cases of invalid lengths in mm.
-///
-/// No thickness, the same length in both units, all of gap, length and pitch, out of bounds.
+/// The moduli lack a denominator, contradict a ratio, or give a ratio below 1.
 #[test]
 fn invalid_scale_moduli_are_refused() {
     let scales = "material.scale_modulus_MPa = 3000\n";
@@ -338,6 +334,7 @@ fn invalid_scale_moduli_are_refused() {
     insta::assert_snapshot!(all(&texts.each_ref().map(String::as_str)));
 }
 
+/// The thickness is missing, a length is given twice, or a length over the thickness is too small.
 #[test]
 fn invalid_lengths_in_mm_are_refused() {
     insta::assert_snapshot!(all(&[
