@@ -29,20 +29,20 @@ pub struct Comparison<'r> {
     tolerance: f64,
     matching: Matching,
     indices: Vec<ComparedColumn>,
-    /// Differences in each column of both runs.
+    /// Differences in each column that both runs have.
     pub columns: Vec<ColumnDifference>,
 }
 
-/// A column of both runs.
+/// A column that both runs have.
 #[derive(Clone, Copy, Debug)]
 struct ComparedColumn {
     /// Indices of the column in the first and second run.
     indices: [usize; 2],
-    /// Largest difference of two values that count as zero because of round-off.
+    /// Maximum absolute difference that counts as round-off.
     noise: f64,
 }
 
-/// Round-off of a zero, as a fraction of the largest value in its column.
+/// Absolute difference that counts as round-off, as a fraction of the largest value of a column.
 const ROUND_OFF: f64 = 1e-14;
 
 /// Error of a comparison.
@@ -51,7 +51,7 @@ pub enum InvalidComparison {
     /// The results of a run cannot be read.
     #[error(transparent)]
     Results(#[from] InvalidResults),
-    /// Two designs differ only in a parameter that the other run does not record.
+    /// Two designs of one run differ only in a parameter that the other run does not record.
     #[error(
         "{file}: designs {first} and {second} differ only in a parameter that one of the runs does not record; \
          each table needs its run.toml"
@@ -90,13 +90,13 @@ pub struct ColumnDifference {
 }
 
 impl ColumnDifference {
-    /// Returns true if the two runs agree.
+    /// Returns true if the values of both runs agree in this column.
     pub fn is_none(&self) -> bool {
         self.differing + self.only_first + self.only_second == 0
     }
 }
 
-/// Largest difference of a column.
+/// Largest difference in a column, and the design that has this difference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
     /// Size of the difference.
@@ -109,7 +109,7 @@ pub struct Extreme {
     pub second: f64,
 }
 
-/// A cell that differs.
+/// A cell with different values in both runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Difference<'a> {
     first: &'a Results,
@@ -134,18 +134,18 @@ impl<'a> Difference<'a> {
         self.first.header().get(self.columns[0]).map_or("", String::as_str)
     }
 
-    /// Returns table, row and column of both cells.
+    /// Returns table, row and column of the cell in the first and second run.
     fn cells(&self) -> [(&'a Table, usize, usize); 2] {
         let ([row, other_row], [column, other_column]) = (self.rows, self.columns);
         [(self.first.table(), row, column), (self.second.table(), other_row, other_column)]
     }
 
-    /// Returns the texts of both cells.
+    /// Returns the texts of the cell in the first and second run.
     pub fn texts(&self) -> [Cow<'a, str>; 2] {
         self.cells().map(|(table, row, column)| table.text(row, column))
     }
 
-    /// Returns both cells as numbers, if both are numbers.
+    /// Returns the numbers of the cell in the first and second run, if both are numbers.
     pub fn numbers(&self) -> Option<[f64; 2]> {
         let [first, second] = self.cells().map(|(table, row, column)| table.number(row, column));
         Some([first?, second?])
@@ -177,13 +177,14 @@ pub(crate) fn relative([first, second]: [f64; 2]) -> f64 {
 
 /// Compares two runs.
 ///
-/// Designs are matched by their parameters; their numbers may differ. Values are equal if they
-/// differ by at most `tolerance`, relative to the larger. Unless `tolerance` is 0, values below
-/// 10⁻¹⁴ of the largest value of their column count as zero.
+/// Designs are matched by their parameters; the numbers of matched designs may differ. Values are
+/// equal if they differ by at most `tolerance` times the larger magnitude of both. Unless
+/// `tolerance` is 0, values are also equal if they differ by at most 10⁻¹⁴ of the largest value of
+/// their column.
 ///
 /// # Errors
 ///
-/// If designs of a run differ only in parameters that the other run does not record.
+/// If two designs of one run differ only in parameters that the other run does not record.
 pub fn compare<'r>(
     first: &'r Results,
     second: &'r Results,
@@ -203,7 +204,7 @@ pub fn compare<'r>(
         .collect();
     let mut comparison =
         Comparison { first, second, tolerance, matching, indices: Vec::new(), columns: Vec::new() };
-    // Needs the matching: sizes of columns are computed from matched designs.
+    // The round-off of a column is computed from the matched designs, so match designs first.
     comparison.indices = indices.iter().map(|&indices| comparison.compared(indices)).collect();
     let indices = comparison.indices.par_iter();
     comparison.columns = indices.map(|&column| comparison.column(column)).collect();
@@ -211,7 +212,7 @@ pub fn compare<'r>(
 }
 
 impl Comparison<'_> {
-    /// Returns the largest relative difference of values that count as equal.
+    /// Returns the maximum relative difference of values that count as equal.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
@@ -248,7 +249,7 @@ impl Comparison<'_> {
     fn compared(&self, indices: [usize; 2]) -> ComparedColumn {
         let cells = self.matching.pairs.iter().map(|&rows| self.cell(rows, indices));
         let sizes = cells.filter_map(|cell| cell.numbers()).flatten().map(f64::abs);
-        // A tolerance of 0 requests exact equality, also of zeros.
+        // A tolerance of 0 requests exact equality, so that no difference counts as round-off.
         let largest = if self.tolerance > 0.0 { sizes.fold(0.0, f64::max) } else { 0.0 };
         ComparedColumn { indices, noise: ROUND_OFF * largest }
     }
@@ -261,7 +262,7 @@ impl Comparison<'_> {
         for &rows in &self.matching.pairs {
             let cell = self.cell(rows, columns);
             match cell.cells().map(|(table, row, column)| table.is_empty(row, column)) {
-                // A missing value in both runs, as for a failed design, is not a difference.
+                // A value that is missing in both runs, as for a failed design, is no difference.
                 [true, true] => {}
                 [false, true] => column.only_first += 1,
                 [true, false] => column.only_second += 1,
@@ -280,7 +281,7 @@ impl Comparison<'_> {
 
     /// Returns every cell that differs.
     fn differences(&self) -> impl Iterator<Item = Difference<'_>> {
-        // Lazy, because two long runs may differ in every cell.
+        // The iterator is lazy, because two long runs may differ in every cell.
         let cells = move |rows: [usize; 2]| {
             self.indices.iter().filter_map(move |column| {
                 let cell = self.cell(rows, column.indices);
@@ -312,7 +313,7 @@ impl Comparison<'_> {
 }
 
 impl ColumnDifference {
-    /// Adds a cell with values in both runs.
+    /// Updates the largest differences or the changes of texts by a cell with values in both runs.
     fn add(&mut self, cell: &Difference<'_>) {
         let Some(pair) = cell.numbers() else {
             let [first, second] = cell.texts().map(Cow::into_owned);

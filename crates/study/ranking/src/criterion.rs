@@ -1,4 +1,4 @@
-//! Criterion: a column to be maximised or minimised.
+//! Criteria of a ranking: columns to be maximised or minimised.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -8,14 +8,14 @@ use results::columns::{Goal, ValueColumn, name, plain_goal};
 use serde::{Serialize, Serializer};
 use sweep::{Sweep, key};
 
-/// Criterion: a column to be maximised or minimised.
+/// Criterion of a ranking: a column to be maximised or minimised.
 ///
 /// ```
 /// use ranking::{Criterion, Goal};
 ///
 /// let criterion: Criterion = "min:areal_mass_kg_m2".parse()?;
 /// assert_eq!((criterion.column.as_ref(), criterion.goal), ("areal_mass_kg_m2", Goal::Minimize));
-/// // For some columns the direction is known.
+/// // For some columns it is known whether large or small values are better.
 /// assert_eq!("penetration".parse::<Criterion>()?.goal, Goal::Minimize);
 /// # Ok::<(), ranking::InvalidCriterion>(())
 /// ```
@@ -37,7 +37,7 @@ pub static CRITERIA: [Criterion; 4] = [
     Criterion::known("flexural compliance", name::COMPLIANCE, Goal::Maximize),
 ];
 
-/// Parameters that define the units of dimensionless values.
+/// Parameters by which dimensionless values are converted to physical units.
 const UNITS: [&str; 3] = [key::THICKNESS, key::SUBSTRATE_MODULUS, key::MEMBRANE_MODULUS];
 
 /// Text that is not a criterion.
@@ -48,7 +48,7 @@ pub struct InvalidCriterion {
     pub found: String,
 }
 
-/// Returns the part of a text that may be a column, to suggest it.
+/// Returns the part of an invalid criterion that may be a column, for the suggestion.
 fn column(found: &str) -> &str {
     let column = found.rsplit(':').next().unwrap_or_default();
     if column.is_empty() { name::COVERAGE } else { column }
@@ -81,7 +81,8 @@ impl Criterion {
 
     /// Creates the criterion to maximise or minimise a column.
     pub fn new(column: &str, goal: Goal) -> Self {
-        // Criteria of the paper keep their names, because `are_the_papers` compares whole criteria.
+        // A criterion of the paper has the name of the paper, because `are_the_papers` also
+        // compares names.
         let known = CRITERIA.iter().find(|known| known.column == column && known.goal == goal);
         known.cloned().unwrap_or_else(|| Self {
             name: format!("{} {column}", ["largest", "least"][usize::from(goal == Goal::Minimize)])
@@ -93,8 +94,8 @@ impl Criterion {
 
     /// Returns the name of the criterion in headers of tables.
     ///
-    /// It differs from the column for the resistance to penetration, the inverse of the
-    /// penetration.
+    /// The name is the column name, except for the resistance to penetration, which is the inverse
+    /// of the column `penetration`.
     pub fn key(&self) -> &str {
         if *self == CRITERIA[2] { "penetration_resistance" } else { &self.column }
     }

@@ -20,7 +20,7 @@ impl<'a> RequirementFilter<'a> {
         results: &'a Results,
         requirements: &'a [Requirement],
     ) -> Result<Self, InvalidResults> {
-        // Look up columns once per table, because every row needs them.
+        // Look up the columns once, because every row needs them.
         let find =
             |requirement: &'a Requirement| Ok((requirement, results.column(&requirement.column)?));
         let requirements = requirements.iter().map(find).collect::<Result<_, _>>()?;
@@ -44,7 +44,7 @@ impl<'a> RequirementFilter<'a> {
         Ok(None)
     }
 
-    /// Returns the values of the design in `row` in the required columns.
+    /// Returns the value of the design in `row` for each requirement.
     ///
     /// # Errors
     ///

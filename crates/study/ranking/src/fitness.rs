@@ -1,6 +1,7 @@
-//! Fitness of a design (Eq. 7 of Shafiei et al. 2021) between fixed ends.
+//! Fitness of a design (Eq. 7 of Shafiei et al. 2021) with fixed worst and best values.
 //!
-//! The criteria are rescaled and weighted. The ends do not depend on the other designs.
+//! The criteria `c` are rescaled to `s_c` and weighted by `w_c`. Unlike in a ranking, the worst and
+//! best values do not depend on the other designs.
 //!
 //! ```text
 //! f = Π s_c^w_c,    s_c = (c − worst c)/(best c − worst c),    0 if an s_c is not positive    (O3)
@@ -13,29 +14,29 @@ use crate::criterion::Criterion;
 use crate::scale::Scale;
 use crate::weights::Weights;
 
-/// Criteria of a fitness with their weights and given ends.
+/// Criteria of a fitness, with their weights and the ends that the goal gives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitnessGoal {
     /// Criteria.
     pub criteria: Vec<Criterion>,
     /// Weights of the criteria.
     pub weights: Weights,
-    /// Ends given in the goal; other criteria take the ends of all evaluated designs.
+    /// Ends that the goal gives. The ends of other criteria come from samples of the search.
     pub ends: Vec<CriterionEnds>,
 }
 
-/// Values of a column between which a criterion is rescaled.
+/// The worst and the best value of a column, between which its criterion is rescaled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CriterionEnds {
     /// Column name.
     pub column: String,
-    /// Value with rescaled criterion 0.
+    /// Value at which the rescaled criterion is 0.
     pub worst: f64,
-    /// Value with rescaled criterion 1. A design may exceed it.
+    /// Value at which the rescaled criterion is 1. A design may be better than this value.
     pub best: f64,
 }
 
-/// A weighted criterion, with the criteria of its worst and best value.
+/// A criterion with its goal, its weight, and the criteria at the worst and the best value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RescaledCriterion {
     goal: Goal,
@@ -44,9 +45,11 @@ pub struct RescaledCriterion {
 }
 
 impl CriterionEnds {
-    /// Returns the worst and the best of the values that have a criterion.
+    /// Returns the worst and the best of `values`, which are values of the column of `criterion`.
+    ///
+    /// `None` if no value has a criterion.
     pub fn of(criterion: &Criterion, values: impl Iterator<Item = f64>) -> Option<Self> {
-        // A value without a criterion, such as a penetration of 0, cannot be an end.
+        // Ignore values without a criterion, such as a penetration of 0, which has no inverse.
         let (low, high) = values
             .filter(|value| Scale::Paper.criterion(criterion.goal, *value).is_some())
             .map(|value| (value, value))
@@ -64,7 +67,7 @@ impl FitnessGoal {
         ends: &[CriterionEnds],
     ) -> impl Iterator<Item = (&Criterion, RescaledCriterion)> {
         let weighted = self.criteria.iter().zip(self.weights.values());
-        // Criteria without weight are ignored (R3), even if they have no ends or no value.
+        // Ignore criteria without weight (R3), even if they have no ends or no value.
         weighted.filter(|(_, weight)| **weight > 0.0).map(|(criterion, &weight)| {
             let goal = criterion.goal;
             let ends = ends.iter().find(|ends| ends.column == criterion.column);
@@ -79,35 +82,35 @@ impl FitnessGoal {
 }
 
 impl RescaledCriterion {
-    /// Returns the rescaled criterion: 0 at the worst end, 1 at the best (R2).
+    /// Returns the rescaled criterion of `value`: 0 at the worst end, 1 at the best (R2).
     ///
-    /// `None` without ends, or if the criterion does not exist.
+    /// `None` without ends, or if `value` has no criterion.
     fn of(&self, value: f64) -> Option<f64> {
         Some(rescaled(Scale::Paper.criterion(self.goal, value)?, self.ends?))
     }
 
-    /// Returns the term `w ln s` of the logarithm of the fitness.
+    /// Returns the term `w ln s` of the logarithm of the fitness, for a value of the column.
     pub fn part(&self, value: f64) -> Option<f64> {
-        // −∞ at and beyond the worst end, so that the fitness is 0 instead of undefined (O3).
+        // The term is −∞ at and beyond the worst end, so that the fitness is 0 (O3).
         Some(self.weight * self.of(value)?.max(0.0).ln())
     }
 
     /// Returns the derivative of [`Self::part`] with respect to the value.
     ///
-    /// It is 0 if both ends are equal, because the criterion then does not count.
+    /// The derivative is 0 if both ends are equal, because the criterion then does not count.
     pub fn rate(&self, value: f64) -> Option<f64> {
         let (worst, best) = self.ends?;
-        // Callers never differentiate at `rescaled` = 0, where the fitness is constant.
+        // Callers never differentiate where `rescaled` is 0, because the fitness is 0 there.
         let rescaled = self.of(value)?;
-        // Minimised criteria are inverses (R1).
+        // The criterion of a minimised column is the inverse of its value (R1).
         let slope = if self.goal == Goal::Maximize { 1.0 } else { -value.powi(-2) };
         Some(if best > worst { self.weight * slope / ((best - worst) * rescaled) } else { 0.0 })
     }
 }
 
-/// Rescales a value from 0 at the smallest to 1 at the largest (R2).
+/// Rescales a value linearly: 0 for the smallest value `low`, 1 for the largest value `high` (R2).
 ///
-/// Returns 1 if both are equal, so that the criterion does not count.
+/// Returns 1 if `low` and `high` are equal, so that the criterion does not count.
 pub(crate) fn rescaled(value: f64, (low, high): (f64, f64)) -> f64 {
     if high > low { (value - low) / (high - low) } else { 1.0 }
 }

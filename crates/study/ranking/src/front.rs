@@ -16,15 +16,15 @@ pub(crate) fn front_of(criteria: &[f64], count: usize) -> Vec<bool> {
     if count > 4 {
         return sifted(&points.collect::<Vec<_>>());
     }
-    // Missing criteria are 0 for all points, which does not change dominance.
+    // Fill up to four coordinates by 0 for all points, which does not change dominance.
     let points = points.map(|point| std::array::from_fn(|c| point.get(c).copied().unwrap_or(0.0)));
     pareto_front(&points.collect::<Vec<_>>())
 }
 
-/// Marks the points on the Pareto front, in any dimension.
+/// Marks the points on the Pareto front, for points with any number of coordinates.
 ///
-/// After sorting, a point can only be dominated by points before it, so it is compared with earlier
-/// points of the front only.
+/// The points are sorted so that a point can only be dominated by earlier points. So each point is
+/// compared only with the earlier points of the front.
 fn sifted(points: &[&[f64]]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| compare(points[b], points[a]));
@@ -41,13 +41,18 @@ fn sifted(points: &[&[f64]]) -> Vec<bool> {
     on_front
 }
 
-/// Returns true if `p` dominates `q`: nowhere worse, and better in one (R6).
+/// Returns true if `p` dominates `q`: no coordinate is worse, and at least one is better (R6).
+///
+/// Coordinates that are equal up to round-off count as equal.
 pub fn dominates(p: &[f64], q: &[f64]) -> bool {
     let mut pairs = p.iter().zip(q);
     pairs.clone().all(|(p, q)| p >= q || same(*p, *q)) && pairs.any(|(p, q)| p > q && !same(*p, *q))
 }
 
-/// Marks the points on the Pareto front. Coordinates are finite; larger is better.
+/// Marks the points on the Pareto front by divide and conquer, in `O(N log² N)`.
+///
+/// Coordinates are finite; larger is better. See Kung, Luccio & Preparata 1975, doi
+/// 10.1145/321906.321910.
 pub fn pareto_front(points: &[Quadruple]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| compare(&points[b], &points[a]));
@@ -68,13 +73,13 @@ pub fn pareto_front(points: &[Quadruple]) -> Vec<bool> {
     front
 }
 
-/// Compares lexicographically; zeros of either sign are equal.
+/// Compares two points lexicographically; zeros of either sign are equal.
 fn compare(a: &[f64], b: &[f64]) -> Ordering {
     let by_coordinate = a.iter().zip(b).map(|(a, b)| (a + 0.0).total_cmp(&(b + 0.0)));
     by_coordinate.fold(Ordering::Equal, Ordering::then)
 }
 
-/// Returns the rank of each value among the distinct ones, the largest first.
+/// Returns the rank of each value among the distinct values; the largest value has rank 0.
 fn descending_ranks(values: &[f64]) -> Vec<usize> {
     let mut distinct = values.to_vec();
     distinct.sort_by(|a, b| b.total_cmp(a));
@@ -87,22 +92,24 @@ fn descending_ranks(values: &[f64]) -> Vec<usize> {
 struct Point {
     group: usize,
     second: f64,
-    /// Rank of the third coordinate, the largest first.
+    /// Rank of the third coordinate; the largest value has rank 0.
     third: usize,
     fourth: f64,
+    /// True if another point dominates this point.
     beaten: bool,
 }
 
 /// Marks the dominated candidates.
 ///
-/// Sorts all by the second coordinate, descending. On entry, candidates are sorted
-/// lexicographically, descending.
+/// On entry, the candidates are in descending lexicographic order. On return, they are in
+/// descending order of the second coordinate.
 fn divide(candidates: &mut [Point], best: &mut PrefixMaxima) {
     if candidates.len() < 2 {
         return;
     }
     let (earlier, later) = candidates.split_at_mut(candidates.len() / 2);
-    // Dominated points may stay: any point they dominate is also dominated by their dominator.
+    // Dominated points need not be removed: if `p` dominates `q`, every point that `q` dominates is
+    // also dominated by `p`.
     divide(earlier, best);
     divide(later, best);
     conquer(earlier, later, best);
@@ -110,26 +117,27 @@ fn divide(candidates: &mut [Point], best: &mut PrefixMaxima) {
     candidates.sort_by(|a, b| b.second.total_cmp(&a.second));
 }
 
-/// Marks points of `later` dominated by `earlier`.
+/// Marks the points of `later` that a point of `earlier` dominates.
 ///
-/// Both are sorted by the second coordinate.
+/// `earlier` and `later` are in descending order of the second coordinate. The first coordinate of
+/// no point in `earlier` is smaller than in `later`.
 fn conquer(earlier: &[Point], later: &mut [Point], best: &mut PrefixMaxima) {
     let mut above = 0;
     for candidate in later {
-        // Ties in the second coordinate count: an earlier point is at least as good in the first,
-        // and equal points form one candidate.
+        // Include ties in the second coordinate: an earlier point is at least as good in the first
+        // coordinate, and differs from `candidate`, because equal points form one candidate.
         while above < earlier.len() && earlier[above].second >= candidate.second {
             best.raise(earlier[above].third, earlier[above].fourth);
             above += 1;
         }
         candidate.beaten |= best.up_to(candidate.third) >= candidate.fourth;
     }
-    // Clear only the raised nodes. Clearing the whole tree would cost as much as all points at
-    // every level of the recursion.
+    // Clear only the raised nodes. Clearing the whole tree in every call would cost time in
+    // proportion to the number of all points.
     earlier[..above].iter().for_each(|candidate| best.clear(candidate.third));
 }
 
-/// Maxima of all values up to an index: a Fenwick tree.
+/// Fenwick tree that returns the maximum of all values up to an index.
 struct PrefixMaxima {
     values: Vec<f64>,
 }

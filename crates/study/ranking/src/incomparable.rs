@@ -30,7 +30,7 @@ fn texts(values: &[f64]) -> Vec<String> {
 }
 
 fn remedy(parameter: &str) -> &'static str {
-    // Rigidity in N mm² can be compared between membranes of different thickness.
+    // The rigidity in N mm² can be compared between membranes of different thickness.
     if Parameter::named(parameter).is_some_and(|parameter| parameter.has(Role::UnitOfBending)) {
         ", e.g. --minimize flexural_rigidity_N_mm2 with a [material]"
     } else {
@@ -40,8 +40,9 @@ fn remedy(parameter: &str) -> &'static str {
 
 /// Returns the preferences for each group of comparable designs.
 ///
-/// A group adds a requirement that fixes a condition of the measurement at one of its values. If
-/// all designs are comparable, the only group has the given preferences.
+/// The preferences of a group have an additional requirement for each condition of the measurement
+/// that differs between designs, e.g. `critical_tilt_deg == 5`. If all designs are comparable, the
+/// only group has the given preferences.
 ///
 /// # Errors
 ///
@@ -65,7 +66,7 @@ pub fn comparable_groups(
 ) -> Result<Vec<Preferences>, InvalidResults> {
     let mut groups = vec![preferences.clone()];
     for Incomparable { parameter, values, .. } in differing(results, preferences)? {
-        // Includes combinations without designs; their rankings are empty.
+        // Form all combinations of values, including combinations that no design has.
         for group in std::mem::take(&mut groups) {
             for &limit in &values {
                 let (mut group, column) = (group.clone(), parameter.clone());
@@ -77,7 +78,7 @@ pub fn comparable_groups(
     Ok(groups)
 }
 
-/// Returns the conditions in which designs that meet the requirements differ.
+/// Returns the conditions of measurement that differ between designs that meet the requirements.
 pub(crate) fn differing(
     results: &Results,
     preferences: &Preferences,
@@ -98,15 +99,15 @@ pub(crate) fn differing(
     Ok(found)
 }
 
-/// Returns the distinct values of a parameter.
+/// Returns the distinct values of a parameter among the designs that meet the requirements.
 ///
-/// Only designs that meet the requirements count. The values are in the order of the table.
+/// The values are in the order of the table.
 fn values(
     results: &Results,
     preferences: &Preferences,
     parameter: &str,
 ) -> Result<Vec<f64>, InvalidResults> {
-    // Without a column, all designs have the same value.
+    // If the parameter has no column, all designs have the same value.
     let Ok(column) = results.column(parameter) else { return Ok(Vec::new()) };
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
     let mut values: Vec<f64> = Vec::new();

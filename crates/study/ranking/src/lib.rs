@@ -19,13 +19,13 @@
 //! | [`Ranking`], [`RankedDesign`] | designs in the order of their fitness |
 //! | [`Unmet`] | nearest design and binding requirements, if no design meets all requirements |
 //! | [`check_comparable`], [`comparable_groups`] | designs with comparable criteria |
-//! | [`TetrahedralGrid`] | all weights of four criteria, on a grid |
+//! | [`TetrahedralGrid`] | a grid of all weights of four criteria |
 //! | [`Standard`] | protection levels that requirements may name, such as `needle 2` |
 //! | [`Worth`], [`tightest`] | objectives of a design, and its margins to all requirements |
-//! | [`FitnessGoal`], [`CriterionEnds`], [`RescaledCriterion`] | fitness between fixed ends |
+//! | [`FitnessGoal`], [`CriterionEnds`], [`RescaledCriterion`] | fitness with fixed worst and best values of the criteria |
 //! | [`dominates`], [`pareto_front`] | Pareto dominance and front |
 //! | [`compare()`], [`Comparison`] | differences between two runs |
-//! | [`write_ranking`], [`write_comparison`] | write the tables of both |
+//! | [`write_ranking`], [`write_comparison`] | write the tables of a ranking or of a comparison |
 //!
 //! ```
 //! use ranking::{Ranking, TetrahedralGrid, Weights};

@@ -2,18 +2,18 @@
 
 use crate::requirement::{Relation, Requirement};
 
-/// Limit of the pressure on a body part, for clamping contact.
+/// Limit of the pressure on a body part that is clamped by a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PainLimit {
-    /// Body part, as in `pain palm`.
+    /// Body part, as in the requirement `pain palm`.
     pub part: &'static str,
-    /// Largest pressure in kPa.
+    /// Maximum pressure in kPa.
     pub kilopascals: f64,
 }
 
 /// Pressure limits that requirements may name.
 ///
-/// `docs/bodies.md` lists them with their source; a test compares both.
+/// `docs/bodies.md` lists the same limits with their source; a test compares both lists.
 pub const PAIN_LIMITS: [PainLimit; 8] = [
     PainLimit { part: "finger", kilopascals: 600.0 },
     PainLimit { part: "palm", kilopascals: 600.0 },
@@ -25,7 +25,7 @@ pub const PAIN_LIMITS: [PainLimit; 8] = [
     PainLimit { part: "shin", kilopascals: 450.0 },
 ];
 
-/// Meaning of a limit, for notes.
+/// Meaning of a pressure limit, for notes to the user.
 pub const PAIN_MEANING: &str = "limit of BG/BGIA for contact with robots, near the onset of pain, \
     not of injury; it applies to the mean pressure of one base up to the end of the path, and \
     persons differ by a factor of four (docs/bodies.md)";

@@ -30,7 +30,7 @@ pub struct Preferences {
     pub criteria: Vec<Criterion>,
     /// Weights, one for each criterion.
     pub weights: Weights,
-    /// Scale on which criteria are combined.
+    /// Scale on which criteria are rescaled and combined.
     pub scale: Scale,
 }
 
@@ -65,7 +65,7 @@ pub enum InvalidPreferences {
 }
 
 impl Preferences {
-    /// Returns the four criteria of the paper with equal weights, no requirements.
+    /// Returns the four criteria of the paper with equal weights and no requirements.
     pub fn paper() -> Self {
         Self {
             requirements: Vec::new(),
@@ -79,8 +79,8 @@ impl Preferences {
     ///
     /// # Errors
     ///
-    /// If there are no criteria or more than [`MOST_CRITERIA`], two criteria with the same column,
-    /// or another number of weights.
+    /// If there are no criteria or more than [`MOST_CRITERIA`], if two criteria have the same
+    /// column, or if the numbers of weights and criteria differ.
     pub fn new(
         requirements: Vec<Requirement>,
         criteria: Vec<Criterion>,
@@ -106,7 +106,7 @@ impl Preferences {
         Ok(Self { requirements, criteria, weights, scale })
     }
 
-    /// Returns true if the criteria are the four of the paper.
+    /// Returns true if the criteria are the four criteria of the paper.
     pub fn are_the_papers(&self) -> bool {
         self.criteria == CRITERIA
     }
@@ -118,15 +118,15 @@ impl Preferences {
         parts.collect::<Vec<_>>().join(", ")
     }
 
-    /// Reads `ranking.toml` in `folder`; `None` if the folder holds no ranking.
+    /// Reads `ranking.toml` in `folder`; `None` if the folder contains no ranking.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, was edited after `squama rank` wrote it, or is missing beside
-    /// the tables of a ranking.
+    /// If the file cannot be read, was edited after `squama rank` wrote it, or is missing although
+    /// the folder contains tables of a ranking.
     pub fn read(folder: &VerifiedFolder) -> Result<Option<Self>, InvalidPreferences> {
         if !folder.holds(ResultsFolder::PREFERENCES) {
-            // A fitness has no meaning without its criteria and weights.
+            // The fitness in a table has no meaning without its criteria and weights.
             if ResultsFolder::RANKING.iter().any(|table| folder.holds(table)) {
                 return Err(folder.missing(ResultsFolder::PREFERENCES).into());
             }
@@ -160,13 +160,15 @@ impl Preferences {
                 "weights" => {
                     let numbers: Vec<f64> = list(&entry.value).map_err(wrong)?;
                     let read = Weights::new(&numbers).map_err(|error| wrong(error.to_string()))?;
-                    // The number is checked below, because criteria may follow the weights.
+                    // The number of weights is checked below, because the key `criteria` may follow
+                    // the key `weights`.
                     (weights, place) = (Some(read), entry.place);
                 }
                 _ => return Err(unknown(&entry)),
             }
         }
-        // Without weights, any number of criteria have equal weights, unlike in the paper.
+        // Leave out the weights of the paper: if the file gives no weights, all criteria have
+        // equal weights, whatever their number.
         let Self { requirements, criteria, scale, .. } = found;
         Self::new(requirements, criteria, weights, scale).map_err(|error| InvalidPreferences::Key {
             place,

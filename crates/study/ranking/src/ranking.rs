@@ -1,4 +1,4 @@
-//! Ranking of designs: by weighted fitness, for all weights, and by dominance.
+//! Ranking of designs by weighted fitness, best designs for all weights, and Pareto front.
 
 mod columns;
 mod contenders;
@@ -22,10 +22,10 @@ use crate::weights::Weights;
 pub use columns::{pareto_columns, quaternary_columns, ranking_columns, winner_columns};
 use contenders::Contenders;
 
-/// Number of criteria with a tetrahedron of weights.
+/// Number of criteria for which the best designs for all weights are determined.
 const FOUR: usize = 4;
 
-/// Designs of a run that can be ranked, with all data independent of weights.
+/// The designs of a run that can be ranked, with all data that do not depend on weights.
 #[derive(Clone, Debug)]
 pub struct Ranking<'r> {
     results: &'r Results,
@@ -34,14 +34,18 @@ pub struct Ranking<'r> {
     contenders: Contenders,
     /// Best contender at each node of the grid; empty unless there are four criteria.
     winners: Vec<usize>,
+    /// Nodes and volume of each contender that is the best at any node.
     wins: BTreeMap<usize, Wins>,
+    /// Reasons to exclude designs, with the number of excluded designs.
     left_out: Vec<(String, usize)>,
 }
 
-/// Nodes at which a design is the best: number and volume in the tetrahedron.
+/// Extent of the weights for which a design is the best.
 #[derive(Clone, Copy, Debug, Default)]
 struct Wins {
+    /// Number of nodes of the grid of weights.
     nodes: usize,
+    /// Volume in the tetrahedron of weights, a part of [`TetrahedralGrid::whole`].
     cells: u64,
 }
 
@@ -64,23 +68,23 @@ pub enum InvalidRanking {
     /// No design meets the requirements.
     #[error("no design meets all requirements")]
     Unmet(Unmet),
-    /// Criteria are incomparable between designs.
+    /// A criterion was measured under different conditions, so designs are incomparable.
     #[error(transparent)]
     Incomparable(#[from] Incomparable),
 }
 
-/// A design with its fitness for some weights; a row of the tables.
+/// A design with its fitness for some weights. It is a row of the tables of a ranking.
 #[derive(Clone, Copy, Debug)]
 pub struct RankedDesign<'a> {
     ranking: &'a Ranking<'a>,
     contender: usize,
-    /// Weights.
+    /// Weights of the criteria.
     pub weights: Weights,
-    /// Fitness `f` (R3, R8).
+    /// Fitness `f` for these weights (R3, R8).
     pub fitness: f64,
-    /// Rank for these weights, from 1.
+    /// Rank for these weights, from 1; 0 in tables without a rank.
     ///
-    /// Designs with equal fitness up to round-off share it.
+    /// Designs with equal fitness up to round-off share their rank.
     pub rank: usize,
 }
 
@@ -95,19 +99,19 @@ impl<'a> RankedDesign<'a> {
         self.ranking.results.design(self.row())
     }
 
-    /// Returns the column value of a criterion, given by index.
+    /// Returns the value of the design in the column of a criterion, given by index.
     pub fn value(&self, criterion: usize) -> f64 {
         let column = self.ranking.contenders.columns[criterion];
-        // All cells were checked to be numbers when the ranking was created.
+        // The cell is a number, which was checked when the ranking was created.
         self.ranking.results.table().number(self.row(), column).unwrap_or(f64::NAN)
     }
 
-    /// Returns a criterion, given by index; larger is better (R1).
+    /// Returns a criterion of the design, given by index; larger is better (R1).
     pub fn criterion(&self, criterion: usize) -> f64 {
         contenders::criterion(&self.ranking.preferences, criterion, self.value(criterion))
     }
 
-    /// Returns a criterion, given by index, rescaled from 0 (worst) to 1 (best).
+    /// Returns a criterion of the design, given by index, rescaled from 0 (worst) to 1 (best).
     pub fn rescaled(&self, criterion: usize) -> f64 {
         self.ranking.contenders.rescaled(criterion, self.criterion(criterion))
     }
@@ -134,7 +138,7 @@ impl<'r> Ranking<'r> {
     ///
     /// # Errors
     ///
-    /// If a column is missing, a cell is not a number, or no design remains.
+    /// If a column is missing, a cell is not a number, or all designs are excluded.
     pub fn new(results: &'r Results, grid: TetrahedralGrid) -> Result<Self, InvalidRanking> {
         Self::by(results, Preferences::paper(), grid)
     }
@@ -146,8 +150,7 @@ impl<'r> Ranking<'r> {
     ///
     /// # Errors
     ///
-    /// If a column is missing, a cell is not a number, no design meets the requirements, or none
-    /// remains.
+    /// If a column is missing, a cell is not a number, or all designs are excluded.
     pub fn by(
         results: &'r Results,
         preferences: Preferences,
@@ -155,8 +158,8 @@ impl<'r> Ranking<'r> {
     ) -> Result<Self, InvalidRanking> {
         let (contenders, reasons) = contenders::sort_out(results, &preferences)?;
         let unmet: usize = reasons.iter().filter(|(why, _)| why.is_unmet()).map(|(_, n)| n).sum();
-        // A design that is excluded for another reason meets the requirements, so requirements are
-        // the problem only if they exclude all designs.
+        // A design that is excluded for another reason meets the requirements, so the requirements
+        // cannot be met only if they exclude all designs.
         if unmet > 0 && unmet == results.len() {
             return Err(InvalidRanking::Unmet(Unmet::of(results, &preferences.requirements)?));
         }
@@ -175,7 +178,7 @@ impl<'r> Ranking<'r> {
         Ok(Self { results, preferences, grid, contenders, winners, wins, left_out })
     }
 
-    /// Reads the columns that a ranking by `preferences` needs.
+    /// Reads the results in `folder`, with only the columns that a ranking by `preferences` needs.
     ///
     /// # Errors
     ///
@@ -185,8 +188,8 @@ impl<'r> Ranking<'r> {
         preferences: &Preferences,
     ) -> Result<Results, InvalidResults> {
         Results::with_columns(folder, |column| {
-            // Parameters are always needed: they are printed, and decide which designs are
-            // comparable.
+            // Parameters are always needed: they are printed, and determine which designs are
+            // comparable. The fold force is needed for the best design without a fold.
             let is_always = column == name::FOLD_FORCE || parameter_of(column).is_some();
             // A failure mode is printed beside its force.
             is_always
@@ -229,16 +232,16 @@ impl<'r> Ranking<'r> {
     pub fn by_fitness(&self, weights: Weights) -> impl ExactSizeIterator<Item = RankedDesign<'_>> {
         let scored = self.contenders.terms().enumerate();
         let mut order: Vec<_> = scored.map(|(k, terms)| (weights.score(terms), k)).collect();
-        // Stable sort: contenders are ordered by number.
+        // Stable sort: contenders with equal scores remain ordered by number.
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut ranks = Vec::with_capacity(order.len());
         let mut rest = order.as_mut_slice();
         while let Some(&(best, _)) = rest.first() {
-            // Compare with the best design, not with the previous one: a chain of small differences
-            // would make all designs equal.
+            // Compare scores with the best score of this rank, not with the previous score:
+            // otherwise a chain of small differences would make all designs equal.
             let equal = rest.partition_point(|(score, _)| is_as_good(*score, best));
             let (equals, others) = rest.split_at_mut(equal);
-            // Within round-off, the order is given by the numbers of the designs.
+            // Order designs that are equal up to round-off by number.
             equals.sort_by_key(|(_, contender)| *contender);
             let rank = ranks.len() + 1;
             ranks.extend(equals.iter().map(|(_, contender)| (rank, *contender)));
@@ -252,10 +255,11 @@ impl<'r> Ranking<'r> {
         self.ranked(best(&self.contenders, weights), weights, 1)
     }
 
-    /// Returns the best design without a surface fold, if the best of all folds.
+    /// Returns the best design without a surface fold, if the surface folds in the best design.
     ///
     /// The weights are taken from the preferences. `None` if the surface does not fold in the best
-    /// design, or if the table has no column of fold forces.
+    /// design, if the table has no column of fold forces, or if all criteria and requirements stay
+    /// valid after a fold.
     pub fn best_unfolded(&self) -> Option<RankedDesign<'_>> {
         let fold = self.results.column(name::FOLD_FORCE).ok()?;
         let criteria = self.preferences.criteria.iter().map(|criterion| &criterion.column);
@@ -268,7 +272,7 @@ impl<'r> Ranking<'r> {
         if is_open(&best) { None } else { self.by_fitness(self.preferences.weights).find(is_open) }
     }
 
-    /// Counts the other designs with the best fitness for `weights`, up to round-off.
+    /// Counts the designs, besides the winner, with the best fitness for `weights` up to round-off.
     pub fn equals(&self, weights: Weights) -> usize {
         let scores = self.contenders.terms().map(|terms| weights.score(terms));
         let largest = scores.clone().fold(f64::NEG_INFINITY, f64::max);
@@ -288,7 +292,7 @@ impl<'r> Ranking<'r> {
     /// or there is one criterion only.
     pub fn knee(&self) -> Option<RankedDesign<'_>> {
         let (front, count) = (self.front(), self.preferences.criteria.len());
-        // A front of two designs consists of its ends, with no knee between them.
+        // A front of two designs consists of its ends, so there is no knee between the ends.
         if front.len() < 3 || count < 2 {
             return None;
         }
@@ -305,7 +309,7 @@ impl<'r> Ranking<'r> {
         let mut winners: Vec<_> = self.wins.iter().collect();
         // Stable sort: equal fractions are ordered by number.
         winners.sort_by_key(|(_, wins)| std::cmp::Reverse(wins.cells));
-        // Rows of these tables have no rank, so it is 0.
+        // The table of winners has no ranks, so use the rank 0.
         winners.into_iter().map(|(&winner, _)| self.ranked(winner, Weights::BALANCED, 0)).collect()
     }
 
@@ -351,13 +355,13 @@ fn winners(contenders: &Contenders, grid: TetrahedralGrid) -> Vec<usize> {
     nodes.par_iter().map(|&steps| best(contenders, Weights::at(grid, steps))).collect()
 }
 
-/// Round-off of a score, a sum of logarithms or of fractions.
+/// Maximum round-off of a score, which is a sum of logarithms or of fractions.
 ///
-/// Equal values of a criterion are exactly equal when scores are computed, so only the round-off of
-/// the sum remains.
+/// Values of a criterion that are equal up to round-off have been made exactly equal, so only the
+/// round-off of the sum remains.
 const SUM_ROUND_OFF: f64 = 1e-12;
 
-/// Returns true if a score equals the best one up to round-off.
+/// Returns true if `score` equals the best score `best` up to round-off.
 ///
 /// Scores are logarithms or fractions of 1, so an absolute tolerance is appropriate.
 fn is_as_good(score: f64, best: f64) -> bool {
@@ -371,9 +375,7 @@ fn best(contenders: &Contenders, weights: Weights) -> usize {
     scores.position(|score| is_as_good(score, largest)).unwrap_or(0)
 }
 
-/// Checks that all criteria are comparable.
-///
-/// Only designs that meet the requirements count.
+/// Checks that all criteria are comparable between the designs that meet the requirements.
 ///
 /// # Errors
 ///
@@ -391,7 +393,7 @@ pub fn check_comparable(
 /// Writes the tables and preferences of `ranking` to `folder`.
 ///
 /// Returns the names of the files, and the lock of the folder, which callers hold while they read
-/// the files. Tables for all weights are only written with four criteria.
+/// the files. The tables for all weights are written only if there are four criteria.
 ///
 /// # Errors
 ///
@@ -401,7 +403,8 @@ pub fn write_ranking(
     ranking: &Ranking<'_>,
 ) -> Result<(Vec<&'static str>, File), OutputError> {
     let folder = ResultsFolder::new(folder);
-    // Removes earlier tables. Tables for all weights would otherwise survive a change of criteria.
+    // The claim removes earlier tables. Otherwise tables for all weights would remain after a
+    // change of the criteria.
     let claim = Claim::take(&folder, Maker::Ranking)?;
     let parameters: Vec<_> = ranking.results.parameters().collect();
     let [by_fitness, pareto, winners, quaternary] = ResultsFolder::RANKING;
@@ -433,7 +436,7 @@ pub fn write_ranking(
     Ok((files, lock))
 }
 
-/// Writes the preferences of a ranking without designs to `folder`.
+/// Writes only the preferences of a ranking to `folder`, if no design meets its requirements.
 ///
 /// Removes an earlier ranking. Returns the name of the file, and the lock of the folder.
 ///
@@ -446,7 +449,7 @@ pub fn write_unmet(
 ) -> Result<(&'static str, File), OutputError> {
     let folder = ResultsFolder::new(folder);
     let claim = Claim::take(&folder, Maker::Ranking)?;
-    // The page of the run initially shows these requirements, even if no design meets them.
+    // Write the preferences, because the page of the run shows these requirements at first.
     folder.write_text(ResultsFolder::PREFERENCES, &preferences.to_toml())?;
     let lock = claim.state(&[ResultsFolder::PREFERENCES])?;
     Ok((ResultsFolder::PREFERENCES, lock))

@@ -1,4 +1,4 @@
-//! Requirement: a bound on a column.
+//! Requirements: bounds on columns.
 
 use text::number::{ROUND_OFF, same};
 
@@ -18,7 +18,7 @@ pub enum Relation {
 }
 
 impl Relation {
-    /// All relations; signs of two characters come first because others are prefixes.
+    /// All relations. `>=` and `<=` come before their prefixes `>` and `<`.
     pub const ALL: [Self; 5] = [Self::AtLeast, Self::AtMost, Self::Equal, Self::Above, Self::Below];
 
     /// Returns the sign of the relation.
@@ -32,10 +32,10 @@ impl Relation {
         }
     }
 
-    /// Returns 1 if values must be above the limit, −1 if they must be below.
+    /// Returns 1 if values must be above the limit, −1 if values must be below the limit.
     fn direction(self) -> f64 {
         match self {
-            // The direction of an equality is never used, because goals refuse equalities.
+            // `margin` does not depend on the direction of an equality.
             Self::AtLeast | Self::Above | Self::Equal => 1.0,
             Self::AtMost | Self::Below => -1.0,
         }
@@ -78,7 +78,9 @@ impl Requirement {
         }
     }
 
-    /// Returns 1 if values must be above the limit, −1 if they must be below.
+    /// Returns 1 if values must be above the limit, −1 if values must be below the limit.
+    ///
+    /// An equality has the direction 1; goals of a search refuse equalities.
     pub fn direction(&self) -> f64 {
         self.relation.direction()
     }
@@ -90,14 +92,14 @@ impl Requirement {
 
     /// Returns the distance of a value from the limit, relative to [`Self::size`].
     ///
-    /// Negative if the requirement is not met.
+    /// The margin is negative if the requirement is not met.
     pub fn margin(&self, value: f64) -> f64 {
         let margin = self.direction() * (value - self.limit) / self.size();
         match self.relation {
-            // A search converges to the limit up to round-off. For a strict inequality it must aim
-            // slightly beyond.
+            // A search converges to a margin of 0 up to round-off. Subtract a small number for a
+            // strict inequality, so that the search converges beyond the limit.
             Relation::Above | Relation::Below => margin - 10.0 * ROUND_OFF,
-            // Both sides of the required value violate an equality.
+            // A value on either side of the limit violates an equality.
             Relation::Equal => -margin.abs(),
             _ => margin,
         }
@@ -108,21 +110,21 @@ impl Requirement {
         self.direction() / self.size()
     }
 
-    /// Returns the margin of a value up to round-off.
+    /// Returns the margin of a value, corrected for round-off.
     ///
-    /// It is non-negative if and only if the value meets the requirement, which [`Self::margin`]
-    /// does not guarantee. A missing value has the margin −∞.
+    /// Unlike [`Self::margin`], this margin is non-negative if and only if the value meets the
+    /// requirement. A missing value has the margin −∞.
     pub fn counted_margin(&self, value: Option<f64>) -> f64 {
         let Some(value) = value else { return f64::NEG_INFINITY };
         let margin = self.margin(value);
         if self.is_met(value) { margin.max(0.0) } else { margin.min(-f64::MIN_POSITIVE) }
     }
 
-    /// Returns the shortfall of a value, relative to `size`; 0 if it meets the limit.
+    /// Returns the shortfall of a value, relative to `size`; 0 if the requirement is met.
     pub(crate) fn shortfall(&self, value: f64, size: f64) -> f64 {
-        // The absolute distance, because an equality may be missed on either side.
+        // Use the absolute distance, because an equality may be missed on either side.
         let missing = (value - self.limit).abs();
-        // If only strictness fails, the shortfall is the smallest positive number.
+        // The shortfall must be positive for a value at the limit of a strict inequality.
         if self.is_met(value) { 0.0 } else { (missing / size).max(f64::MIN_POSITIVE) }
     }
 }

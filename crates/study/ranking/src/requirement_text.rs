@@ -33,10 +33,11 @@ impl FromStr for Requirement {
                 let ((column, limit), relation) = Relation::ALL
                     .into_iter()
                     .find_map(|relation| Some((text.split_once(relation.sign())?, relation)))?;
-                // Every value or no value would meet a bound of `inf` or `nan`.
+                // Refuse the limits `inf` and `nan`, which every value or no value would meet.
                 let limit = limit.trim().parse().ok().filter(|limit: &f64| limit.is_finite())?;
                 let column = column.trim().to_owned();
-                // In `coverage => 0.6` the sign `>` leaves a `=` in the name.
+                // Refuse a column name with a sign, as in the mistyped `coverage => 0.6`, which is
+                // split at `>` and leaves `coverage =`.
                 let is_name = !column.is_empty() && !column.contains(['<', '>', '=']);
                 is_name.then_some(Self { column, relation, limit })
             })

@@ -5,13 +5,13 @@ use std::str::FromStr;
 
 use results::columns::Goal;
 
-/// Rescaling of criteria from 0, the worst, to 1, the best, and their combination.
+/// Defines how criteria are rescaled from 0 (worst) to 1 (best) and combined into a fitness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// Scale of the paper: the value, or its inverse if it is minimised (R1).
+    /// Scale of the paper: the criterion is the value, or its inverse if it is minimised (R1).
     ///
-    /// The fitness is the weighted geometric mean (R3), so it is 0 for the worst design in any
-    /// criterion.
+    /// The fitness is the weighted geometric mean (R3), so a design that is the worst in any
+    /// criterion has the fitness 0.
     #[default]
     Paper,
     /// Linear in the value; the fitness is the weighted mean (R8).
@@ -38,9 +38,9 @@ impl Scale {
         }
     }
 
-    /// Returns the criterion of a value; larger is better.
+    /// Returns the criterion of a value of a column; larger criteria are better.
     ///
-    /// `None` if the inverse or logarithm does not exist.
+    /// `None` if the required inverse or logarithm of the value does not exist.
     pub fn criterion(self, goal: Goal, value: f64) -> Option<f64> {
         let criterion = match (self, goal) {
             // Only inverses and logarithms require positive values.
@@ -56,11 +56,11 @@ impl Scale {
 
     /// Returns the term of a rescaled criterion in the score, without its weight.
     pub(crate) fn term(self, rescaled: f64) -> f64 {
-        // −∞ at the worst value: the fitness is then 0, regardless of the other criteria.
+        // The term is −∞ at the worst value, so that the fitness is 0 whatever the other criteria.
         if self == Self::Paper { rescaled.ln() } else { rescaled }
     }
 
-    /// Returns the fitness of a design with this score (the sum of weighted terms).
+    /// Returns the fitness of a design from its score, the sum of weighted terms.
     pub(crate) fn fitness(self, score: f64) -> f64 {
         if self == Self::Paper { score.exp() } else { score }
     }
@@ -90,7 +90,7 @@ mod tests {
         for scale in Scale::ALL {
             for (goal, better, worse) in [(Goal::Maximize, 2.0, 1.0), (Goal::Minimize, 1.0, 2.0)] {
                 let [better, worse] =
-                    [better, worse].map(|value| scale.criterion(goal, value).expect("it exists"));
+                    [better, worse].map(|value| scale.criterion(goal, value).expect("criterion"));
                 assert!(better > worse, "{scale:?}");
             }
             assert_eq!(scale.name().parse(), Ok(scale));

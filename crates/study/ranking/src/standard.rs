@@ -2,20 +2,20 @@
 
 use crate::requirement::{Relation, Requirement};
 
-/// A standard that defines its levels by forces.
+/// A standard that defines its protection levels by minimum forces.
 #[derive(Debug)]
 pub struct Standard {
     /// First word of a level, as in `needle 2`.
     pub name: &'static str,
-    /// Name of the standard, and its indenter.
+    /// Name of the standard, and the indenter of its test.
     pub source: &'static str,
-    /// Minimum force of each level in N, from level 1.
+    /// Minimum force of each level in N, starting with level 1.
     pub newtons: &'static [f64],
 }
 
 /// Standards that requirements may name.
-// Levels as published: ANSI/ISEA 105-2016 with ASTM F2878 (needle, 500 mm/min), EN 388:2016 (probe,
-// 100 mm/min).
+// The levels are published in ANSI/ISEA 105-2016 with ASTM F2878 (needle, 500 mm/min) and
+// EN 388:2016 (probe, 100 mm/min).
 pub const STANDARDS: [Standard; 2] = [
     Standard {
         name: "needle",
@@ -29,7 +29,7 @@ pub const STANDARDS: [Standard; 2] = [
     },
 ];
 
-/// Warning: meeting the force of a level here does not prove the level.
+/// Warning that a critical force above the force of a level does not prove the level.
 pub const TILTING_ONLY: &str = "the model predicts the force at which a scale tilts under a point load, not whether a needle or probe \
     penetrates: it neglects the radius of the tip, the strength of the scales and the path between them; only a test gives the level";
 
@@ -39,7 +39,7 @@ impl Standard {
         let (name, level) = text.trim().split_once(' ')?;
         let standard = STANDARDS.iter().find(|standard| standard.name == name)?;
         let index = level.trim().parse::<usize>().ok()?.checked_sub(1)?;
-        // The critical force replaces the force of the test; see `TILTING_ONLY`.
+        // The critical force replaces the force in the test of the standard; see `TILTING_ONLY`.
         let (column, relation) = ("critical_force_N".to_owned(), Relation::AtLeast);
         Some((standard, Requirement { column, relation, limit: *standard.newtons.get(index)? }))
     }

@@ -1,4 +1,4 @@
-//! All distributions of weight among four criteria, on a grid.
+//! A grid of all weights of four criteria.
 
 /// Nodes of a regular grid in the tetrahedron of weights.
 ///
@@ -13,13 +13,13 @@ pub struct TetrahedralGrid {
 }
 
 impl Default for TetrahedralGrid {
-    /// Uses steps of 1/20.
+    /// Returns the grid with 20 steps along each edge.
     fn default() -> Self {
         Self { resolution: 20 }
     }
 }
 
-/// Weights of a node in steps; their sum is the resolution.
+/// Weights of a node, in steps of the grid. The sum of the steps is the resolution.
 pub type Steps = [u32; 4];
 
 /// Invalid resolution of a grid.
@@ -53,7 +53,7 @@ impl TetrahedralGrid {
         self.resolution
     }
 
-    /// Returns every node. The weight of the first criterion changes slowest.
+    /// Returns all nodes, in an order in which the weight of the first criterion changes slowest.
     pub fn nodes(self) -> impl Iterator<Item = Steps> {
         let whole = self.resolution;
         (0..=whole).flat_map(move |i| {
@@ -67,12 +67,11 @@ impl TetrahedralGrid {
         steps.map(|step| f64::from(step) / f64::from(self.resolution))
     }
 
-    /// Returns the volume closest to this node, in units of [`Self::whole`].
+    /// Returns the volume of the tetrahedron closest to a node (R5), in units of 1/72 of a cell.
     ///
     /// The nodes form a face-centred cubic lattice, with one cell per node. The tetrahedron
     /// contains half of the cell of a node on a face, 7/36 of a cell on an edge, and 1/24 of a cell
-    /// at a corner. These are the only fractions with which the volumes add up for every
-    /// resolution.
+    /// at a corner. Only with these fractions the cells fill the tetrahedron for every resolution.
     pub fn cell(steps: Steps) -> u64 {
         // The unit 1/72 of a cell makes all volumes integers, so that fractions sum to 1 exactly.
         match steps.iter().filter(|step| **step == 0).count() {
@@ -83,9 +82,9 @@ impl TetrahedralGrid {
         }
     }
 
-    /// Returns the volume of the tetrahedron: `R³/6` cells.
+    /// Returns the volume of the tetrahedron, `R³/6` cells, in units of 1/72 of a cell.
     pub fn whole(self) -> u64 {
-        // `72 R³/6`, because a cell counts 72.
+        // 72 R³/6 = 12 R³.
         12 * u64::from(self.resolution).pow(3)
     }
 }

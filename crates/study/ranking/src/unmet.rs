@@ -1,19 +1,19 @@
-//! Requirements that no design meets: nearest design and binding requirements.
+//! Analyses requirements that no design meets together: nearest design and binding requirements.
 
 use results::{InvalidResults, Results};
 
 use crate::filter::RequirementFilter;
 use crate::requirement::Requirement;
 
-/// Requirements that no design meets.
+/// Requirements that no design meets together, and the nearest design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unmet {
     /// Requirements with the shortfalls of the nearest design.
     pub requirements: Vec<UnmetRequirement>,
-    /// Row of the nearest design.
+    /// Row of the nearest design, which has the smallest maximum of its relative shortfalls.
     ///
-    /// Its largest shortfall is the smallest, then the sum of shortfalls. `None` if every design
-    /// lacks a required value.
+    /// Among designs with equal maxima, the nearest has the smallest sum of shortfalls. `None` if
+    /// every design lacks a required value.
     pub nearest: Option<usize>,
 }
 
@@ -28,12 +28,12 @@ pub struct UnmetRequirement {
     pub met_without: usize,
     /// Value of the required column in the nearest design.
     pub nearest: Option<f64>,
-    /// Relative shortfall of the nearest design.
+    /// Shortfall of the nearest design, relative to the limit.
     pub shortfall: f64,
 }
 
 impl UnmetRequirement {
-    /// Returns true if some designs meet all other requirements.
+    /// Returns true if some designs miss only this requirement.
     pub fn binds(&self) -> bool {
         self.met_without > 0
     }
@@ -54,14 +54,14 @@ impl Unmet {
 
     /// Analyses requirements that no evaluated design of a search meets together.
     ///
-    /// `values` contains the required columns of each design, and `nearest` is the nearest design
-    /// according to the search.
+    /// `values` contains the values of the required columns for each design, and `nearest` is the
+    /// index of the nearest design according to the search.
     pub fn of_search(
         values: &[Vec<Option<f64>>],
         requirements: &[Requirement],
         nearest: Option<usize>,
     ) -> Self {
-        // Shortfalls relative to the same sizes as in the search.
+        // Use the same sizes as the search, relative to which shortfalls are computed.
         let sizes: Vec<f64> = requirements.iter().map(Requirement::size).collect();
         Self::by_sizes(values, requirements, &sizes, |_| nearest)
     }
@@ -86,7 +86,8 @@ impl Unmet {
         let requirements =
             requirements.iter().enumerate().map(|(k, requirement)| UnmetRequirement {
                 requirement: requirement.clone(),
-                // Exactly 0: missing only the strictness of a bound is a positive shortfall.
+                // Compare with exactly 0: a value at the limit of a strict inequality has a tiny
+                // positive shortfall.
                 met: all.iter().filter(|row| row[k] == 0.0).count(),
                 met_without: all.iter().filter(|row| meets_others(row, k)).count(),
                 nearest: nearest.and_then(|row| values[row][k]),
@@ -101,9 +102,11 @@ fn meets_others(shortfalls: &[f64], one: usize) -> bool {
     shortfalls.iter().enumerate().all(|(k, shortfall)| k == one || *shortfall == 0.0)
 }
 
-/// Returns the unit of shortfalls: the limit, or the largest value if it is 0.
+/// Returns the size relative to which shortfalls of requirement `k` are computed.
+///
+/// This is the magnitude of the limit or, if the limit is 0, the largest magnitude of the values.
 fn size(values: &[Vec<Option<f64>>], k: usize, requirement: &Requirement) -> f64 {
-    // Shortfalls of different columns are only comparable relative to a size, which 0 cannot be.
+    // Shortfalls in different columns are comparable only if they are relative to a size above 0.
     let size = if requirement.limit == 0.0 {
         values.iter().filter_map(|row| row[k]).fold(0.0, |size: f64, value| size.max(value.abs()))
     } else {
@@ -112,9 +115,9 @@ fn size(values: &[Vec<Option<f64>>], k: usize, requirement: &Requirement) -> f64
     if size > 0.0 { size } else { 1.0 }
 }
 
-/// Returns the row with the smallest largest shortfall, then the smallest sum.
+/// Returns the row with the smallest maximum shortfall and, among equals, the smallest sum.
 ///
-/// The first of several equal rows counts.
+/// Of several equal rows, returns the first. `None` if every row has an infinite shortfall.
 fn nearest(shortfalls: &[Vec<f64>]) -> Option<usize> {
     let rows = shortfalls
         .iter()

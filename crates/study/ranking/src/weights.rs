@@ -10,16 +10,17 @@ use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
 /// Maximum number of criteria of a ranking.
 pub const MOST_CRITERIA: usize = 8;
 
-/// Weights of the criteria: non-negative, with sum 1.
+/// Weights of the criteria: non-negative numbers with the sum 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights {
     values: [f64; MOST_CRITERIA],
     count: usize,
 }
 
-/// Weights with a sum within this distance of 1 are not divided by their sum.
+/// Maximum difference between 1 and a sum of weights that counts as 1.
 ///
-/// Decimal weights such as 0.1 are not binary fractions, so their sum is rarely exactly 1.
+/// Decimal weights, such as 0.1, are not binary fractions, so their sum is rarely exactly 1. Such
+/// weights are kept instead of being divided by their sum.
 const SUM_TOLERANCE: f64 = 1e-9;
 
 /// Invalid weights.
@@ -58,14 +59,14 @@ impl Weights {
         Self { values: std::array::from_fn(|c| if c < count { weight } else { 0.0 }), count }
     }
 
-    /// Returns weights that select each criterion of the paper alone.
+    /// Returns, for each criterion of the paper, weights of 1 for it and of 0 for all others.
     ///
-    /// They follow the order of [`CRITERIA`](crate::CRITERIA).
+    /// The order is the order of [`CRITERIA`](crate::CRITERIA).
     pub fn alone() -> impl Iterator<Item = Self> {
         Self::alone_among(4)
     }
 
-    /// Returns weights that select each of `count` criteria alone.
+    /// Returns, for each of `count` criteria, weights of 1 for it and of 0 for all others.
     pub fn alone_among(count: usize) -> impl Iterator<Item = Self> {
         (0..count).map(move |own| {
             let values = std::array::from_fn(|c| f64::from(u8::from(c == own)));
@@ -77,7 +78,7 @@ impl Weights {
     ///
     /// # Errors
     ///
-    /// If one is negative, all are 0, or there are more than [`MOST_CRITERIA`].
+    /// If a weight is negative, all weights are 0, or there are more than [`MOST_CRITERIA`].
     pub fn new(weights: &[f64]) -> Result<Self, InvalidWeights> {
         if let Some(&found) = weights.iter().find(|weight| !(0.0..f64::INFINITY).contains(*weight))
         {
@@ -110,10 +111,10 @@ impl Weights {
         &self.values[..self.count]
     }
 
-    /// Returns the sum of weighted terms of a design.
+    /// Returns the score of a design: the sum of its terms, each multiplied by its weight.
     ///
     /// Designs are ordered by this score. Criteria without weight are ignored, even if their term
-    /// is −∞.
+    /// is −∞. On the scale of the paper the score is the logarithm of the fitness:
     ///
     /// ```text
     /// ln f = Σ w_c ln s_c,   0⁰ = 1                                                    (R3)
@@ -121,7 +122,7 @@ impl Weights {
     pub(crate) fn score(&self, terms: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (weight, term) in self.values().iter().zip(terms) {
-            // 0 · (−∞) would be NaN.
+            // Skip a weight of 0, because 0 · (−∞) is NaN.
             if *weight > 0.0 {
                 sum += weight * term;
             }

@@ -9,27 +9,28 @@ pub struct Worth {
     pub objectives: Vec<f64>,
     /// Objectives used to compare designs.
     ///
-    /// A yield is a step function of the design, so its value here also contains the fraction of
-    /// the next step that is completed.
+    /// A yield is a step function of the design. Its value here also contains a fraction of the
+    /// next step, so that designs with equal yields can be compared.
     pub compared: Vec<f64>,
     /// Values of the required columns.
     pub required: Vec<f64>,
-    /// Margin to each requirement, relative to the limit; negative if it is not met.
+    /// Margin to each requirement, relative to the limit; negative if the requirement is not met.
     pub margins: Vec<f64>,
     /// True if the design meets every requirement.
     pub met: bool,
 }
 
 impl Worth {
-    /// Returns the largest shortfall, relative to the limit; 0 if there is none.
+    /// Returns the largest shortfall, relative to the limit; 0 if all requirements are met.
     pub fn shortfall(&self) -> f64 {
         self.margins.iter().fold(0.0, |shortfall, margin| shortfall.max(-margin))
     }
 }
 
-/// Returns the index and the counted margin of the tightest requirement.
+/// Returns the index of the tightest requirement and its [`Requirement::counted_margin`].
 ///
-/// The first of several equal margins counts.
+/// Each item of `bounds` holds a requirement and the value of its column. The tightest requirement
+/// is the first one with the smallest margin. `None` without requirements.
 pub fn tightest<'r>(
     bounds: impl Iterator<Item = (&'r Requirement, Option<f64>)>,
 ) -> Option<(usize, f64)> {

@@ -1,8 +1,8 @@
-//! The audit of a run: solves a fraction of its designs again by a second method.
+//! Audit of a run: solves a fraction of its designs again by a second method and compares results.
 //!
-//! There are two second methods. Steps a tenth as large must not change any result. Bending as a
-//! chain of all gaps must agree with one gap that represents all; the number of gaps is then
-//! rounded, so that both methods solve the same problem.
+//! There are two second methods. The first solves paths with steps a tenth as large, which must not
+//! change any result. The second solves bending as a chain of all gaps instead of one gap that
+//! represents all. Both must agree if the number of gaps is rounded to a whole number.
 
 use std::path::Path;
 
@@ -18,42 +18,42 @@ use crate::solve::evaluator::Evaluator;
 use crate::solve::groups::Groups;
 use crate::solve::workers;
 
-/// Factor by which the steps of the second computation are smaller.
-// Ten instead of two makes errors of first and second order obvious.
+/// Number by which the second computation divides the steps of the paths.
+// Ten instead of two, so that errors of first and second order in the step become obvious.
 const SMALLER: f64 = 10.0;
 
 /// Magnitude below which values count as zero.
-// Measures are of order one; where symmetry makes them vanish, round-off remains.
+// Measures are of order one. Measures that are zero by symmetry have values of rounding errors.
 const NOTHING: f64 = 1e-9;
 
 /// The golden ratio minus one.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Maximum number of gaps of a chain in an audit.
-// A longer chain is the same problem and only takes longer.
+// A longer chain adds no information, because its gaps are equal, but takes longer.
 const LONGEST_CHAIN: usize = 1000;
 
-/// The second method for solving a design.
+/// Second method for solving a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SecondMethod {
-    /// With steps a tenth as large.
+    /// Solves the paths with steps a tenth as large.
     SmallerSteps,
-    /// As a chain of all gaps.
+    /// Solves bending as a chain of all gaps.
     Chain,
 }
 
-/// Largest difference in one column.
+/// Largest difference between both methods in one column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LargestDifference {
-    /// Column of `designs.csv`.
+    /// Name of the column of `designs.csv`.
     pub column: String,
-    /// Second method.
+    /// Second method that gave this difference.
     pub method: SecondMethod,
-    /// Difference relative to the larger value.
+    /// Difference divided by the larger magnitude.
     pub relative: f64,
-    /// Design with this difference.
+    /// Number of the design with this difference.
     pub design: DesignNumber,
-    /// Value of the run (or of the unit cell), and value of the second method.
+    /// Value in the run (for a chain: of the unit cell), and value of the second method.
     pub values: [f64; 2],
 }
 
@@ -62,24 +62,25 @@ pub struct LargestDifference {
 pub struct Audit {
     /// Number of designs that were solved again.
     pub designs: u64,
-    /// Largest difference of each column and method, the largest first.
+    /// Largest difference of each column and method, in descending order.
     pub differences: Vec<LargestDifference>,
-    /// Cells with different texts, or without a value in one method only.
+    /// Cells that differ in their text, or have a value in one method only.
     ///
-    /// Each item has the column, the design and both texts.
+    /// Each item holds the column, the design, and the texts of both methods.
     pub contradictions: Vec<(String, DesignNumber, [String; 2])>,
 }
 
-/// A design that was solved again.
+/// Results of the second methods for one design.
 struct Audited {
     index: u64,
     /// Row with smaller steps, to be compared with the row in the journal.
     finer: DesignRow,
+    /// Rows of the unit cell and of the chain; `None` without bending, or if the chain is too long.
     chain: Option<[DesignRow; 2]>,
 }
 
 impl Audit {
-    /// Solves a `fraction` (0 to 1) of the designs of the run in `folder` again, and compares.
+    /// Solves a `fraction` (0 to 1) of the designs of the run in `folder` again, and compares rows.
     ///
     /// # Errors
     ///
@@ -88,8 +89,8 @@ impl Audit {
         let archive = Archive::open(&ResultsFolder::new(folder))?;
         let sweep = archive.sweep();
         let columns = design_columns(sweep);
-        // Select all designs first, because selected designs are far apart in the grid, and groups
-        // compare neighbours.
+        // All designs are selected before they are grouped: groups contain neighbours of this list,
+        // which are far apart in the grid.
         let chosen: Vec<_> = every(fraction, archive.finished()).collect();
         let mut entries = archive.entries()?;
         let mut audit = Self::default();
@@ -103,7 +104,8 @@ impl Audit {
             |audited: Audited| {
                 let position = archive.designs().position(audited.index);
                 let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
-                // A design that was solved again with other settings differs from the sweep.
+                // A design that a rerun solved with other settings is not comparable with the
+                // sweep.
                 if let Some(entry) = entry.filter(|entry| entry.result.settings.is_empty()) {
                     audit.compare(
                         &columns,
@@ -122,7 +124,7 @@ impl Audit {
         Ok(audit)
     }
 
-    /// Adds the differences between two rows of one design.
+    /// Records the differences between two rows of one design.
     fn compare(
         &mut self,
         columns: &[Column<DesignRow>],
@@ -133,12 +135,12 @@ impl Audit {
             let design = rows[0].number;
             match rows.map(|row| column.cell(row)) {
                 [Cell::Number(first), Cell::Number(second)] => {
-                    // Both are numbers, so their relative difference is recorded.
+                    // Numbers have a size, so their relative difference is recorded.
                     let relative = relative(first, second);
                     let (column, values) = (column.name.to_string(), [first, second]);
                     self.note(LargestDifference { column, method, relative, design, values });
                 }
-                // Different texts, such as statuses, have no size, so both are recorded.
+                // Texts such as statuses have no size, so both texts are recorded.
                 cells if cells[0] != cells[1] => {
                     let texts = cells.map(|cell| cell.to_string());
                     self.contradictions.push((column.name.to_string(), design, texts));
@@ -148,9 +150,9 @@ impl Audit {
         }
     }
 
-    /// Stores a difference if it is the largest of its column and method.
+    /// Keeps a difference if it is the largest of its column and method.
     fn note(&mut self, new: LargestDifference) {
-        // With some twenty columns and two methods, a list is faster than a map.
+        // Linear search: there are only about twenty columns and two methods.
         match self
             .differences
             .iter_mut()
@@ -163,7 +165,7 @@ impl Audit {
     }
 }
 
-/// Solves designs by the second methods.
+/// Solves designs of a sweep by the second methods.
 struct Auditor<'s> {
     sweep: &'s Sweep,
     evaluator: Evaluator,
@@ -186,21 +188,23 @@ impl<'s> Auditor<'s> {
     }
 }
 
-/// Returns the case with smaller steps and a larger limit on their number.
+/// Returns the case with smaller steps, and with a larger limit on the number of path points.
 fn finer(mut case: Case) -> Case {
     let solver = &mut case.common.solver;
     solver.first_step /= SMALLER;
     solver.max_step /= SMALLER;
     solver.min_step /= SMALLER;
-    // Otherwise paths with smaller steps would stop at the limit, with another status.
+    // Without a larger limit, paths with smaller steps would end at it with another status.
     solver.max_points = solver.max_points.saturating_mul(SMALLER as usize);
     case
 }
 
-/// Returns the case with a whole number of gaps, as a unit cell and as a chain.
+/// Returns the case as a unit cell and as a chain, both with the same whole number of gaps.
+///
+/// Returns `None` if the scales overlap at rest or the chain is longer than [`LONGEST_CHAIN`].
 fn whole(mut case: Case) -> Option<[Case; 2]> {
     let gaps = flexure::whole_gaps(&case.design.row().ok()?, &case.flexure);
-    // The unit cell cannot represent unequal gaps, so compare perfect strips only.
+    // Only perfect strips, because a unit cell cannot represent unequal gaps.
     case.imperfection = skin::Imperfection::default();
     case.flexure.gaps = Some(gaps);
     (gaps <= LONGEST_CHAIN).then(|| {
@@ -213,7 +217,7 @@ fn whole(mut case: Case) -> Option<[Case; 2]> {
 
 /// Selects a `fraction` of `designs`, spread evenly at every period of the grid.
 ///
-/// The multiples of the golden ratio modulo one have this property.
+/// A design is selected if its index times the golden ratio, modulo one, is below `fraction`.
 fn every(fraction: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item = u64> {
     designs
         .enumerate()
@@ -221,14 +225,14 @@ fn every(fraction: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Ite
         .map(|(_, design)| design)
 }
 
-/// Returns true if a column does not depend on the solution method.
+/// Returns true if the value of a column should not depend on the numerical method.
 fn is_physical(column: &str) -> bool {
-    // The second method changes the numbers of steps and iterations.
+    // Numbers of path points and iterations and error estimates depend on the method.
     let of_the_path = ["_points", "_iterations", "_error"];
     !of_the_path.iter().any(|end| column.ends_with(end)) && column != "scales"
 }
 
-/// Returns the difference of two numbers relative to the larger; 0 if both vanish.
+/// Returns the difference of two numbers divided by the larger magnitude; 0 if both vanish.
 fn relative(first: f64, second: f64) -> f64 {
     let larger = first.abs().max(second.abs());
     if larger < NOTHING { 0.0 } else { (first - second).abs() / larger }
@@ -244,7 +248,7 @@ mod tests {
         let tenth = chosen(0.1);
         assert!(tenth.len().abs_diff(72) <= 1, "{}", tenth.len());
         assert_eq!((chosen(1.0).len(), chosen(0.0).len()), (720, 0));
-        // The selection contains every slant of six 12 times on average, and 8 to 16 times.
+        // Each of six slants occurs 12 times on average, and 8 to 16 times in this selection.
         for slant in 0..6 {
             let count = tenth.iter().filter(|index| **index % 6 == slant).count();
             assert!((8..=16).contains(&count), "{count} of slant {slant}");

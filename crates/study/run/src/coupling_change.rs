@@ -1,4 +1,4 @@
-//! Solves a design again with full coupling of the substrate.
+//! Effect of the substrate's coupling: solves a design again with full coupling.
 
 use results::columns::{design_columns, name};
 use serde::Serialize;
@@ -7,27 +7,27 @@ use sweep::{Case, Sweep};
 
 use crate::gap_change::{Patience, case_to_solve, evaluator_of, value};
 
-/// Measures of a design with nearest-neighbour and with full coupling.
+/// Measures of a design with nearest-neighbour coupling and with full coupling.
 ///
-/// Nearest-neighbour coupling is Eq. 1 of the paper.
+/// Nearest-neighbour coupling is Eq. (1) of Shafiei et al. (2021).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CouplingChange {
     /// Number of the design.
     pub design: String,
-    /// Measures, in the order of the requested columns.
+    /// Values of the measures, in the order of the requested columns.
     pub measures: Vec<CoupledMeasure>,
-    /// True if the surface folds with full coupling only.
+    /// True if the surface of the substrate folds only with full coupling.
     pub folds: bool,
 }
 
-/// A measure of a design with both couplings.
+/// Value of one measure with nearest-neighbour coupling and with full coupling.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CoupledMeasure {
-    /// Column name.
+    /// Name of the column in `designs.csv`.
     pub column: String,
-    /// Measure with nearest-neighbour coupling.
+    /// Value with nearest-neighbour coupling.
     pub nearest: f64,
-    /// Measure with full coupling; `None` if there is no value.
+    /// Value with full coupling; `None` if the path has no value.
     pub full: Option<f64>,
 }
 
@@ -35,8 +35,8 @@ impl CouplingChange {
     /// Solves design `number` of `sweep` with both couplings.
     ///
     /// `columns` are the measures; columns without a number are omitted. Returns `None` if there is
-    /// no such design, if its coupling is already full, if no measure changes, or if it takes
-    /// longer than `patience`. Samples of imperfect rows are not solved.
+    /// no such design, if its coupling is full already, if no measure depends on the coupling, or
+    /// if it takes longer than `patience`. Scatter of gaps and slants is ignored.
     pub fn solve(
         sweep: &Sweep,
         number: &str,
@@ -56,7 +56,7 @@ impl CouplingChange {
         };
         let folds = matches!(values(name::FOLD_FORCE), [None, Some(_)]);
         let measures: Vec<_> = columns.iter().filter_map(measure).collect();
-        // Coverage, and bending without contact, do not depend on the substrate.
+        // Coverage, and bending without contact, do not depend on the coupling.
         let moves = folds || measures.iter().any(|measure| measure.full != Some(measure.nearest));
         moves.then(|| Self { design: number.to_owned(), measures, folds })
     }

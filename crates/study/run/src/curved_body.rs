@@ -1,4 +1,4 @@
-//! The force of a flat design when it is worn on a curved body.
+//! Compares the force of a flat design with its force on curved bodies.
 
 use results::DesignRow;
 use results::columns::{design_columns, name};
@@ -8,13 +8,13 @@ use text::number::rounded;
 use crate::gap_change::{Patience, is_quick, solved_row};
 use crate::solve::evaluator::Evaluator;
 
-/// A force on a curved body below this fraction of the force on a flat one is reported.
+/// A force on a curved body is reported below this fraction of the force on a flat body.
 const LOWER: f64 = 0.9;
 
-/// Describes how much less force a design withstands on curved bodies than on a flat one.
+/// Describes the loss of force of a design on curved bodies, compared with a flat body.
 ///
-/// Returns `None` if the force falls by less than a tenth, if the definition states a body or no
-/// thickness in mm, or if the design is slow to solve.
+/// Returns `None` if the force decreases by less than a tenth on every body, if the definition has
+/// a body or lacks a thickness in mm, or if the design is slow to solve.
 pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
     let case = &row.case;
     let thickness_mm = thickness_of_flat(sweep, case)?;
@@ -46,17 +46,15 @@ pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
 
 /// Describes the loss of force of design `number` of `sweep` on curved bodies.
 ///
-/// See [`curved_body_warning`].
+/// Returns `None` if there is no such design, and if [`curved_body_warning`] does.
 pub fn flat_design_warning(sweep: &Sweep, number: &str) -> Option<String> {
     let grid = sweep.grid();
-    // A design without a warning is not solved.
+    // Checked first, so that a design without a possible warning is not solved.
     thickness_of_flat(sweep, &grid.case(grid.parse_number(number).ok()?))?;
     curved_body_warning(sweep, &solved_row(sweep, number, Patience::Milliseconds)?)
 }
 
-/// Returns the thickness in mm of a flat design that is quick to solve.
-///
-/// `None` for any other.
+/// Returns the thickness in mm of a flat design that is quick to solve, otherwise `None`.
 fn thickness_of_flat(sweep: &Sweep, case: &Case) -> Option<f64> {
     let is_flat = case.body().curvature == 0.0 && case.body_radius_to.is_none();
     case.material.thickness_mm.filter(|_| is_flat && is_quick(sweep, case))

@@ -10,16 +10,16 @@ use sweep::Sweep;
 use crate::run_journal::{JournalEntry, Line};
 use crate::solve::evaluator::Evaluator;
 
-/// Number of positions in the grid, and of neighbouring designs at each.
-// Several positions, because the cost varies over the grid; neighbours, because they share springs.
+/// Number of positions in the grid, and number of neighbouring designs solved at each position.
+// Several positions, because the time varies over the grid. Neighbours, because they share springs.
 const POSITIONS: u64 = 8;
 const NEIGHBOURS: u64 = 6;
 
-/// Order of the positions; every prefix of it is spread over the grid.
-// The middle first, because the first designs of a grid are often the costliest.
+/// Order in which the positions are solved; any number of first entries is spread over the grid.
+// The middle is first, because the first designs of a grid are often the slowest.
 const ORDER: [u64; POSITIONS as usize] = [4, 1, 6, 3, 0, 5, 2, 7];
 
-/// Maximum time of an estimate, plus the design in progress.
+/// Time after which no further design is solved for the estimate.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Estimated time and disk space of a sweep.
@@ -27,18 +27,19 @@ const PATIENCE: Duration = Duration::from_secs(2);
 pub struct Estimate {
     /// Number of designs solved for the estimate.
     pub solved: u64,
-    /// Seconds on one thread.
+    /// Estimated seconds on one thread.
     pub seconds: f64,
-    /// Bytes of journal and tables.
+    /// Estimated bytes of journal and tables.
     pub bytes: f64,
 }
 
 impl Estimate {
-    /// Solves a few designs of `sweep`, evenly spread, and extrapolates.
+    /// Solves a few designs of `sweep`, evenly spread over its grid, and extrapolates to all
+    /// designs.
     pub fn solve(sweep: &Sweep) -> Self {
         let (evaluator, grid) = (Evaluator::new(sweep.measures()), sweep.grid());
         let (begun, mut solved, mut bytes) = (Instant::now(), 0, 0);
-        // Time on one thread; callers divide it by the number of threads.
+        // Designs are solved on one thread; callers divide the time by the number of threads.
         for index in spread(grid.len()) {
             let row = evaluator.row(grid.number(index), &grid.case(index));
             bytes += disk_space(sweep, &row);
@@ -53,23 +54,23 @@ impl Estimate {
     }
 }
 
-/// Selects neighbouring designs at a few positions of a grid.
+/// Returns the indices of neighbouring designs at a few positions of a grid.
 fn spread(designs: u64) -> impl Iterator<Item = u64> {
     let first = move |place: u64| (2 * place + 1) * (designs / (2 * POSITIONS));
-    // All positions before any neighbours, because slow designs leave time for only a few.
+    // All positions before their neighbours, because slow designs leave time for only a few.
     let all = (0..NEIGHBOURS).flat_map(move |next| ORDER.map(|place| first(place) + next));
     all.filter(move |index| *index < designs)
 }
 
-/// Returns the bytes of a design in journal and tables.
+/// Returns the number of bytes of a design in journal and tables.
 fn disk_space(sweep: &Sweep, row: &DesignRow) -> usize {
     let (design, result) = (row.number.index() + 1, row.result.clone());
-    // Times of six digits are typical.
+    // Six digits are typical for the times in a journal.
     let entry = JournalEntry { design, rerun: 0, at: 0.123_456, seconds: 0.123_456, result };
     let journal = Seal::default().seal(&Line::Design(Box::new(entry))).len();
     let layouts = tables(sweep);
     let columns = layouts.iter().flat_map(|layout| &layout.columns);
-    // Each cell with the comma or line end after it.
+    // One byte for the comma or line end after each cell.
     journal + columns.map(|column| column.cell(row).to_string().len() + 1).sum::<usize>()
 }
 
@@ -78,10 +79,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn estimates_sample_all_parts_of_a_grid() {
+    fn designs_of_an_estimate_are_spread_over_the_grid() {
         let chosen: Vec<_> = spread(16_000).collect();
         assert_eq!(chosen.len(), 48);
-        // Slow designs leave time for only a few, so the first ones are from different parts.
+        // The first eight designs are in eight different parts of the grid, because slow designs
+        // leave time for only a few.
         let mut places: Vec<_> = chosen[..8].iter().map(|index| index / 2000).collect();
         places.sort_unstable();
         assert_eq!(places, [0, 1, 2, 3, 4, 5, 6, 7]);

@@ -1,4 +1,4 @@
-//! Filters for the designs of a run: by failure, number or value.
+//! Filters that select designs of a run by failure, number or value in `designs.csv`.
 
 use std::str::FromStr;
 
@@ -10,44 +10,44 @@ use text::{nearest, number};
 
 use crate::run_journal::{Archive, JournalEntry};
 
-/// A filter for the designs of a run. A design passes if it meets all conditions.
+/// Filter for the designs of a run; a design passes if it meets all conditions.
 #[derive(Clone, Debug, Default)]
 pub struct Filter {
-    /// True to select designs that lack a value.
+    /// True to select only designs that lack a value.
     pub failed: bool,
-    /// Numbers of designs, or ranges such as `1-12`.
+    /// Selected design numbers, or ranges of numbers such as `1-12`; `None` selects all numbers.
     pub numbers: Option<Vec<String>>,
-    /// Required values in `designs.csv`.
+    /// Conditions on columns of `designs.csv`.
     pub columns: Vec<ColumnFilter>,
 }
 
-/// A column of `designs.csv` and the required value.
+/// Condition that a column of `designs.csv` has a given value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnFilter {
     column: String,
     value: String,
 }
 
-/// A text that is not a condition on a column.
+/// Error for a text that is not of the form `COLUMN=VALUE`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is not a condition, expected COLUMN=VALUE, e.g. slant_deg=75")]
 pub struct InvalidColumnFilter(String);
 
-/// A filter that does not fit the run.
+/// Reason why a filter cannot be applied to a run.
 #[derive(Debug, thiserror::Error)]
 pub enum InvalidFilter {
-    /// There is no design with this number.
+    /// The grid has no design with this number.
     #[error("--design: {0}")]
     Number(NoSuchDesign),
-    /// The design is not solved.
+    /// The design has a number but is not solved yet.
     #[error("--design {0}: the design is not solved yet; squama run --resume solves it")]
     NotDone(String),
-    /// The column does not exist.
+    /// `designs.csv` has no column with this name.
     #[error("--where {column}: there is no such column in designs.csv, {suggestion}")]
     Column {
-        /// Column name.
+        /// Name in the condition.
         column: String,
-        /// Suggested column.
+        /// Advice: a similar name, or all names.
         suggestion: String,
     },
     /// The journal cannot be read.
@@ -67,7 +67,7 @@ impl FromStr for ColumnFilter {
 }
 
 impl ColumnFilter {
-    /// Returns the column among `columns`.
+    /// Returns the column of this condition among `columns`.
     fn find<'c>(
         &self,
         columns: &'c [Column<DesignRow>],
@@ -75,7 +75,7 @@ impl ColumnFilter {
         let found = columns.iter().find(|column| column.name == self.column);
         found.ok_or_else(|| {
             let known: Vec<_> = columns.iter().map(|column| column.name.as_ref()).collect();
-            // Without a similar name, list all columns.
+            // If no name is similar, all names are listed.
             let suggestion = match nearest(&self.column, &known) {
                 Some(near) => format!("did you mean {near}?"),
                 None => format!("expected one of {}", known.join(", ")),
@@ -84,17 +84,17 @@ impl ColumnFilter {
         })
     }
 
-    /// Returns true if `cell` has the value, as text or as a number.
+    /// Returns true if `cell` has the required value, compared as text or as number.
     fn passes(&self, cell: &Cell) -> bool {
         let cell = cell.to_string();
         let numbers = cell.parse().ok().zip(self.value.parse().ok());
-        // Compare texts first: `0010` is the number of a design, not the value 10.
+        // Texts are compared first, because 0010 is a design number and not the value 10.
         cell == self.value || numbers.is_some_and(|(cell, value)| number::same(cell, value))
     }
 }
 
 impl Filter {
-    /// Returns the designs of `archive` that pass, as indices of the grid, in order.
+    /// Returns the grid indices of the designs in `archive` that pass, in ascending order.
     ///
     /// # Errors
     ///
@@ -113,7 +113,8 @@ impl Filter {
             designs.extend(passes(&row).then(|| row.number.index()));
         };
         match &self.numbers {
-            // Read numbered designs at their offsets, without reading all others.
+            // Entries of numbered designs are read at their offsets, without reading the other
+            // entries.
             Some(numbers) => numbered(archive, numbers)?.into_iter().for_each(visit),
             None => archive.entries()?.in_order().try_for_each(|entry| entry.map(&mut visit))?,
         }
@@ -121,7 +122,7 @@ impl Filter {
     }
 }
 
-/// Returns the entries of designs by number, sorted and without duplicates.
+/// Returns the journal entries of the given design numbers, sorted and without duplicates.
 fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<JournalEntry>, InvalidFilter> {
     let grid = archive.sweep().grid();
     let ranges = numbers
@@ -129,7 +130,7 @@ fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<JournalEntry>, 
         .map(|text| grid.parse_numbers(text.trim()).map_err(InvalidFilter::Number))
         .collect::<Result<Vec<_>, _>>()?;
     let mut indices: Vec<_> = ranges.into_iter().flatten().collect();
-    // Reruns report designs in order, regardless of their order on the command line.
+    // Reruns solve designs in ascending order, regardless of the order on the command line.
     indices.sort_unstable();
     indices.dedup();
     let mut entries = archive.entries()?;

@@ -1,32 +1,32 @@
 //! Runs: solves the designs of a sweep and writes their results into a folder.
 //!
-//! Designs are solved in parallel, each by one thread, and appended to a journal as they finish.
-//! The tables are written from the journal, in the order of the designs, one row at a time. They
-//! are therefore identical for any number of threads, shards and interruptions, and memory hardly
-//! grows with the grid.
+//! Designs are solved in parallel, each by one thread. A design is appended to a journal as soon as
+//! it is solved. The tables are written from the journal, in the order of the designs, one row at a
+//! time. They are therefore identical for any number of threads, shards and interruptions, and the
+//! memory hardly depends on the number of designs.
 //!
 //! ```text
 //! Sweep ─► Groups ─► workers ─► Evaluator ─► JournalEntry ─► Journal ─► TableWriter ─► tables
 //! ```
 //!
-//! | Type | Role |
+//! | Item | Content |
 //! |---|---|
 //! | [`run()`] | solves the designs of a sweep and writes the tables |
-//! | [`Options`], [`Program`] | options of a run, and the program that runs it |
+//! | [`Options`], [`Program`] | options of a run; version of the program that solves it |
 //! | [`Progress`], [`Finished`] | progress and result of a run |
 //! | [`Evaluator`] | solves one design, or its curve at given points |
 //! | [`CurvePoints`] | a curve at given points, with its derivatives |
-//! | [`WorkMeter`] | the completed fraction of the work, also within designs |
+//! | [`WorkMeter`] | completed fraction of the work, including parts of designs |
 //! | [`Start`] | treatment of existing results |
-//! | [`Archive`], [`JournalEntry`], [`Line`] | a journal that was read, and its lines |
-//! | [`Rerun`], [`Filter`], [`ColumnFilter`] | selected designs solved again with other settings |
+//! | [`Archive`], [`JournalEntry`], [`Line`] | contents of a journal, and its lines |
+//! | [`Rerun`], [`Filter`], [`ColumnFilter`] | solves selected designs again with other settings |
 //! | [`RunStatus`] | numbers of finished, failed and missing designs |
 //! | [`merge()`] | merges shards |
 //! | [`Estimate`] | estimated time and disk space of a sweep |
-//! | [`Audit`], [`LargestDifference`], [`SecondMethod`] | designs solved again by another method |
-//! | [`Summary`], [`Best`] | counts and best values |
-//! | [`GapChange`], [`MeasureChange`] | the measures of a design with a gap 10 % smaller and larger |
-//! | [`CouplingChange`], [`CoupledMeasure`] | the measures of a design with full coupling |
+//! | [`Audit`], [`LargestDifference`], [`SecondMethod`] | solves designs again by a second method |
+//! | [`Summary`], [`Best`] | counts and best values of the designs |
+//! | [`GapChange`], [`MeasureChange`] | measures of a design with a gap 10 % smaller and larger |
+//! | [`CouplingChange`], [`CoupledMeasure`] | measures of a design with full substrate coupling |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;

@@ -1,4 +1,4 @@
-//! Merges the shards of a sweep.
+//! Merges the results of shards, which each solved a part of the designs of a sweep.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -17,16 +17,16 @@ use crate::run_journal::{self, Archive, Entries, Journal, JournalEntry, Line, Se
 use crate::solve::work::WorkMeter;
 use crate::tables::run_info::RunInfo;
 
-/// Advice if shards do not belong to the same sweep.
+/// Expectation in the error message if a folder has another definition or program.
 const ALIKE: &str = "shards of one sweep by one program";
 
-/// Shards that cannot be merged.
+/// Reason why shards cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
-    /// No folder of a shard was given.
+    /// The list of folders is empty.
     #[error("there is nothing to merge; give the folders of shards")]
     Nothing,
-    /// A journal cannot be used.
+    /// The journal of a folder cannot be opened, or belongs to another sweep or program.
     #[error(transparent)]
     Journal(#[from] JournalError),
     /// The results cannot be written.
@@ -37,9 +37,9 @@ pub enum MergeError {
     Conflict {
         /// Number of the design.
         design: u64,
-        /// A folder with this design.
+        /// Folder with a result of this design.
         first: PathBuf,
-        /// Another folder with the same design.
+        /// Folder with a different result of this design.
         second: PathBuf,
     },
 }
@@ -47,25 +47,25 @@ pub enum MergeError {
 /// Result of a merge.
 #[derive(Clone, Debug)]
 pub struct Merged {
-    /// Results after the merge.
+    /// Summary of the merged results.
     pub finished: Finished,
-    /// Number of designs added by the merge.
+    /// Number of designs that the merge added to the output folder.
     pub added: u64,
-    /// Designs that are in none of the shards.
+    /// Ranges of design numbers that are in none of the shards.
     pub missing: Vec<std::ops::RangeInclusive<u64>>,
-    /// The sweep.
+    /// Sweep to which the shards belong.
     pub sweep: Sweep,
 }
 
 /// Merges the shards in `folders` into `out`, and writes the tables of the sweep.
 ///
-/// Existing results stay, so merging twice has the same effect as merging once. If `out` is the
-/// only folder, its tables are written again from its journal.
+/// Results that `out` already contains stay, so a repeated merge changes nothing. If `folders`
+/// contains only `out`, its tables are written again from its journal.
 ///
 /// # Errors
 ///
-/// If the folders hold results of different definitions or programs, one is in use, or the results
-/// cannot be written.
+/// If a folder has another definition or another program version, a folder is in use, or the
+/// results cannot be written.
 pub fn merge(
     folders: &[PathBuf],
     out: &Path,
@@ -82,19 +82,19 @@ pub fn merge(
             written_again(out, format, program)
         };
     }
-    // All sources belong to one sweep, so the header of any of them will do.
+    // All sources belong to one sweep, so their headers for all shards are equal.
     let header = sources[0].archive.header_of_all_shards();
     out.make().map_err(RunError::from)?;
-    // Resume, so that repeated merges have the same effect as one, and killed merges continue.
+    // Resuming makes repeated merges equivalent to one merge, and continues interrupted merges.
     let mut journal = run_journal::begin(&out, header, Start::Resume)?;
-    // The requested format, else the format of the folder, else the format of the shards.
+    // The format is the requested one, else the format in `out`, else the format of the shards.
     let formats = [journal.records(), &sources[0].archive].map(Archive::format);
     let format = formats.into_iter().fold(format, Option::or);
     let added = gather(&mut journal, &sources, &out, format.unwrap_or_default())?;
     finish(journal, out, format, added, program, clock)
 }
 
-/// Writes the tables in `out` again from its journal.
+/// Writes the tables in `out` again from its own journal.
 fn written_again(
     out: ResultsFolder,
     format: Option<CsvFormat>,
@@ -130,27 +130,27 @@ fn finish(
     Ok(Merged { finished, added, missing, sweep })
 }
 
-/// The results of one folder.
+/// Folder of a shard with its open journal.
 struct ShardResults {
     folder: ResultsFolder,
     archive: Archive,
 }
 
-/// Opens the folders other than `out`, and requires that they belong to one sweep.
+/// Opens the folders other than `out`; fails unless all belong to one sweep.
 fn open(folders: &[PathBuf], out: &ResultsFolder) -> Result<Vec<ShardResults>, MergeError> {
     let same = |folder: &&PathBuf| match (folder.canonicalize(), out.path().canonicalize()) {
-        // Compare canonical paths: `results/x` and `./results/x/` are the same folder.
+        // Canonical paths, because `results/x` and `./results/x/` are the same folder.
         (Ok(folder), Ok(out)) => folder == out,
         _ => false,
     };
     let mut sources: Vec<ShardResults> = Vec::new();
     for folder in folders.iter().filter(|folder| !same(folder)).map(ResultsFolder::new) {
-        // A shard in progress would be merged without its last designs, unnoticed.
+        // The merge of a shard in progress would silently lack its last designs.
         if journal::in_use(&folder.journal()) {
             return Err(JournalError::InUse(folder.path().to_owned()).into());
         }
         let archive = Archive::open(&folder)?;
-        // A truncated copy looks like a smaller shard.
+        // A truncated copy of a journal is refused, because it looks like a smaller shard.
         archive.require_all_lines(&folder)?;
         if let Some(first) = sources.first() {
             let wanted = first.archive.header_of_all_shards();
@@ -162,7 +162,7 @@ fn open(folders: &[PathBuf], out: &ResultsFolder) -> Result<Vec<ShardResults>, M
     Ok(sources)
 }
 
-/// Appends the missing designs to `journal`; returns their number.
+/// Appends the designs that `journal` lacks; returns the number of designs with new entries.
 fn gather(
     journal: &mut Journal,
     sources: &[ShardResults],
@@ -174,17 +174,18 @@ fn gather(
     for source in sources {
         readers.push((source, source.archive.entries()?));
     }
-    // The archive as it was before the merge; lines appended here belong to other designs.
+    // State of `out` before the merge. Lines that are appended below belong to other designs.
     let before = Archive::open(out)?;
-    // A second handle reads entries at their offsets, which stay valid while the journal grows.
+    // This second handle reads entries at offsets that stay valid while the journal grows.
     let mut there = before.entries()?;
     let mut added = 0;
     for (design, holders) in Held::by(sources.iter().map(|source| source.archive.finished())) {
-        // A shard may contain designs that a sample of the grid excludes.
+        // The sample in `out` may exclude designs of a shard.
         let Some(position) = designs.position(design) else { continue };
         let known = there.last(position)?;
         let best = choose(design, known, &mut readers, &holders, out)?;
-        // A merge without new designs does not change the journal.
+        // A session begins with the first new design, so that a merge without new designs leaves
+        // the journal unchanged.
         if added == 0 && !best.is_empty() {
             let session = Line::Session(SessionStart::now(1, format));
             journal.append(session).map_err(RunError::from)?;
@@ -197,12 +198,12 @@ fn gather(
     Ok(added)
 }
 
-/// Iterates over the designs of several sources, in order.
+/// Iterator over the designs of several sorted sources, in ascending order.
 ///
-/// Yields each design with the indices of the sources that contain it.
+/// Yields each design once, with the indices of all sources that contain it.
 struct Held<I> {
     sources: Vec<I>,
-    /// Next design of each source, with the index of the source; smallest first.
+    /// Next design of each source, with the index of the source; the smallest design is on top.
     next: BinaryHeap<Reverse<(u64, usize)>>,
 }
 
@@ -239,9 +240,10 @@ impl<I: Iterator<Item = u64>> Iterator for Held<I> {
     }
 }
 
-/// Returns the entries of design `index` that the journal lacks.
+/// Returns the entries of the design with grid index `index` that the output journal lacks.
 ///
-/// `holders` are indices of the readers that contain the design.
+/// `there` is its last entry in the output journal. `holders` are the indices of the readers that
+/// contain the design.
 fn choose(
     index: u64,
     there: Option<JournalEntry>,
@@ -257,25 +259,26 @@ fn choose(
         let Some(position) = source.archive.designs().position(index) else { continue };
         let Some(entry) = entries.last(position)? else { continue };
         match &best {
-            // Equal reruns by one program must agree exactly. Otherwise, neither is reliable.
+            // The same rerun by one program must give equal results; otherwise neither is reliable.
             Some((other, first)) if other.rerun == entry.rerun && other.result != entry.result => {
                 let (first, second) = (first.to_path_buf(), source.folder.path().to_owned());
                 return Err(MergeError::Conflict { design: entry.design, first, second });
             }
             Some((other, _)) if other.rerun >= entry.rerun => {}
             _ => {
-                // Include all reruns, so that `reruns.csv` contains them after the merge.
+                // All reruns of the design are included, so that `reruns.csv` lists them after the
+                // merge.
                 added = entries.history(position)?;
                 best = Some((entry, source.folder.path()));
             }
         }
     }
-    // Omit entries that the journal already contains.
+    // Entries that the output journal already contains are omitted.
     added.retain(|entry| known.is_none_or(|known| entry.rerun > known));
     Ok(added)
 }
 
-/// Returns the numbers of the designs at these positions, as ranges.
+/// Returns the numbers of the designs at the given positions of the subset, as ranges.
 fn numbers(
     designs: &SubsetDesigns,
     positions: &[std::ops::Range<u64>],
@@ -290,9 +293,9 @@ fn numbers(
     numbers
 }
 
-/// Returns the numbers of the designs at consecutive positions, as ranges.
+/// Returns the numbers of the designs at consecutive positions of the subset, as ranges.
 ///
-/// A single range suffices if the designs are consecutive, too.
+/// If the design numbers are consecutive, too, the result is a single range.
 fn consecutive(
     designs: &SubsetDesigns,
     positions: &std::ops::Range<u64>,
@@ -300,7 +303,7 @@ fn consecutive(
     let number = |position| designs.design(position) + 1;
     let Some(last) = positions.clone().next_back() else { return Vec::new() };
     let (first, last) = (number(positions.start), number(last));
-    // As one range: a grid may have 10⁹ designs, and a list of them would not fit into memory.
+    // A single range, because a list of up to 10⁹ designs would not fit into memory.
     if last - first == positions.end - positions.start - 1 {
         return vec![first..=last];
     }

@@ -1,4 +1,4 @@
-//! Options of a run.
+//! Options of a run, for example its number of threads.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -7,19 +7,19 @@ use results::CsvFormat;
 
 use crate::solve::work::WorkMeter;
 
-/// Options of a run.
+/// Options of a run besides its sweep and its folder.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
-    /// Number of designs solved at the same time.
+    /// Number of threads; each thread solves one design at a time.
     pub threads: usize,
-    /// Format of the tables; `None` keeps their format.
+    /// Format of the tables; `None` keeps the format of existing tables.
     pub format: Option<CsvFormat>,
-    /// True to stop at the first failure.
+    /// True to stop at the first design that lacks a value.
     pub fail_fast: bool,
-    /// Interval at which the tables are written during the run.
+    /// Minimum interval between two updates of the tables during the run.
     pub tables_every: Duration,
-    /// Set to request a stop. Started designs are finished and tables are written.
+    /// Set to true to stop the run: started designs are finished and the tables are written.
     pub stop: &'a AtomicBool,
-    /// Receives the total and the completed work.
+    /// Meter that receives the total and the completed work.
     pub work: &'a WorkMeter,
 }

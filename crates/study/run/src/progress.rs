@@ -13,10 +13,10 @@ pub enum RunError {
     /// The results cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The journal cannot be used.
+    /// The journal cannot be opened or read, or belongs to another run.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The subset is larger than the grid.
+    /// The sample is larger than the grid.
     #[error(transparent)]
     Sample(#[from] SampleTooLarge),
     /// The settings of a rerun are not valid.
@@ -35,15 +35,15 @@ pub enum RunError {
 /// Result of a run.
 #[derive(Clone, Debug)]
 pub struct Finished {
-    /// Counts and best values.
+    /// Counts and best values of the designs.
     pub summary: Summary,
-    /// Number of designs that are not done.
+    /// Number of designs that are not solved yet.
     pub missing: u64,
-    /// Duration.
+    /// Duration of the session.
     pub duration: Duration,
-    /// Names of the tables.
+    /// Names of the written tables.
     pub tables: Vec<String>,
-    /// Messages about lines or files that were cut off, lost or removed.
+    /// Messages about journal lines or files that were truncated, lost or removed.
     pub notes: Vec<String>,
 }
 
@@ -52,14 +52,14 @@ pub struct Finished {
 pub enum Progress {
     /// The run begins.
     Begun {
-        /// Number of designs.
+        /// Number of designs of the run.
         designs: u64,
-        /// Number of designs that are done.
+        /// Number of designs that were already solved before.
         done: u64,
     },
-    /// A design is done.
+    /// A design is solved.
     Done {
-        /// True if the design lacks a value.
+        /// True if the design lacks a requested value.
         failed: bool,
     },
 }

@@ -1,4 +1,4 @@
-//! Solves designs of a run again with other settings.
+//! Reruns: solve selected designs of a run again with other settings.
 
 use std::path::Path;
 use std::time::Instant;
@@ -24,24 +24,24 @@ pub struct Rerun {
     designs: Vec<u64>,
 }
 
-/// A rerun that cannot start.
+/// Reason why a rerun cannot start.
 #[derive(Debug, thiserror::Error)]
 pub enum InvalidRerun {
-    /// The journal cannot be used.
+    /// The journal cannot be opened, or another version of the program wrote it.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The designs do not exist or are not solved.
+    /// A design does not exist or is not solved yet, or a column does not exist.
     #[error(transparent)]
     Filter(#[from] InvalidFilter),
     /// The settings are not valid.
     #[error(transparent)]
     Definition(#[from] sweep::InvalidDefinition),
-    /// The setting would change an axis of the sweep.
+    /// The keys of the settings are axes of the sweep, or not parameters of a design.
     #[error(
         "{0}: cannot be set for single designs, because they keep their numbers in the grid; set another key, e.g. solver.max_step=0.01"
     )]
     Axis(String),
-    /// The settings would change the columns of the tables.
+    /// The settings would turn imperfections on or off, which changes the columns of the tables.
     #[error(
         "imperfections are {before} in the run and {after} in the settings; they must be the same, because a run keeps its columns"
     )]
@@ -54,13 +54,12 @@ pub enum InvalidRerun {
 }
 
 impl Rerun {
-    /// Plans to solve designs of the run in `folder` again, with other settings.
-    ///
-    /// Selects the designs that pass `filter`, and applies `settings` to the sweep.
+    /// Plans to solve the designs that pass `filter` again, after applying `settings` to the sweep.
     ///
     /// # Errors
     ///
-    /// If there is no such run, another program has solved it, or filter or settings are invalid.
+    /// If `folder` holds no run, another version of the program has solved it, or `filter` or
+    /// `settings` are invalid.
     pub fn plan(
         folder: &Path,
         filter: &Filter,
@@ -69,28 +68,27 @@ impl Rerun {
     ) -> Result<Self, InvalidRerun> {
         let folder = ResultsFolder::new(folder);
         let archive = Archive::open(&folder)?;
-        // Results of two programs in one table would differ for reasons that no setting explains.
+        // In one table, differences between program versions would look like effects of settings.
         require_program(&archive, &folder, program)?;
         let (sweep, settings) = changed(archive.sweep(), settings)?;
         let designs = filter.designs(&archive)?;
         Ok(Self { folder, sweep, settings, designs })
     }
 
-    /// Returns the settings that differ from the sweep.
-    ///
-    /// They are written as `key=value`, separated by spaces.
+    /// Returns the keys that differ from the sweep, as `key=value` separated by spaces.
     pub fn settings(&self) -> &str {
         &self.settings
     }
 
-    /// Returns the designs to be solved again.
+    /// Returns the numbers of the designs to be solved again.
     pub fn designs(&self) -> impl ExactSizeIterator<Item = DesignNumber> {
         self.designs.iter().map(|index| self.sweep.grid().number(*index))
     }
 
-    /// Solves the designs again, and replaces their rows in every table.
+    /// Solves the designs again, replaces their rows in every table, and lists changes in
+    /// `reruns.csv`.
     ///
-    /// Lists the changes in `reruns.csv`. Calls `progress` when a design is done, in any order.
+    /// Calls `progress` when a design is done, in any order.
     ///
     /// # Errors
     ///
@@ -103,13 +101,13 @@ impl Rerun {
     ) -> Result<Finished, RunError> {
         let clock = Instant::now();
         let folder = self.folder.clone();
-        // The journal is locked from here on. Other processes may have added designs and reruns
-        // since.
+        // From here on the journal is locked. Since `plan`, other processes may have added designs
+        // and reruns to it.
         let journal = run_journal::resume(&folder)?;
         require_program(journal.records(), &folder, program)?;
         folder.make()?;
         progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
-        // All designs of this rerun share one number, which groups them in the table of changes.
+        // All designs of this rerun share one number, which identifies it in `reruns.csv`.
         let rerun = journal.records().reruns() + 1;
         let settings = self.settings.clone();
         let task = Task::new(&self.sweep, settings, rerun, clock, options.work);
@@ -126,15 +124,15 @@ fn require_program(
 ) -> Result<(), JournalError> {
     let header = archive.header();
     let wanted = run_journal::header(archive.sweep(), *header.subset(), program);
-    header.require(&wanted, &folder.journal(), "the program that solved the others")
+    header.require(&wanted, &folder.journal(), "the program version that solved this run")
 }
 
-/// Applies `settings` to `sweep`; returns the new sweep and the changed keys.
+/// Applies `settings` to `sweep`; returns the new sweep and its differences as `key=value` texts.
 fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), InvalidRerun> {
     let changed = Sweep::parse(&sweep.to_toml(), "definition", settings)?;
     for setting in settings {
         if !setting.parameter().is_some_and(|parameter| {
-            // A changed axis would change the position of every design in the grid.
+            // A change of an axis would move designs to other positions in the grid.
             sweep.grid().axis(parameter.key).is_none()
                 && changed.grid().axis(parameter.key).is_none()
         }) {
@@ -142,15 +140,15 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
         }
     }
     let on_or_off = |sweep: &Sweep| if sweep.is_imperfect() { "on" } else { "off" };
-    // Imperfections add columns, but a table has a single header.
+    // Imperfections add columns, but a table keeps its header.
     let (before, after) = (on_or_off(sweep), on_or_off(&changed));
     if before != after {
         return Err(InvalidRerun::Imperfection { before, after });
     }
     let (old, new) = (sweep.grid().base(), changed.grid().base());
-    // A setting equal to the value of the sweep is not recorded.
+    // Settings that equal the value in the sweep are not recorded.
     let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));
-    // Spaces separate settings, so lists are written without spaces.
+    // Spaces separate the settings, so the values of lists are written without spaces.
     let texts: Vec<_> =
         different.map(|p| format!("{}={}", p.path(), p.get(new)).replace(SEPARATOR, "")).collect();
     Ok((changed, texts.join(&SEPARATOR.to_string())))

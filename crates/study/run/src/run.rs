@@ -18,15 +18,15 @@ use crate::solve::workers;
 use crate::tables::run_info::RunInfo;
 use crate::tables::table_writer::TableWriter;
 
-/// Solves missing designs of `subset` of `sweep` and writes tables to `folder`.
+/// Solves the missing designs of `subset` of `sweep`, and writes their tables to `folder`.
 ///
 /// Calls `progress` when a design is done, in any order. The tables are identical, byte by byte,
 /// for any number of threads and interruptions.
 ///
 /// # Errors
 ///
-/// If the results cannot be written, results exist and `start` is `New`, or the threads cannot be
-/// started. A design that fails is a row, not an error.
+/// If the results cannot be written, if results exist and `start` is `New`, or if the threads
+/// cannot be started. A design that cannot be solved is a row of the tables, not an error.
 pub fn run(
     sweep: &Sweep,
     subset: Subset,
@@ -37,7 +37,7 @@ pub fn run(
     mut progress: impl FnMut(Progress),
 ) -> Result<Finished, RunError> {
     let clock = Instant::now();
-    // Checked first, so that an invalid subset does not create a folder.
+    // Checked before the folder is created, so that an invalid subset leaves no folder.
     SubsetDesigns::new(sweep.grid().len(), subset)?;
     let folder = ResultsFolder::new(folder);
     folder.make()?;
@@ -46,7 +46,7 @@ pub fn run(
     let archive = journal.records();
     let (subset, missing) = (archive.designs().clone(), archive.missing());
     progress(Progress::Begun { designs: subset.len(), done: archive.done() });
-    // Tables of an earlier run must not remain beside an empty journal.
+    // Without solved designs, any tables belong to an earlier run and are removed.
     if archive.done() == 0 {
         folder.remove_results();
     }
@@ -62,14 +62,14 @@ pub fn run(
     Ok(finished)
 }
 
-/// Returns the message about removed files that were derived from earlier results.
+/// Returns the message that names removed files, which were derived from earlier results.
 fn removal(files: &[String]) -> Option<String> {
     let files = files.join(" ");
     (!files.is_empty())
         .then(|| format!("removed, because they were made from the earlier results: {files}"))
 }
 
-/// A run of the designs of one journal.
+/// Session that solves designs, appends them to one journal and writes its tables.
 pub(crate) struct Run<'a> {
     journal: Journal,
     options: &'a Options<'a>,
@@ -78,20 +78,20 @@ pub(crate) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// Creates a run of the journal in `folder`, without writing to it.
+    /// Creates a session for the journal in `folder`, without writing to it.
     pub fn new(
         journal: Journal,
         folder: ResultsFolder,
         options: &'a Options<'a>,
         info: RunInfo<'a>,
     ) -> Self {
-        // A resumed run keeps the format of its tables by default.
+        // Without a requested format, a resumed run keeps the format of its tables.
         let format = options.format.or(journal.records().format()).unwrap_or_default();
         let tables = TableWriter::new(folder, format, options, info);
         Self { journal, options, format, tables }
     }
 
-    /// Solves `designs`, appends each to the journal, and calls `progress`.
+    /// Solves `designs`, appends each of them to the journal, and calls `progress`.
     pub fn solve(
         &mut self,
         task: &Task<'_>,
@@ -109,8 +109,8 @@ impl<'a> Run<'a> {
             |design| {
                 let entry = task.solve(design);
                 if fail_fast && entry.result.failed() {
-                    // Set by the worker that sees the failure, because the thread with the journal
-                    // may be far behind. Started designs are finished, as after a signal.
+                    // Set by the worker that finds the failure, because the thread that writes the
+                    // journal may be far behind. As after a signal, started designs are finished.
                     stop.store(true, Ordering::Relaxed);
                 }
                 entry
@@ -119,14 +119,14 @@ impl<'a> Run<'a> {
         )
     }
 
-    /// Appends a finished design.
+    /// Appends a finished design to the journal, and writes the tables if they are due.
     fn take(
         &mut self,
         entry: JournalEntry,
         progress: &mut impl FnMut(Progress),
     ) -> Result<(), RunError> {
         let failed = entry.result.failed();
-        // The journal is written first, so a reported design survives a kill.
+        // The journal is written before the report, so that a reported design is never lost.
         self.journal.append(Line::Design(Box::new(entry)))?;
         progress(Progress::Done { failed });
         if self.tables.are_due() {
@@ -135,7 +135,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Writes the tables for the last time.
+    /// Writes the tables at the end of the session.
     pub fn finish(mut self) -> Result<Finished, RunError> {
         let mut finished = self.tables.write(&mut self.journal)?;
         finished.notes.extend_from_slice(self.journal.notes());

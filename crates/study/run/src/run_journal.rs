@@ -1,9 +1,9 @@
-//! Journal of a run: one line per finished design.
+//! Journal of a run: one line for each finished design, from which the tables are written.
 //!
-//! The tables are written from it. The first line is the header, every session starts with a line
-//! of its own, and the other lines are designs in the order of completion. A design that was solved
-//! again has several lines with the number of their rerun; the largest number counts. The crate
-//! `journal` documents the guarantees.
+//! The first line is the header. Each session begins with a line of its own. The other lines are
+//! designs in the order in which they were finished. A design that was solved again has several
+//! lines, each with the number of its rerun; the line with the largest number counts. The crate
+//! `journal` documents which lines survive interruptions.
 
 mod archive;
 mod edited;
@@ -19,22 +19,22 @@ pub(crate) use archive::Entries;
 pub use archive::{Archive, LatestSession};
 pub use entry::{JournalEntry, Line, SessionStart};
 
-/// The header of a journal of designs.
+/// Header of a journal of designs.
 pub type JournalHeader = journal::JournalHeader<Subset>;
 
-/// The journal of a run, open for writing.
+/// Journal of a run, open for writing.
 pub(crate) type Journal = journal::Journal<Archive>;
 
-/// Creates the header of the journal for `subset` of `sweep`.
+/// Creates the header of a journal for `subset` of `sweep`, solved by `program`.
 pub(crate) fn header(sweep: &Sweep, subset: Subset, program: &Program) -> JournalHeader {
     JournalHeader::new(sweep.to_toml(), subset, program)
 }
 
-/// Creates or continues the journal in `folder` for the run in `header`.
+/// Creates or continues the journal in `folder` for the run that `header` describes.
 ///
 /// # Errors
 ///
-/// If the journal is in use, damaged or of another run, or exists and `start` is `New`.
+/// If the journal is in use, damaged or of another run, or if it exists and `start` is `New`.
 pub(crate) fn begin(
     folder: &ResultsFolder,
     header: JournalHeader,
@@ -46,11 +46,11 @@ pub(crate) fn begin(
     if let Some(note) = adopted {
         journal.note(note);
     }
-    // After a fresh start the journal has no lines to check.
+    // With `Fresh` the journal is new, so there are no lines to check.
     if start == Start::Fresh { Ok(journal) } else { checked(journal, folder) }
 }
 
-/// Continues the existing journal in `folder` with any definition.
+/// Continues the existing journal in `folder`, whatever its definition is.
 ///
 /// # Errors
 ///
@@ -59,9 +59,9 @@ pub(crate) fn resume(folder: &ResultsFolder) -> Result<Journal, JournalError> {
     checked(Journal::resume(&folder.journal())?, folder)
 }
 
-/// Checks the journal against the tables in `folder`.
+/// Compares the journal with the tables in `folder`.
 ///
-/// Adds a message about lost lines.
+/// Edited lines are an error; for lost lines a message is added to the notes of the journal.
 fn checked(mut journal: Journal, folder: &ResultsFolder) -> Result<Journal, JournalError> {
     edited::refuse(journal.records(), folder)?;
     if let Some(lost) = journal.records().lost_lines(folder) {

@@ -10,31 +10,31 @@ use sweep::DesignNumber;
 
 use crate::run_journal::{Archive, JournalEntry};
 
-/// Number of slowest designs listed.
+/// Number of slowest designs in the status.
 const SLOWEST: usize = 5;
 
-/// Status of a run.
+/// Status of a run, read from its folder.
 #[derive(Debug)]
 pub struct RunStatus {
     /// Journal of the run.
     pub archive: Archive,
-    /// True if a process is writing to the journal.
+    /// True if a process is writing to the journal at the moment.
     pub in_use: bool,
-    /// Number of designs that lack a value.
+    /// Number of designs that lack a requested value.
     pub failed: u64,
-    /// Number of failed designs, by measure and reason.
+    /// Number of failures for each measure and reason.
     pub reasons: BTreeMap<(&'static str, &'static str), u64>,
     /// Slowest designs with their seconds, the slowest first.
     pub slowest: Vec<(f64, DesignNumber)>,
-    /// Number of designs that were solved again.
+    /// Number of designs that a rerun solved again.
     pub solved_again: u64,
-    /// Problems with tables or journal, one line each.
+    /// Problems with tables or journal, one sentence each.
     pub problems: Vec<String>,
-    /// Derived files that are outdated.
+    /// Derived products, for example figures, that were made from older tables.
     pub outdated: Vec<Derivation>,
 }
 
-/// A design with its time, ordered so that the fastest is the greatest.
+/// Design with its time, ordered so that the fastest design is the greatest.
 struct Timed {
     seconds: f64,
     index: u64,
@@ -45,11 +45,11 @@ impl RunStatus {
     ///
     /// # Errors
     ///
-    /// If there is no run, or its journal is damaged.
+    /// If there is no run in `folder`, or its journal is damaged.
     pub fn read(folder: &Path) -> Result<Self, JournalError> {
         let folder = ResultsFolder::new(folder);
-        // Query the lock before reading. If the run ends in between, it is reported as in progress,
-        // not as incomplete.
+        // The lock is queried before the journal is read. If the run ends in between, its status is
+        // "in progress" instead of incomplete.
         let in_use = journal::in_use(&folder.journal());
         let archive = Archive::open(&folder)?;
         let mut status = Self {
@@ -67,9 +67,9 @@ impl RunStatus {
         Ok(status)
     }
 
-    /// Checks the tables against `contents.toml`, unless they are being written.
+    /// Compares the tables with `contents.toml`, unless a run is in progress.
     fn check(&mut self, folder: &ResultsFolder) {
-        // During a run the tables lag behind the journal, which is not a problem.
+        // During a run the tables are older than the journal, which is not a problem.
         if self.in_use {
             return;
         }
@@ -93,7 +93,8 @@ impl RunStatus {
                 let reason = (failure.measure.key(), failure.outcome.text());
                 *self.reasons.entry(reason).or_default() += 1;
             }
-            // Drop the fastest of six, so that memory does not grow with the number of designs.
+            // The fastest of six is dropped, so that memory does not grow with the number of
+            // designs.
             slowest.extend(Timed::new(&entry));
             if slowest.len() > SLOWEST {
                 slowest.pop();
@@ -107,7 +108,7 @@ impl RunStatus {
 
     /// Returns the number of designs in progress, at most one for each thread.
     pub fn running(&self) -> u64 {
-        // The journal does not record started designs, and each thread solves one at a time.
+        // The journal does not record which designs have started. Each thread solves one design.
         let threads = self.archive.sessions().last().map_or(1, |session| session.threads as u64);
         if self.in_use { threads.min(self.not_done()) } else { 0 }
     }
@@ -121,7 +122,7 @@ impl RunStatus {
         self.archive.designs().len() - self.archive.done()
     }
 
-    /// Returns the designs per second of the last session.
+    /// Returns the number of designs per second in the last session, or `None` at its beginning.
     pub fn rate(&self) -> Option<f64> {
         let latest = self.archive.latest();
         (latest.seconds > 0.0).then(|| latest.designs as f64 / latest.seconds)

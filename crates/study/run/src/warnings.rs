@@ -1,4 +1,4 @@
-//! Warnings about a solved design, in plain words.
+//! Warnings about a solved design, as sentences for users.
 
 use results::{DesignRow, Outcome};
 use skin::puncture::PunctureMeasures;
@@ -8,20 +8,20 @@ use text::number::rounded;
 use crate::curved_body::curved_body_warning;
 use crate::gap_change::GapChange;
 
-/// Strain limit of the small-strain law of the membrane.
+/// Largest strain for which the small-strain law of the membrane is valid.
 const LARGE_STRAIN: f64 = 0.2;
 
-/// Width of a line of common printers, mm.
+/// Width in mm of the line that common printers extrude.
 ///
-/// Narrower gaps fuse, and thinner walls are not printed.
+/// Narrower gaps are closed by the print, and thinner walls are not printed.
 const NOZZLE_MM: f64 = 0.4;
 
 /// Largest overhang from the vertical that printers build without supports, degrees.
 const OVERHANG_DEG: f64 = 45.0;
 
-/// Returns every warning about a design: validity, curved bodies, and printing.
+/// Returns all warnings about a design: validity of its results, curved bodies, and printing.
 ///
-/// `radius_mm` is the required bend radius, `change` the measures with other gaps.
+/// `radius_mm` is the required bend radius. `change` holds the measures with other gaps.
 pub fn design_warnings(
     sweep: &Sweep,
     row: &DesignRow,
@@ -36,8 +36,8 @@ pub fn design_warnings(
 
 /// Returns warnings about the validity of the results of a design.
 ///
-/// `radius_mm` is the required bend radius; without it the strain at the end of bending counts.
-/// `change` has the measures with other gaps.
+/// `radius_mm` is the required bend radius; without it the strain is judged at the end of the
+/// bending path. `change` holds the measures with other gaps.
 pub fn validity_warnings(
     case: &Case,
     row: &DesignRow,
@@ -64,13 +64,13 @@ pub fn validity_warnings(
 
 fn puncture_warnings(case: &Case, measures: &PunctureMeasures) -> Vec<String> {
     let mut sentences = Vec::new();
-    // A path that ended early has no critical force, and has its own warning.
+    // Without a critical force the path ended early, for which there is another warning.
     if let (Some(fold), Some(force)) = (measures.fold_force, measures.critical_force) {
         let share = 100.0 * fold / force;
         sentences.push(format!("Beyond {share:.0} % of the critical force, the modelled surface folds, which is physically impossible: results beyond it are not valid."));
     }
-    // A round tip soon touches the next scale while it still rests on the first, which needs no
-    // warning.
+    // A round tip normally touches the next scale while it still rests on the first, so this
+    // warning applies to sharp tips only.
     let is_sharp = case.punctured().needle_radius.is_none_or(|radius| radius == 0.0);
     if let Some(tilt) = measures.passage.passing_tilt_deg.filter(|_| is_sharp) {
         sentences.push(format!(
@@ -89,11 +89,11 @@ fn puncture_warnings(case: &Case, measures: &PunctureMeasures) -> Vec<String> {
     sentences
 }
 
-/// Returns a sentence if the strain of the membrane exceeds the range of its law.
+/// Returns a sentence if the strain of the membrane is too large for its small-strain law.
 fn strain_warning(case: &Case, row: &DesignRow, radius_mm: Option<f64>) -> Option<String> {
     let required = radius_mm.zip(case.material.thickness_mm);
     let strain = match required {
-        // Before scales touch, only the membrane in the gaps bends.
+        // Until scales touch, only the membrane in the gaps bends.
         Some((radius, thickness)) => {
             let curvature = case.pitch() / case.design.gap * thickness / radius;
             0.5 * case.flexure.membrane_thickness * curvature
@@ -113,7 +113,7 @@ fn strain_warning(case: &Case, row: &DesignRow, radius_mm: Option<f64>) -> Optio
     })
 }
 
-/// Returns a sentence for each measure that changes by half if the gap changes by a tenth.
+/// Returns a sentence for each measure with a cliff when the gap changes by a tenth.
 fn cliffs(change: &GapChange) -> impl Iterator<Item = String> {
     change.measures.iter().filter(|measure| measure.cliffs().contains(&true)).map(|measure| {
         let [smaller, larger] = measure.changed.map(|changed| {
@@ -128,7 +128,7 @@ fn cliffs(change: &GapChange) -> impl Iterator<Item = String> {
     })
 }
 
-/// Returns warnings about printing a design; none without a thickness in mm.
+/// Returns warnings about printing a design, or none if the definition has no thickness in mm.
 fn printing_warnings(case: &Case) -> Vec<String> {
     let Some(thickness) = case.material.thickness_mm else { return Vec::new() };
     let slant = case.design.slant_deg.abs();

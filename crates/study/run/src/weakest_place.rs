@@ -1,4 +1,4 @@
-//! Solves a design again at more load positions, with full coupling of the substrate.
+//! Smallest force of a design over several load positions, with full coupling of the substrate.
 
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 use results::columns::{design_columns, is_invalid_after_fold, mode_column, name};
@@ -11,36 +11,38 @@ use sweep::{Case, Sweep};
 use crate::gap_change::{Patience, case_to_solve, value};
 use crate::solve::evaluator::Evaluator;
 
-/// Number of load positions on the top of a scale.
+/// Number of load positions on the top of a scale that are compared.
 pub const PLACES: usize = 11;
 
-/// A force of a design at its weakest load position, with full coupling of the substrate.
+/// Force of a design at its weakest load position, with full coupling of the substrate.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WeakestPlace {
-    /// Column of the force.
+    /// Name of the column of the force in `designs.csv`.
     pub column: String,
-    /// Force at the requested position, with the coupling of the design.
+    /// Force at the requested load position, with the coupling in the definition.
     pub requested: f64,
-    /// Smallest force over [`PLACES`] positions.
+    /// Smallest force over [`PLACES`] load positions.
     ///
-    /// `None` if a path ended before it was reached.
+    /// `None` if a path ended at a load below the smallest force, which is then not certain.
     pub weakest: Option<f64>,
-    /// Weakest position, or the position at which the path ended early.
+    /// Load position of the smallest force, or of the path that ended early.
     ///
     /// 0 is the left corner of the top, 1 the right corner.
     pub place: f64,
-    /// How the path at that position ended.
+    /// Status of the path at that position.
     pub outcome: Outcome,
-    /// First failure at the weakest position, for a failure force.
+    /// Name of the first failure at the weakest position, if `column` is a failure force.
     pub failure: Option<String>,
 }
 
 impl WeakestPlace {
-    /// Solves design `number` of `sweep` at [`PLACES`] load positions and at the requested one.
+    /// Solves design `number` of `sweep` at the requested load position and at [`PLACES`]
+    /// positions.
     ///
-    /// `columns` are columns of `sweep`. Columns are omitted if they have no number, are not a
-    /// puncture force, or compare as many positions already. Returns an empty list if there is no
-    /// such design, or if its needle is not guided: a dead load is attached to its corner.
+    /// `columns` are columns of `designs.csv`. The result omits columns without a number, columns
+    /// that are not puncture forces, and `weakest_force` if it already compares as many positions.
+    /// It is empty if there is no such design, or if the needle is free: a free needle acts on a
+    /// fixed corner.
     pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Vec<Self> {
         let Some((own, case)) = case_to_solve(sweep, number, Patience::Unlimited) else {
             return Vec::new();
@@ -61,14 +63,14 @@ impl WeakestPlace {
     }
 }
 
-/// Returns a design with full coupling at several load positions.
+/// Returns the cases of a design with full coupling.
 ///
-/// The requested position comes first, then [`PLACES`] positions.
+/// The first case has the requested load position. The others have [`PLACES`] positions.
 fn coupled_cases(case: &Case) -> Vec<Case> {
     let mut coupled = Case { coupling: Coupling::Full, ..*case };
     coupled.puncture.places = None;
-    // `puncture.places` locates no failures, so solve each position as a separate design. The row
-    // across has no such positions: it is compared once, with the requested design.
+    // Each position is a separate case, because `puncture.places` does not locate failures. The
+    // row across does not depend on these positions and is solved only with the first case.
     let mut placed = Case { across: false, gap_across: None, load_inset: None, ..coupled };
     let positions = case.punctured().positions(PLACES, &case.design);
     let placed = positions.into_iter().map(|position| {
@@ -78,7 +80,7 @@ fn coupled_cases(case: &Case) -> Vec<Case> {
     std::iter::once(coupled).chain(placed).collect()
 }
 
-/// Returns the column of a single load position; the minimum over the positions is compared.
+/// Returns the column to compare between positions: for the weakest force, the critical force.
 fn position_column(column: &str) -> Option<String> {
     let stem = column.strip_suffix("_N").unwrap_or(column);
     let suffix = &column[stem.len()..];
@@ -89,7 +91,7 @@ fn position_column(column: &str) -> Option<String> {
     }
 }
 
-/// Selects the smallest force over the rows of several load positions.
+/// Finds the smallest force of `column` over `positions`; returns `None` if it is not compared.
 fn weakest(
     column: &str,
     requested: &DesignRow,
@@ -106,7 +108,7 @@ fn weakest(
     let mut weakest: Option<(f64, &DesignRow)> = None;
     let mut ended: Option<(f64, &DesignRow)> = None;
     for row in positions {
-        // The surface folds with full coupling only, so the force is not valid.
+        // If the surface folds with full coupling only, the force is not valid.
         let is_folded = is_invalid_after_fold(column) && folds(row) && !folds(requested);
         match force.cell(row).number().filter(|_| !is_folded) {
             Some(force) => keep_smaller(&mut weakest, force, row),
@@ -117,7 +119,7 @@ fn weakest(
             }
         }
     }
-    // The skin may be weaker where a path ended early.
+    // If a path ended below the smallest force, the skin may be weaker at that position.
     let is_open = ended.is_some_and(|(borne, _)| weakest.is_none_or(|(force, _)| borne < force));
     let (force, row) = if is_open { ended } else { weakest }?;
     let mode = mode_column(column);
@@ -141,16 +143,16 @@ fn folds(row: &DesignRow) -> bool {
     row.result.puncture.is_some_and(|puncture| puncture.measures.fold_force.is_some())
 }
 
-/// Keeps the row with the smaller force, or the first of equal ones.
+/// Replaces `kept` if `force` is smaller; of equal forces the first is kept.
 fn keep_smaller<'a>(kept: &mut Option<(f64, &'a DesignRow)>, force: f64, row: &'a DesignRow) {
     if kept.is_none_or(|(smallest, _)| force < smallest) {
         *kept = Some((force, row));
     }
 }
 
-/// Returns the largest force of a path that ended early.
+/// Returns the largest force on a path that ended early, in the unit of `column`.
 ///
-/// `None` if the load tilts no scale at all.
+/// Returns `None` if the load tilts no scale, because the position is then not a weak one.
 fn borne_before_end(row: &DesignRow, column: &str) -> Option<f64> {
     let puncture = row.result.puncture?;
     let tilts_nothing = puncture.outcome == Status::Untilted.into() && puncture.points == 1;

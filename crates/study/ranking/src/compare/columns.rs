@@ -9,28 +9,29 @@ use super::{ColumnDifference, Difference, absolute, relative};
 /// Columns of `compare.csv`.
 pub static COMPARISON_COLUMNS: &[Column<ColumnDifference>] = &columns! { ColumnDifference:
     "column", "-", |c| c.name.clone(), "column of designs.csv";
-    "compared", "-", |c| c.compared, "designs that have a value in both runs";
-    "differing", "-", |c| c.differing, "designs with values that differ by more than the tolerance";
-    "only_first", "-", |c| c.only_first, "designs that have a value in the first run alone";
-    "only_second", "-", |c| c.only_second, "designs that have a value in the second run alone";
+    "compared", "-", |c| c.compared, "number of designs with a value in both runs";
+    "differing", "-", |c| c.differing,
+        "number of designs with values that differ by more than the tolerance";
+    "only_first", "-", |c| c.only_first, "number of designs with a value in the first run only";
+    "only_second", "-", |c| c.only_second, "number of designs with a value in the second run only";
     "largest_relative", "-", |c| c.relative.as_ref().map(|e| e.difference),
-        "largest difference, over the larger of the two values";
+        "largest difference divided by the larger magnitude of both values";
     "relative_design", "-", |c| c.relative.as_ref().map(|e| e.design.clone()),
-        "design with this difference, by its number in the first run";
+        "number, in the first run, of the design with the largest relative difference";
     "relative_first", "-", |c| c.relative.as_ref().map(|e| e.first),
-        "its value in the first run";
+        "value of relative_design in the first run";
     "relative_second", "-", |c| c.relative.as_ref().map(|e| e.second),
-        "its value in the second run";
+        "value of relative_design in the second run";
     "largest_absolute", "-", |c| c.absolute.as_ref().map(|e| e.difference),
-        "largest difference, in the unit of the column";
+        "largest absolute difference, in the unit of the column";
     "absolute_design", "-", |c| c.absolute.as_ref().map(|e| e.design.clone()),
-        "design with this difference, by its number in the first run";
+        "number, in the first run, of the design with the largest absolute difference";
     "absolute_first", "-", |c| c.absolute.as_ref().map(|e| e.first),
-        "its value in the first run";
+        "value of absolute_design in the first run";
     "absolute_second", "-", |c| c.absolute.as_ref().map(|e| e.second),
-        "its value in the second run";
+        "value of absolute_design in the second run";
     "rank_correlation", "-", |c| c.correlation,
-        "Spearman's rank correlation of the two runs, 1 if both put the designs in the same order";
+        "Spearman's rank correlation of both runs, 1 if their designs have the same order";
 };
 
 /// Returns the columns of `differences.csv`, with the columns of `parameters`.
@@ -49,8 +50,9 @@ pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<D
         "column", "-", |d| d.column().to_owned(), "column of designs.csv";
         "first", "-", |d| d.texts()[0].to_string(), "value in the first run";
         "second", "-", |d| d.texts()[1].to_string(), "value in the second run";
-        "absolute", "-", |d| d.numbers().map(absolute), "their difference";
-        "relative", "-", |d| d.numbers().map(relative), "their difference over the larger of the two";
+        "absolute", "-", |d| d.numbers().map(absolute), "absolute difference of both values";
+        "relative", "-", |d| d.numbers().map(relative),
+            "absolute difference divided by the larger magnitude of both values";
     });
     columns
 }

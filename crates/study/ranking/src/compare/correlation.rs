@@ -1,9 +1,9 @@
 //! Spearman's rank correlation.
 
-/// Returns Spearman's rank correlation of pairs.
+/// Returns Spearman's rank correlation of the first and second values of `pairs`.
 ///
-/// It is 1 if both values have the same order, and −1 if the orders are opposite. `None` if all
-/// first or all second values are equal.
+/// The correlation is 1 if both have the same order, and −1 if their orders are opposite. `None` if
+/// all first or all second values are equal.
 pub fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     let [first, second] = [0, 1].map(|side| ranks(pairs.iter().map(|pair| pair[side])));
     // Ties do not change the mean rank.

@@ -1,4 +1,4 @@
-//! Matches the designs of two runs.
+//! Matches the designs of two runs by their parameters.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -9,7 +9,7 @@ use text::number::DistinctNumbers;
 
 use super::InvalidComparison;
 
-/// A parameter with different values in two runs, constant within each of them.
+/// A parameter that is constant within each of two runs, but differs between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParameterChange {
     /// The parameter.
@@ -23,9 +23,9 @@ pub struct ParameterChange {
 /// Matched designs of two runs.
 #[derive(Clone, Debug)]
 pub(super) struct Matching {
-    /// Rows of the same design in both runs.
+    /// Rows of each matched design in the first and in the second run.
     pub pairs: Vec<[usize; 2]>,
-    /// Rows of designs in the first run only, and in the second only.
+    /// Rows of designs that are only in the first run, and only in the second run.
     pub alone: [Vec<usize>; 2],
     /// Parameters that are constant within each run, but differ between the runs.
     pub changes: Vec<ParameterChange>,
@@ -48,14 +48,14 @@ impl Matching {
     }
 }
 
-/// Returns the value of a parameter that is known to be constant in a run.
+/// Returns the value of a parameter if the record of the run shows that it is constant.
 fn shared(run: &Results, parameter: &Parameter) -> Option<Scalar> {
     let definition = run.definition()?;
     let is_shared = definition.grid().axis(parameter.key).is_none();
     is_shared.then(|| parameter.get(definition.grid().base()))
 }
 
-/// Returns the parameters that vary in a run and are known in the other.
+/// Returns the parameters that have a column in one run, and a column or known value in the other.
 fn common(first: &Results, second: &Results) -> Vec<&'static Parameter> {
     let common = PARAMETERS.iter().filter(|parameter| {
         let runs = [first, second].map(|run| (run, run.parameters().any(|p| p == *parameter)));
@@ -65,7 +65,7 @@ fn common(first: &Results, second: &Results) -> Vec<&'static Parameter> {
     common.collect()
 }
 
-/// A parameter that matches designs, and its different numbers in both runs.
+/// A parameter by which designs are matched, with its distinct numbers in both runs.
 struct CommonParameter {
     parameter: &'static Parameter,
     numbers: DistinctNumbers,
@@ -79,7 +79,7 @@ impl CommonParameter {
         Self { parameter, numbers: numbers.filter(|number: &f64| number.is_finite()).collect() }
     }
 
-    /// Appends the value of a row to a key. Equal values have equal bytes.
+    /// Appends the value of a row to `key`. Values that are equal up to round-off have equal bytes.
     fn write(&self, run: &Results, row: usize, key: &mut Vec<u8>) {
         let value = value(run, self.parameter, row);
         let number = value.parse().ok().and_then(|number| self.numbers.position(number));
@@ -87,7 +87,7 @@ impl CommonParameter {
             Some(index) => key.extend(index.to_le_bytes()),
             None => key.extend(value.as_bytes()),
         }
-        // A separator, or 1 and 12 would equal 11 and 2.
+        // Without a separator, the texts 1 and 12 would give the same key as 11 and 2.
         key.push(b',');
     }
 }
@@ -98,11 +98,11 @@ fn value<'r>(run: &'r Results, parameter: &Parameter, row: usize) -> Cow<'r, str
     if !value.is_empty() {
         return value;
     }
-    // Without a column, all designs of the run have the same value.
+    // If the parameter has no column, all designs of the run have the same value.
     shared(run, parameter).map_or_else(Cow::default, |value| value.to_string().into())
 }
 
-/// Returns the values of a row that distinguish its design from the others.
+/// Returns the key of a row: the values of `parameters`, which identify its design.
 fn key(run: &Results, parameters: &[CommonParameter], row: usize) -> Vec<u8> {
     let mut key = Vec::new();
     for parameter in parameters {
@@ -111,7 +111,7 @@ fn key(run: &Results, parameters: &[CommonParameter], row: usize) -> Vec<u8> {
     key
 }
 
-/// Returns the row of each key.
+/// Returns the row of each key, for all designs of a run.
 fn keys(
     run: &Results,
     parameters: &[CommonParameter],

@@ -9,7 +9,7 @@ use crate::preferences::Preferences;
 
 type RankedColumns<'a> = Vec<Column<RankedDesign<'a>>>;
 
-/// Returns the columns of `ranking.csv`; `parameters` have columns of their own.
+/// Returns the columns of `ranking.csv`, with a column for each of `parameters`.
 pub fn ranking_columns<'a>(
     parameters: &[&'static Parameter],
     preferences: &Preferences,
@@ -28,42 +28,45 @@ pub fn ranking_columns<'a>(
     columns.push(Column::new(
         "pareto",
         "-",
-        "yes or no: whether no other design beats it in every criterion",
+        "yes or no: whether the design is on the Pareto front, where no other design dominates it",
         |s| if s.on_front() { "yes" } else { "no" }.into(),
     ));
     columns
 }
 
-/// Returns the columns of `pareto.csv`.
+/// Returns the columns of `pareto.csv`, with a column for each of `parameters`.
 pub fn pareto_columns<'a>(
     parameters: &[&'static Parameter],
     preferences: &Preferences,
 ) -> RankedColumns<'a> {
     let mut columns = design(parameters);
     columns.extend(criteria(preferences));
-    // Only four criteria have a tetrahedron of weights, and hence winning fractions.
+    // The fraction of all weights is computed only for four criteria.
     if preferences.criteria.len() == FOUR {
-        columns.push(share("fraction of all weights for which it is the best design"));
+        columns.push(share("fraction of all weights for which the design is the best"));
     }
     columns
 }
 
-/// Returns the columns of `winners.csv`.
+/// Returns the columns of `winners.csv`, with a column for each of `parameters`.
 pub fn winner_columns<'a>(
     parameters: &[&'static Parameter],
     preferences: &Preferences,
 ) -> RankedColumns<'a> {
     let mut columns = design(parameters);
-    columns.push(share("fraction of all weights for which it is the best design"));
-    columns.push(Column::new("nodes", "-", "nodes of the grid of weights that it wins", |s| {
-        s.wins().nodes.into()
-    }));
+    columns.push(share("fraction of all weights for which the design is the best"));
+    columns.push(Column::new(
+        "nodes",
+        "-",
+        "number of nodes of the grid of weights at which the design is the best",
+        |s| s.wins().nodes.into(),
+    ));
     columns.extend(criteria(preferences));
     columns.extend(rescaled(preferences));
     columns
 }
 
-/// Returns the columns of `quaternary.csv`.
+/// Returns the columns of `quaternary.csv`, with a column for each of `parameters`.
 pub fn quaternary_columns<'a>(
     parameters: &[&'static Parameter],
     preferences: &Preferences,
@@ -83,8 +86,8 @@ pub fn quaternary_columns<'a>(
         })
         .collect();
     columns.extend(design(parameters));
-    columns.push(fitness("fitness of the best design by these weights"));
-    columns.push(share("fraction of all weights for which the same design is the best"));
+    columns.push(fitness("fitness of the best design for the weights of this row"));
+    columns.push(share("fraction of all weights for which the design of this row is the best"));
     columns
 }
 
@@ -107,9 +110,9 @@ fn share<'a>(meaning: &'static str) -> Column<RankedDesign<'a>> {
     Column::new("share", "-", meaning, |s| s.share().into())
 }
 
-/// Returns the columns of the criteria as in `designs.csv`, except parameters.
+/// Returns the columns of the criteria as in `designs.csv`, except criteria that are parameters.
 ///
-/// The columns of the design already contain the parameters.
+/// The columns of [`design`] already contain the parameters.
 fn criteria<'a>(preferences: &Preferences) -> RankedColumns<'a> {
     preferences
         .criteria
@@ -132,7 +135,8 @@ fn rescaled<'a>(preferences: &Preferences) -> RankedColumns<'a> {
         .iter()
         .enumerate()
         .map(|(c, criterion)| {
-            // Named by `key`: penetration is a column, but the resistance to it is rescaled.
+            // Use `key`: the criterion of the column `penetration` is the resistance to
+            // penetration.
             let name = format!("{}_rescaled", criterion.key());
             let meaning = "criterion from 0, the worst of all ranked designs, to 1, the best";
             Column::computed(name.into(), "-", meaning, move |s: &RankedDesign<'a>| {

@@ -1,4 +1,4 @@
-//! Selects the designs that can be ranked, and counts reasons to exclude others.
+//! Selects the designs that can be ranked, and counts the excluded designs for each reason.
 
 use std::collections::BTreeMap;
 use std::slice::ChunksExact;
@@ -16,7 +16,7 @@ use crate::weights::MOST_CRITERIA;
 
 /// Designs that can be ranked.
 ///
-/// Only data needed for every choice of weights are stored. Storing all values that can be computed
+/// Only data that every choice of weights needs are stored. Storing all values that can be computed
 /// from the rows would take 200 MB for a million designs.
 #[derive(Clone, Debug)]
 pub(super) struct Contenders {
@@ -26,16 +26,16 @@ pub(super) struct Contenders {
     pub columns: Vec<usize>,
     /// True for designs on the Pareto front.
     pub on_front: Vec<bool>,
-    /// Smallest and largest value of each criterion; `None` if equal up to round-off.
+    /// Smallest and largest value of each criterion; `None` if both are equal up to round-off.
     pub spans: Vec<Option<Span>>,
     /// Term of each criterion in the score, design after design.
     terms: Vec<f64>,
 }
 
-/// Smallest and largest of several numbers.
+/// Smallest (first) and largest (second) of several numbers.
 pub(super) type Span = (f64, f64);
 
-/// Reason to exclude a design. If several apply, the first one counts.
+/// Reason to exclude a design. If several reasons apply, the first one counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum LeftOut {
     /// The design does not meet a requirement, given by index.
@@ -44,7 +44,7 @@ pub(super) enum LeftOut {
     Exposed,
     /// A criterion, given by index, has no value.
     Missing(usize),
-    /// A criterion, given by index, does not exist: inverse or logarithm of 0.
+    /// The value for a criterion, given by index, has no inverse or logarithm.
     NotPositive(usize),
 }
 
@@ -68,7 +68,7 @@ impl LeftOut {
 /// Designs that can be ranked, and the number of excluded designs for each reason.
 type SortedOut = (Contenders, BTreeMap<LeftOut, usize>);
 
-/// Selects the rows that can be ranked, and compares them.
+/// Selects the designs that can be ranked, and counts the excluded designs.
 pub(super) fn sort_out(
     results: &Results,
     preferences: &Preferences,
@@ -76,7 +76,7 @@ pub(super) fn sort_out(
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
     let columns = preferences.criteria.iter().map(|criterion| results.column(&criterion.column));
     let columns: Vec<usize> = columns.collect::<Result<_, _>>()?;
-    // A tree, so that the order of reasons does not depend on the order of rows.
+    // `left_out` is a tree, so that the order of reasons does not depend on the order of rows.
     let (mut rows, mut values, mut left_out) = (Vec::new(), Vec::new(), BTreeMap::new());
     for row in 0..results.len() {
         let unmet = filter.first_unmet(row)?.map(LeftOut::Unmet);
@@ -99,7 +99,7 @@ pub(super) fn sort_out(
 /// Returns the reason to exclude a design with these values, if there is one.
 fn obstacle(values: &[Option<f64>; MOST_CRITERIA], preferences: &Preferences) -> Option<LeftOut> {
     let criteria = &preferences.criteria;
-    // Exposed designs are ranked if coverage is not a criterion.
+    // Designs with a coverage of 0 are ranked if coverage is not a criterion.
     let coverage = criteria.iter().position(|criterion| criterion.column == name::COVERAGE);
     if coverage.and_then(|c| values[c]).is_some_and(|coverage| coverage <= 0.0) {
         return Some(LeftOut::Exposed);
@@ -114,9 +114,9 @@ fn obstacle(values: &[Option<f64>; MOST_CRITERIA], preferences: &Preferences) ->
 }
 
 impl Contenders {
-    /// Compares the designs in `rows` by their `values` in `columns`.
+    /// Computes fronts, spans and terms of the designs in `rows`.
     ///
-    /// Values are stored design after design.
+    /// `values` holds their values in `columns`, design after design.
     fn new(
         rows: Vec<usize>,
         columns: Vec<usize>,
@@ -124,18 +124,19 @@ impl Contenders {
         preferences: &Preferences,
     ) -> Self {
         let count = columns.len();
-        // Test values for ties, not criteria: the logarithm of values near 1 is near 0.
+        // Test the values for ties, not the criteria: values near 1 that are equal up to round-off
+        // have logarithms near 0, which may differ by a large factor.
         let is_tie = spans(&values, count).map(|(low, high)| same(low, high));
-        // Digits of round-off must decide neither on dominance nor on scores. Otherwise designs of
-        // one rank could differ in whether they are on the front.
+        // Merge equal values, so that round-off affects neither dominance nor scores. Otherwise one
+        // of two designs of equal rank could be on the front and the other one not.
         for (c, of) in preferences.criteria.iter().enumerate() {
             merge_equal(values.iter_mut().skip(c).step_by(count), of.goal);
         }
-        // Reuse the memory: values are in the table anyway.
+        // Overwrite the values by criteria to save memory; the table still contains the values.
         for (place, value) in values.iter_mut().enumerate() {
             *value = criterion(preferences, place % count, *value);
         }
-        // Dominance needs neither weights nor rescaling, so use the criteria as they are.
+        // Dominance needs neither weights nor rescaling of the criteria.
         let on_front = front_of(&values, count);
         let spans = spans(&values, count).into_iter().zip(is_tie).take(count);
         let spans = spans.map(|(span, is_tie)| (!is_tie).then_some(span)).collect();
@@ -161,7 +162,7 @@ impl Contenders {
 
 /// Returns criterion `c` for a value of its column (R1).
 pub(super) fn criterion(preferences: &Preferences, c: usize, value: f64) -> f64 {
-    // Ranked designs always have a criterion.
+    // The criterion of a ranked design always exists.
     preferences.scale.criterion(preferences.criteria[c].goal, value).unwrap_or(f64::NAN)
 }
 
@@ -179,7 +180,7 @@ pub(super) fn sums_of_rescaled(criteria: &[f64], count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the smallest and the largest of each of `count` numbers per design.
+/// Returns the smallest and the largest value of each of `count` numbers over all designs.
 fn spans(numbers: &[f64], count: usize) -> [Span; MOST_CRITERIA] {
     let mut spans = [(f64::INFINITY, f64::NEG_INFINITY); MOST_CRITERIA];
     for (place, number) in numbers.iter().enumerate() {

@@ -1,10 +1,10 @@
-//! Comparison of two runs.
+//! Tests of the comparison of two runs.
 
 use ranking::{Comparison, compare, write_comparison};
 use results::Results;
 use tempfile::TempDir;
 
-/// Writes a table and a record with the definition, and reads them as results.
+/// Writes `designs.csv` and a record with the definition, if given, and reads the results.
 fn results(table: &str, definition: Option<&str>) -> Results {
     let folder = TempDir::new().expect("a folder");
     std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
@@ -20,7 +20,7 @@ const FIRST: &str = "design,gap_over_t,length_over_t,slant_deg,coverage,complian
 0003,0.2,1,0,0,4,complete
 0004,0.2,1,45,0.25,,too many points";
 
-/// Other order of axes, one more slant, other values.
+/// Table of a second run, with another order of the axes, one more slant and other values.
 const SECOND: &str = "design,gap_over_t,length_over_t,slant_deg,coverage,compliance,flexure_status
 0001,0.1,1,0,0,1,complete
 0002,0.2,1,0,0,5,complete

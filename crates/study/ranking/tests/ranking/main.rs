@@ -1,4 +1,4 @@
-//! Behaviour of rankings and comparisons.
+//! Tests of rankings and comparisons.
 
 mod comparison;
 mod ranking;

@@ -1,4 +1,4 @@
-//! Rankings of the designs of a run.
+//! Tests of the ranking of the designs of a run.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -16,7 +16,7 @@ use crate::samples::{Criteria, write_results};
 const HEADER: &str =
     "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance";
 
-/// Returns results with these values of the four criteria.
+/// Returns results with one design per row, each row with the values of the four criteria.
 fn results(rows: &[&str]) -> Results {
     let folder = TempDir::new().expect("a folder");
     let mut table = HEADER.to_owned();
@@ -57,7 +57,7 @@ fn fitness_is_the_product_of_rescaled_criteria() {
 fn equal_designs_are_ordered_by_number() {
     let results = results(&["0.5,1,1,1", "0.9,3,1,1", "0.7,3,1,1", "0.9,2,1,1"]);
     let ranking = Ranking::new(&results, grid("1")).expect("a ranking");
-    // Equal coverage, no weight on other criteria.
+    // Designs 2 and 4 have equal coverage, and only coverage has a weight.
     assert_eq!(order(&ranking, "1,0,0,0"), "0002 0004 0003 0001");
     assert_eq!(order(&ranking, "0,1,0,0"), "0002 0003 0004 0001");
     // Penetration and compliance are equal for all designs.
@@ -98,7 +98,7 @@ fn a_single_design_is_the_best() {
 fn rankings_without_designs_are_refused() {
     let message = |rows: &[&str]| {
         let results = results(rows);
-        let message = Ranking::new(&results, grid("2")).expect_err("none").to_string();
+        let message = Ranking::new(&results, grid("2")).expect_err("refused").to_string();
         message.replace(&results.folder().display().to_string(), "x")
     };
     insta::assert_snapshot!(message(&["0,1,1,1", "0.5,1,1,", "0,,,"]), @"x/designs.csv: no design can be ranked (2: coverage is 0; 1: no compliance), expected one with all of coverage, critical_force, penetration, compliance");
@@ -112,7 +112,7 @@ fn invalid_tables_are_refused_with_a_reason() {
         if let Some(table) = table {
             std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
         }
-        let message = Results::read(folder.path()).expect_err("none").to_string();
+        let message = Results::read(folder.path()).expect_err("refused").to_string();
         message.replace(&folder.path().display().to_string(), "x")
     };
     insta::assert_snapshot!(message(None), @"x/designs.csv: cannot be read (No such file or directory), expected the file that squama run writes");
@@ -200,14 +200,14 @@ fn any_column_can_be_a_criterion() {
     let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20", "1,3,0.2,40", "0,9,9,9"]);
     let text = "criteria = ['max:critical_force', 'min:length_over_t']\nweights = [3, 1]";
     let ranking = by(&results, text).expect("a ranking");
-    // The length of a design equals its number. Exposed designs are ranked, because coverage is not
-    // a criterion.
+    // The length of a design equals its number. The design with a coverage of 0 is ranked, because
+    // coverage is not a criterion.
     assert_eq!(ranking.len(), 4);
     let winner = ranking.winner(ranking.preferences().weights);
     // Rescaled: (1 - 1)/8, 1; (5 - 1)/8, (1/2 - 1/4)/(1 - 1/4); ...
     assert_eq!((winner.design(), winner.rescaled(0)), ("0002", 0.5));
     assert!((winner.fitness - 0.5_f64.powf(0.75) * (1.0_f64 / 3.0).powf(0.25)).abs() < 1e-12);
-    assert!(ranking.winners().is_empty(), "two criteria fill no tetrahedron");
+    assert!(ranking.winners().is_empty(), "two criteria have no grid of weights");
     let front: Vec<_> = ranking.front().iter().map(RankedDesign::design).collect();
     assert_eq!(front, ["0001", "0002", "0004"]);
     // Sums on the front: 0 + 1, 0.5 + 1/3, 1 + 0. The ends tie, and the first counts.
@@ -255,7 +255,7 @@ fn designs_equal_up_to_round_off_share_their_rank() {
     assert_eq!(ranking.equals(Weights::equal(1)), 2);
 
     let all = by(&results, "requirements = ['compliance > 0.7']").expect("a ranking");
-    assert_eq!(all.ties(), [0, 1, 2, 3], "round-off is no difference");
+    assert_eq!(all.ties(), [0, 1, 2, 3], "values that differ by round-off count as equal");
 }
 
 #[test]
@@ -313,7 +313,7 @@ fn preferences_are_written_beside_the_tables() {
     let own = "criteria = ['min:critical_force']\nrequirements = ['coverage > 0.1']";
     let ranking = by(&results, own).expect("a ranking");
     let (files, lock) = write_ranking(folder.path(), &ranking).expect("writable");
-    // The lock prevents another ranking from removing the files before they are read.
+    // The lock prevents another ranking from removing the files before the caller has read them.
     let refused = write_ranking(folder.path(), &ranking).expect_err("held").to_string();
     assert!(refused.contains("another squama process is writing there"), "{refused}");
     drop(lock);
@@ -343,11 +343,11 @@ proptest! {
     }
 }
 
-/// Fronts and ranks use the same tolerance, so the last digit does not matter.
+/// Fronts and ranks use the same tolerance, so that a difference in the last digit has no effect.
 #[test]
 fn round_off_does_not_put_designs_on_the_front() {
     let folder = tempfile::tempdir().expect("a folder");
-    // Equal coverage up to the last digit; the third design has the largest force.
+    // The coverages differ only in the last digit; the third design has the largest force.
     let table = "design,coverage,critical_force\n0001,0.826794919243112,1\n\
                  0002,0.8267949192431123,2\n0003,0.8267949192431121,3\n";
     std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
@@ -364,7 +364,7 @@ fn round_off_does_not_put_designs_on_the_front() {
     }
 }
 
-/// Returns the rank of each design and whether it is on the front, by number.
+/// Returns, for each design by number, its number, its rank, and whether it is on the front.
 fn ranks_and_front(table: &str, criteria: &[&str], scale: Scale) -> Vec<(String, usize, bool)> {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
@@ -382,7 +382,7 @@ fn ranks_and_front(table: &str, criteria: &[&str], scale: Scale) -> Vec<(String,
 }
 
 proptest! {
-    /// Differences at the last digits change neither ranks nor fronts.
+    /// Adds up to eight units of the last digit to each value.
     #[test]
     fn round_off_changes_neither_ranks_nor_fronts(
         // Few values, so that ties in some criteria and equal designs are common.
@@ -408,7 +408,7 @@ proptest! {
             if count == 1 {
                 let front_by_rank: BTreeSet<_> = exact.iter().map(|(_, rank, on)| (rank, on)).collect();
                 let ranks: BTreeSet<_> = exact.iter().map(|(_, rank, _)| rank).collect();
-                prop_assert_eq!(front_by_rank.len(), ranks.len(), "equal ranks are equally on the front");
+                prop_assert_eq!(front_by_rank.len(), ranks.len(), "designs of equal rank are all on the front or all not");
             }
         }
     }

@@ -1,4 +1,4 @@
-//! A journal of a run that was read.
+//! Contents of a journal of a run.
 
 use std::fs::File;
 use std::io::{self, BufRead};
@@ -14,7 +14,7 @@ use super::JournalHeader;
 use super::entry::{JournalEntry, Line, SessionStart};
 use super::index::Index;
 
-/// A journal that was read: its header and the offsets of its designs.
+/// Contents of a journal: its header and sessions, and the offsets of its designs.
 #[derive(Debug)]
 pub struct Archive {
     path: PathBuf,
@@ -24,17 +24,17 @@ pub struct Archive {
     designs: SubsetDesigns,
     index: Index,
     sessions: Vec<SessionStart>,
-    /// Number of reruns.
+    /// Largest number of a rerun.
     reruns: u64,
-    /// Rate of the latest session.
+    /// Designs and duration of the latest session.
     latest: LatestSession,
-    /// Number of intact bytes.
+    /// Number of bytes of intact lines.
     length: u64,
-    /// Number of intact lines.
+    /// Number of intact lines, including the header.
     lines: u64,
 }
 
-/// Rate of the latest session.
+/// Number of designs and duration of the latest session, from which its rate follows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LatestSession {
     /// Number of designs finished in the session.
@@ -73,14 +73,14 @@ impl Records for Archive {
     fn take(&mut self, line: Line, bytes: Range<u64>) -> Result<(), String> {
         match line {
             Line::Session(session) => {
-                // Only the latest session counts, because machine and threads may differ between
-                // sessions.
+                // Only the latest session counts, because the number of threads and the machine may
+                // differ between sessions.
                 self.latest = LatestSession::default();
                 self.sessions.push(session);
             }
             Line::Design(entry) => {
                 let position = self.position(&entry);
-                let none = || format!("there is no design {} in it", entry.design);
+                let none = || format!("the run has no design {}", entry.design);
                 self.index.insert(position.ok_or_else(none)?, entry.rerun, bytes.start);
                 self.latest = LatestSession { designs: self.latest.designs + 1, seconds: entry.at };
                 self.reruns = self.reruns.max(entry.rerun);
@@ -101,14 +101,14 @@ impl Records for Archive {
 }
 
 impl Archive {
-    /// Reads the journal in `folder` without a lock; a run may be writing to it.
+    /// Reads the journal in `folder` without locking it; a run may be writing to it.
     ///
     /// # Errors
     ///
-    /// If there is none, or it is damaged.
+    /// If there is no journal, or it is damaged.
     pub fn open(folder: &ResultsFolder) -> Result<Self, JournalError> {
         let path = folder.journal();
-        // Also missing if the first line is torn, because no design was solved then.
+        // A journal without a complete first line counts as missing: it contains no design.
         let missing = || JournalError::Missing(folder.path().to_owned());
         if !path.exists() {
             return Err(missing());
@@ -116,13 +116,13 @@ impl Archive {
         journal::read(&path)?.ok_or_else(missing)
     }
 
-    /// Reads a journal from `source`; `path` is used in messages.
+    /// Reads a journal from `source`; `path` is used in error messages.
     ///
     /// Returns `None` if the first line is incomplete.
     ///
     /// # Errors
     ///
-    /// If it cannot be read or is damaged.
+    /// If the journal cannot be read or is damaged.
     pub fn read_from(source: impl BufRead, path: &Path) -> Result<Option<Self>, JournalError> {
         journal::read_from(source, path)
     }
@@ -131,49 +131,50 @@ impl Archive {
         self.designs.position(entry.index()?)
     }
 
-    /// Returns the header.
+    /// Returns the header of the journal.
     pub fn header(&self) -> &JournalHeader {
         &self.header
     }
 
-    /// Returns the header of the journal that holds the designs of all shards.
+    /// Returns the header of this journal with all shards instead of its shard.
     pub(crate) fn header_of_all_shards(&self) -> JournalHeader {
         let subset = Subset { shard: None, ..*self.header.subset() };
         self.header.clone().with_subset(subset)
     }
 
-    /// Returns the sweep.
+    /// Returns the sweep in the header.
     pub fn sweep(&self) -> &Sweep {
         &self.sweep
     }
 
-    /// Returns all designs of the run, finished or not.
+    /// Returns all designs of the run, finished or not, as positions in the subset.
     pub fn designs(&self) -> &SubsetDesigns {
         &self.designs
     }
 
-    /// Describes missing lines, compared to the tables in `folder`.
+    /// Describes the lines that are missing compared with the tables in `folder`.
     ///
-    /// `None` if the journal has all lines that it had when these tables were written.
+    /// Returns `None` if the journal still has all lines from which these tables were written.
     pub(crate) fn lost_lines(&self, folder: &ResultsFolder) -> Option<String> {
-        // Tables state the number of whole lines; torn lines do not count.
+        // `contents.toml` states the number of complete lines at that time.
         let stated = Contents::stated_in(folder)?.journal.lines;
         let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
         Some(format!("{lost} of the {stated} lines from which the tables were written are missing"))
     }
 
-    /// Returns true if the valid line of a design is in the first `bytes` bytes.
+    /// Returns true if the valid line of the design at `position` starts in the first `bytes`
+    /// bytes.
     pub(crate) fn is_before(&self, position: u64, bytes: u64) -> bool {
         self.index.offset(position).is_some_and(|offset| offset < bytes)
     }
 
-    /// Returns an error if lines are missing.
+    /// Returns an error if lines are missing compared with the tables in `folder`.
     pub(crate) fn require_all_lines(&self, folder: &ResultsFolder) -> Result<(), JournalError> {
         let path = self.path.clone();
         self.lost_lines(folder).map_or(Ok(()), |lost| Err(JournalError::LinesLost { path, lost }))
     }
 
-    /// Returns the extent of the journal.
+    /// Returns length, number of lines and checksum of the journal.
     ///
     /// # Errors
     ///
@@ -188,46 +189,46 @@ impl Archive {
         self.index.done()
     }
 
-    /// Returns the finished designs in order, as indices of the grid.
+    /// Returns the finished designs in ascending order, as indices of the grid.
     pub(crate) fn finished(&self) -> impl Iterator<Item = u64> {
         self.index.valid_lines().map(|(position, _)| self.designs.design(position))
     }
 
-    /// Returns the positions of designs that are not finished.
+    /// Returns the ranges of positions of designs that are not finished.
     pub fn missing(&self) -> Vec<Range<u64>> {
         self.index.missing(self.designs.len())
     }
 
-    /// Returns all sessions.
+    /// Returns the starts of all sessions.
     pub fn sessions(&self) -> &[SessionStart] {
         &self.sessions
     }
 
-    /// Returns the format of the tables in the last session.
+    /// Returns the format of the tables in the latest session, or `None` without a session.
     pub fn format(&self) -> Option<CsvFormat> {
         self.sessions.last().map(|session| session.csv)
     }
 
-    /// Returns the number of reruns.
+    /// Returns the largest number of a rerun, or 0 without reruns.
     pub fn reruns(&self) -> u64 {
         self.reruns
     }
 
-    /// Returns the rate of the latest session.
+    /// Returns the number of designs and the duration of the latest session.
     pub fn latest(&self) -> LatestSession {
         self.latest
     }
 
-    /// Creates a reader of the entries.
+    /// Opens the file for reading its entries.
     pub(crate) fn entries(&self) -> Result<Entries<'_>, JournalError> {
         let file = File::open(&self.path);
         let file = file.map_err(|error| self.unreadable(&error))?;
         Ok(Entries { archive: self, lines: Windows::new(file) })
     }
 
-    /// Returns the row of an entry.
+    /// Returns the row of the tables for an entry.
     pub fn row(&self, entry: JournalEntry) -> DesignRow {
-        // Entries were checked to be in the grid when the journal was read.
+        // The journal was only read if all entries are designs of the grid.
         let index = entry.index().unwrap_or_default();
         let grid = self.sweep.grid();
         DesignRow { number: grid.number(index), case: grid.case(index), result: entry.result }
@@ -238,20 +239,20 @@ impl Archive {
     }
 }
 
-/// Reads entries at their offsets.
+/// Open journal that reads entries at their offsets.
 pub(crate) struct Entries<'a> {
     archive: &'a Archive,
     lines: Windows,
 }
 
 impl Entries<'_> {
-    /// Returns the latest entry of each finished design, in order.
+    /// Returns the valid entry of each finished design, in the order of the designs.
     pub fn in_order(mut self) -> impl Iterator<Item = Result<JournalEntry, JournalError>> {
         let offsets = self.archive.index.valid_lines();
         offsets.map(move |(_, offset)| self.at(offset))
     }
 
-    /// Returns pairs of entries: an earlier one and its replacement.
+    /// Returns pairs of entries of the same design: an earlier result and the one that replaced it.
     pub fn replaced(
         mut self,
     ) -> impl Iterator<Item = Result<(JournalEntry, JournalEntry), JournalError>> {
@@ -259,13 +260,13 @@ impl Entries<'_> {
         replaced.into_iter().map(move |line| Ok((self.at(line.old)?, self.at(line.new)?)))
     }
 
-    /// Returns every entry of the design at `position`, the first one first.
+    /// Returns every entry of the design at `position`, in the order of its reruns.
     pub fn history(&mut self, position: u64) -> Result<Vec<JournalEntry>, JournalError> {
         let offsets = self.archive.index.history(position);
         offsets.into_iter().map(|offset| self.at(offset)).collect()
     }
 
-    /// Returns the latest entry of the design at `position`.
+    /// Returns the valid entry of the design at `position`, or `None` if it is not finished.
     pub fn last(&mut self, position: u64) -> Result<Option<JournalEntry>, JournalError> {
         self.archive.index.offset(position).map(|offset| self.at(offset)).transpose()
     }
@@ -278,7 +279,7 @@ impl Entries<'_> {
             Ok(Line::Session(_)) => "the line of a design is missing".to_owned(),
             Err(problem) => problem,
         };
-        let reason = format!("it has changed while it was read, {problem}");
+        let reason = format!("the journal changed while it was read: {problem}");
         Err(JournalError::Unreadable { path: self.archive.path.clone(), reason })
     }
 }

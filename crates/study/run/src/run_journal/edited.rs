@@ -1,4 +1,4 @@
-//! Detects journals with changed lines and valid checksums.
+//! Detects journals with edited lines that have valid checksums.
 
 use journal::JournalError;
 use results::columns::{design_columns, name};
@@ -6,10 +6,10 @@ use results::{Contents, JournalExtent, ResultsFolder, WrittenTable};
 
 use super::archive::Archive;
 
-/// Refuses the journal in `folder` if a design differs from the table of designs.
+/// Returns an error if a design in the journal differs from its row in `designs.csv`.
 ///
-/// Designs are compared only if the start of the journal has changed. Removed, duplicated or
-/// reordered lines change no design.
+/// Designs are compared only if the part of the journal from which the tables were written has
+/// changed. Removed, duplicated or reordered lines change no design and are no error.
 pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), JournalError> {
     let Some(contents) = Contents::stated_in(folder) else { return Ok(()) };
     let stated = &contents.journal;
@@ -26,12 +26,12 @@ pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), Jo
     let changed = table.changed(&columns, |record| {
         let index = record.get(0).and_then(|number| grid.parse_number(number).ok());
         let position = index.and_then(|index| archive.designs().position(index));
-        // Lines after the stated extent may be reruns that the tables do not contain.
+        // Lines that were added after the tables were written may be reruns, which are newer.
         let old = position.filter(|position| archive.is_before(*position, stated.bytes));
         let entry = old.map(|position| entries.last(position)).transpose()?.flatten();
         let row = entry.map(|entry| archive.row(entry));
-        // If a rerun was lost with the end of the journal, the earlier result remains. Its settings
-        // differ from the table, so skip it.
+        // If the line of a rerun was lost, the result before this rerun is valid again. Its
+        // settings differ from the settings in the table, so it is not compared.
         Ok::<_, JournalError>(row.filter(|row| {
             is_whole || settings.is_none_or(|place| record.get(place) == Some(&row.result.settings))
         }))

@@ -1,34 +1,34 @@
-//! Contents of the lines of a journal.
+//! Lines of a journal: starts of sessions, and designs.
 
 use std::time::SystemTime;
 
 use results::{CsvFormat, DesignResult};
 use serde::{Deserialize, Serialize};
 
-/// A line of the journal of a run after the header.
+/// A line of the journal of a run, except the header.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Line {
     /// A session begins.
     Session(SessionStart),
-    /// A design is done.
+    /// A design was finished.
     Design(Box<JournalEntry>),
 }
 
-/// A finished design.
+/// Journal entry of a finished design.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JournalEntry {
     /// Number of the design in the grid, from 1.
     pub design: u64,
-    /// Number of the rerun: 0 for the first solution, then counting up.
+    /// Number of the rerun: 0 for the first result of the design, then counting up.
     ///
-    /// The entry with the largest number is valid, wherever its line is.
+    /// Of several entries for one design, the entry with the largest number is valid.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub rerun: u64,
     /// Seconds from the start of the session to the end of this design.
     pub at: f64,
-    /// Seconds that the solution of this design took.
+    /// Seconds that were spent on this design.
     pub seconds: f64,
     /// Result of the design.
     pub result: DesignResult,
@@ -46,20 +46,20 @@ impl JournalEntry {
     }
 }
 
-/// Start of a run, continuation, rerun or merge.
+/// Start of a session: a new, resumed or repeated run, or a merge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SessionStart {
-    /// Time of the start, in UTC.
+    /// Time of the start in UTC, as in RFC 3339.
     pub started: String,
     /// Number of threads.
     pub threads: usize,
-    /// Format of the tables.
+    /// Format of the tables of this session.
     pub csv: CsvFormat,
 }
 
 impl SessionStart {
-    /// Creates a session that starts now.
+    /// Creates the start of a session at the present time.
     pub(crate) fn now(threads: usize, csv: CsvFormat) -> Self {
         let started = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
         Self { started, threads, csv }
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_json_and_reads_back() {
+    fn a_line_is_json_and_is_read_back() {
         let settings = "solver.max_step=0.01".to_owned();
         let coverage = Some(0.1 + 0.2);
         let line = line(DesignResult { coverage, settings, ..DesignResult::default() });
@@ -91,7 +91,7 @@ mod tests {
     }
 
     proptest! {
-        /// Every number of a result is read back exactly.
+        /// The number has the same bits after writing and reading.
         #[test]
         fn numbers_are_read_back_bit_by_bit(number in any::<f64>().prop_filter("finite", |x| x.is_finite())) {
             let result = DesignResult { coverage: Some(number), ..DesignResult::default() };

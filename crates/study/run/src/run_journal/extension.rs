@@ -1,7 +1,7 @@
-//! Continues a run with a definition that has more designs than before.
+//! Continues a run after its definition was extended by more designs.
 //!
-//! A longer axis, or a list in place of an equal range, renumbers the solved designs. They are
-//! therefore matched to the new definition by their parameters.
+//! A longer axis, or a list of values in place of a range, changes the numbers of the solved
+//! designs. The designs are therefore found in the new definition by their parameters.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -13,18 +13,17 @@ use sweep::{Measure, Subset, Sweep};
 
 use super::{Archive, Journal, JournalHeader, Line, edited};
 
-/// File in which the journal is rewritten.
+/// Name of the file that replaces the journal.
 const REWRITTEN: &str = "journal.jsonl.new";
 
-/// Rewrites the journal in `folder` for the definition in `header`.
+/// Rewrites the journal in `folder` if the definition in `header` contains all solved designs.
 ///
-/// Only if the definition contains all solved designs.
-///
-/// Returns a message if it did. Otherwise the journal stays, and the caller reports the difference.
+/// Returns a message if the journal was rewritten. Otherwise the journal does not change, and the
+/// caller reports the difference of the definitions.
 ///
 /// # Errors
 ///
-/// If the journal is in use or damaged, or the new one cannot be written.
+/// If the journal is in use or damaged, or the new journal cannot be written.
 pub(super) fn adopt(
     folder: &ResultsFolder,
     header: &JournalHeader,
@@ -33,12 +32,12 @@ pub(super) fn adopt(
     if !path.is_file() {
         return Ok(None);
     }
-    // The caller reports a damaged journal when it continues the run.
+    // A damaged journal is reported by the caller, which opens it to continue the run.
     let Ok(found) = Archive::open(folder) else { return Ok(None) };
     if found.header().definition() == header.definition() || !is_extended(&found, header) {
         return Ok(None);
     }
-    // Locked until the new journal has replaced it.
+    // The old journal stays locked until the new one has replaced it.
     let locked = Journal::resume(&path)?;
     let archive = locked.records();
     let Ok(sweep) = Sweep::parse(header.definition(), "definition", &[]) else { return Ok(None) };
@@ -47,7 +46,7 @@ pub(super) fn adopt(
     archive.require_all_lines(folder)?;
     let rewritten = folder.file(REWRITTEN);
     rewrite(archive, &rewritten, header.clone(), &numbers)?;
-    // The tables number the designs as the old journal does.
+    // The tables have the old numbers of the designs, so they are removed.
     folder.remove_results();
     fs::rename(&rewritten, &path).map_err(|error| OutputError::file(&path, &error))?;
     let count = numbers.len();
@@ -56,13 +55,16 @@ pub(super) fn adopt(
     )))
 }
 
-/// Returns true if only the axes and the name differ.
+/// Returns true if the definition in `header` may contain the designs of `found`.
+///
+/// Both have the same program, no samples or shards, and the same measures. With derivatives, they
+/// also have the same axes.
 fn is_extended(found: &Archive, header: &JournalHeader) -> bool {
     let all = Subset::default();
     found.header().program() == header.program()
         && (*found.header().subset(), *header.subset()) == (all, all)
         && Sweep::parse(header.definition(), "definition", &[]).is_ok_and(|sweep| {
-            // Derivatives are taken with respect to the parameters of the definition.
+            // The axes determine the parameters with respect to which measures are differentiated.
             let has_derivatives = sweep.measures().contains(&Measure::Sensitivity);
             sweep.measures() == found.sweep().measures()
                 && (!has_derivatives || axis_keys(&sweep) == axis_keys(found.sweep()))
@@ -73,21 +75,21 @@ fn axis_keys(sweep: &Sweep) -> BTreeSet<&'static str> {
     sweep.grid().axes().iter().map(|axis| axis.parameter().key).collect()
 }
 
-/// Returns the indices of the solved designs in the old and in the new grid.
+/// Returns the index of each solved design in the old and in the new grid.
 ///
-/// `None` if the new grid lacks one.
+/// Returns `None` if the new grid lacks a solved design.
 fn numbers(archive: &Archive, sweep: &Sweep) -> Option<Vec<(u64, u64)>> {
     let (old, new) = (archive.sweep().grid(), sweep.grid());
     let numbers = archive.finished().map(|index| {
         let case = old.case(index);
-        // Require bitwise equal cases, so that a fresh run would give the same tables.
+        // Cases must be bitwise equal, so that the tables equal the tables of a new run.
         let found = new.find(&case).filter(|found| new.case(*found) == case)?;
         Some((index, found))
     });
     numbers.collect()
 }
 
-/// Writes the journal with the new numbers to `path`.
+/// Writes a journal with the new numbers of the designs to `path`.
 fn rewrite(
     archive: &Archive,
     path: &Path,

@@ -1,23 +1,23 @@
-//! Index of a journal: offsets of the lines of the designs.
+//! Index of a journal: offsets of the lines of its designs.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 use std::ops::Range;
 
-/// Number of designs per page.
-// Pages of 4 kB: sparse designs cost at most one page each, a full grid eight bytes per design.
+/// Number of designs for which one page holds offsets.
+// A page has 4 kB. Few designs far apart cost one page each, a full grid eight bytes per design.
 const PAGE: u64 = 512;
 
-/// Offset of the valid line of each design.
+/// Offset of the valid line of each design in a journal.
 ///
-/// Takes eight bytes per design; pages without designs are not allocated. If a design has several
-/// lines, the line of the latest rerun is valid, wherever it is in the file.
+/// If a design has several lines, the line with the largest rerun number is valid, regardless of
+/// its position in the file. Pages without designs are not allocated.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Index {
-    /// Offsets by page and index. Offset 0 is the header, so it never occurs.
+    /// Pages of offsets by page number. No design has the offset 0, where the header is.
     pages: BTreeMap<u64, Vec<Option<NonZeroU64>>>,
     done: u64,
-    /// Offsets of all lines of designs with reruns, by position and rerun.
+    /// Offsets of all lines of designs with several lines, by position and rerun number.
     reruns: BTreeMap<(u64, u64), u64>,
 }
 
@@ -31,19 +31,19 @@ pub(crate) struct Replaced {
 }
 
 impl Index {
-    /// Records the line of solution `rerun` of the design at `position`.
+    /// Adds the line of result number `rerun` of the design at `position`.
     pub fn insert(&mut self, position: u64, rerun: u64, offset: u64) {
         match self.offset(position) {
             None => self.done += 1,
-            // The first repeated line of a design adds the known line to the list of reruns. Most
-            // designs are solved once and take no space in that list.
+            // The second line of a design also adds its first line to `reruns`. Most designs have
+            // one line and need no entry in `reruns`.
             Some(known) if self.lines(position).next().is_none() => {
                 self.reruns.insert((position, 0), known);
             }
             Some(_) => {}
         }
         if rerun > 0 || self.offset(position).is_some() {
-            // A duplicated line keeps its first offset.
+            // If a line occurs twice, the first offset is kept.
             self.reruns.entry((position, rerun)).or_insert(offset);
         }
         let newest = self.lines(position).last().unwrap_or(offset);
@@ -51,7 +51,7 @@ impl Index {
         page[(position % PAGE) as usize] = NonZeroU64::new(newest);
     }
 
-    /// Returns the offsets of all lines of a design with reruns, in order.
+    /// Returns the offsets of all lines of a design with several lines, in the order of reruns.
     fn lines(&self, position: u64) -> impl DoubleEndedIterator<Item = u64> {
         self.reruns.range((position, 0)..=(position, u64::MAX)).map(|(_, offset)| *offset)
     }
@@ -62,7 +62,7 @@ impl Index {
         page[(position % PAGE) as usize].map(NonZeroU64::get)
     }
 
-    /// Returns the positions of finished designs with the offset of the valid line.
+    /// Returns the position of each finished design with the offset of its valid line.
     pub fn valid_lines(&self) -> impl Iterator<Item = (u64, u64)> {
         self.pages.iter().flat_map(|(page, places)| {
             let positions = page * PAGE..;
@@ -72,13 +72,13 @@ impl Index {
         })
     }
 
-    /// Returns the offsets of all lines of the design at `position`, in order.
+    /// Returns the offsets of all lines of the design at `position`, in the order of reruns.
     pub fn history(&self, position: u64) -> Vec<u64> {
         let lines: Vec<_> = self.lines(position).collect();
         if lines.is_empty() { self.offset(position).into_iter().collect() } else { lines }
     }
 
-    /// Returns the replaced lines, ordered by design and rerun.
+    /// Returns each replaced line with its replacement, ordered by design and rerun.
     pub fn replaced(&self) -> Vec<Replaced> {
         let lines = self.reruns.iter();
         let pairs = lines.clone().zip(lines.skip(1));
@@ -91,7 +91,7 @@ impl Index {
         self.done
     }
 
-    /// Returns the positions below `count` that are not finished.
+    /// Returns the ranges of positions below `count` without a finished design.
     pub fn missing(&self, count: u64) -> Vec<Range<u64>> {
         let mut missing = Vec::new();
         let mut next = 0;
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn sparse_designs_need_few_pages() {
+    fn designs_that_are_far_apart_need_few_pages() {
         let mut index = Index::default();
         for position in [999_999_999, 3, 500_000_000] {
             index.insert(position, 0, position + 1);
@@ -140,7 +140,7 @@ mod tests {
         let lines = [(0, 10), (1, 20), (2, 30)];
         for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
             let mut index = Index::default();
-            // Insert each line twice.
+            // Each line occurs twice, at two offsets.
             for (rerun, offset) in order.into_iter().map(|line| lines[line]) {
                 index.insert(5, rerun, offset);
                 index.insert(5, rerun, offset + 100);

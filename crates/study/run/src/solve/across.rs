@@ -1,4 +1,4 @@
-//! Puncture of the row across, in designs with a gap in both directions.
+//! Puncture of the row across, for designs with rows in two directions.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,18 +10,18 @@ use sweep::Case;
 
 use super::guard::{guarded, solved};
 
-/// Maximum number of cached rows across.
+/// Maximum number of rows across in the cache.
 ///
 /// Consecutive designs of a sweep usually differ only in their slant, on which the row across does
-/// not depend. Each thread solves its own group of designs, so one cached row would not suffice.
+/// not depend. Each thread solves its own group of designs, so it needs its own cached row.
 const MAX_CACHED: usize = 64;
 
-/// Forces `F*` of a row across, normalised by the length of its own scales.
+/// Forces `F*` of a row across, divided by the length of the scales of this row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AcrossForces {
     outcome: Outcome,
     critical: Option<f64>,
-    /// Largest force on the path.
+    /// Largest force on the path, also if it ended early.
     borne: Option<f64>,
 }
 
@@ -34,7 +34,7 @@ impl AcrossForces {
         Self { outcome, critical, borne: path.map(|point| point.force).reduce(f64::max) }
     }
 
-    /// Adds the critical force of the row across to the result of the row along.
+    /// Adds the forces of the row across to the result of the row along.
     pub(super) fn add_to(self, case: &Case, result: &mut PunctureResult) {
         result.across = Some(self.outcome);
         let measures = &mut result.measures;
@@ -48,12 +48,12 @@ impl AcrossForces {
     }
 }
 
-/// Cache of the rows across that were solved last.
+/// Cache of recently solved rows across, the latest first.
 #[derive(Debug, Default)]
 pub(super) struct AcrossCache(Mutex<VecDeque<(Case, AcrossForces)>>);
 
 impl AcrossCache {
-    /// Returns the forces of a row across. Solves it unless it is cached.
+    /// Returns the forces of the row `across`, from the cache or by solving it.
     pub(super) fn forces(
         &self,
         across: &Case,
@@ -69,7 +69,7 @@ impl AcrossCache {
             solved(|| puncture::solve(design, &*substrate, common, &parameters))
         });
         let forces = AcrossForces::new(&punctured);
-        // An interrupted path has no critical force and must not be used again.
+        // Only complete paths are cached: an interrupted path has no critical force.
         if forces.critical.is_some() {
             let mut rows = self.rows();
             rows.truncate(MAX_CACHED - 1);

@@ -1,4 +1,4 @@
-//! Curves at given points, with derivatives with respect to parameters.
+//! Forces and moments at given points of a path, with derivatives with respect to parameters.
 
 use skin::{CurvePoint, Neighbours, flexure, puncture};
 use sweep::{Case, Parameter};
@@ -8,13 +8,13 @@ use super::guard::solved;
 use super::sensitivity::{Varied, bent, punctured};
 use results::Outcome;
 
-/// The points of a curve; `None` beyond the end of its path.
+/// Points of a curve; `None` for a point beyond the end of the path.
 pub type CurvePoints = Vec<Option<CurvePoint>>;
 
 impl Evaluator {
     /// Returns the puncture force `F*` at each of the displacements `u*`.
     ///
-    /// The points have derivatives with respect to `parameters`.
+    /// Each point has derivatives with respect to `parameters`.
     ///
     /// # Errors
     ///
@@ -35,13 +35,13 @@ impl Evaluator {
         Ok(in_place(curve, &exists))
     }
 
-    /// Returns the puncture force at each displacement while the load is removed.
+    /// Returns the puncture force `F*` at each of the displacements `u*` during unloading.
     ///
     /// Unloading begins at the displacement `turn`. The points have no derivatives.
     ///
     /// # Errors
     ///
-    /// As [`Self::force_curve`].
+    /// If the springs cannot be computed, or the case has no mechanical meaning.
     pub fn unloading_force_curve(
         &self,
         case: &Case,
@@ -52,13 +52,13 @@ impl Evaluator {
         solved(|| puncture::unloading_curve(&input, turn, displacements))
     }
 
-    /// Returns the bending moment at each curvature while the moment is removed.
+    /// Returns the bending moment `M*` at each of the curvatures `κ*` during unloading.
     ///
     /// Unloading begins at the curvature `turn`. The points have no derivatives.
     ///
     /// # Errors
     ///
-    /// As [`Self::moment_curve`].
+    /// If the case has no mechanical meaning.
     pub fn unloading_moment_curve(
         &self,
         case: &Case,
@@ -70,7 +70,7 @@ impl Evaluator {
 
     /// Returns the bending moment `M*` at each of the curvatures `κ*`.
     ///
-    /// The points have derivatives with respect to `parameters`.
+    /// Each point has derivatives with respect to `parameters`.
     ///
     /// # Errors
     ///
@@ -90,7 +90,7 @@ impl Evaluator {
     }
 }
 
-/// Returns whether each variation exists, and the existing ones.
+/// Returns, for each variation, whether it exists, and a list of the existing variations.
 fn existing<P>(
     variations: impl Iterator<Item = Option<Neighbours<P>>>,
 ) -> (Vec<bool>, Vec<Neighbours<P>>) {
@@ -98,9 +98,9 @@ fn existing<P>(
     (all.iter().map(Option::is_some).collect(), all.into_iter().flatten().collect())
 }
 
-/// Expands the rates of each point to all parameters.
+/// Expands the derivatives of each point to one entry for each parameter.
 ///
-/// They are `None` for parameters without a variation.
+/// The entry is `None` for a parameter without a variation.
 fn in_place(mut curve: CurvePoints, exists: &[bool]) -> CurvePoints {
     for point in curve.iter_mut().flatten() {
         let mut rates = std::mem::take(&mut point.rates).into_iter();

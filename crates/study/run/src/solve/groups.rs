@@ -7,27 +7,27 @@ use sweep::Grid;
 
 /// Maximum number of designs in a group.
 ///
-/// A thread takes one group at a time. Small groups keep all threads busy at the end of a sweep in
-/// which all designs share their springs.
+/// A thread solves one group at a time. In a sweep in which all designs share their springs, small
+/// groups keep all threads busy until the end.
 const LARGEST: usize = 64;
 
-/// Groups consecutive designs with the same footprint and coupling.
+/// Iterator over groups of consecutive designs with the same footprint and coupling.
 ///
-/// The slant is the fastest axis, so most neighbours have the same footprint.
+/// The slant is the fastest axis of a grid, so most neighbours have the same footprint.
 pub(crate) struct Groups<'g, I: Iterator<Item = u64>> {
     grid: &'g Grid,
     designs: Peekable<I>,
 }
 
 impl<'g, I: Iterator<Item = u64>> Groups<'g, I> {
-    /// Groups `designs`, which are indices of `grid`.
+    /// Creates the groups of `designs`, which are indices of `grid`.
     pub fn new(grid: &'g Grid, designs: I) -> Self {
         Self { grid, designs: designs.peekable() }
     }
 
     fn springs(&self, index: u64) -> (Option<Footprint>, Coupling) {
         let case = self.grid.case(index);
-        // A design without a footprint fails later, with a reason. Here it forms its own group.
+        // A design without a valid footprint forms its own group; its solution reports the reason.
         (case.footprint().ok(), case.coupling)
     }
 }

@@ -1,4 +1,4 @@
-//! Outcomes of refused inputs and panics.
+//! Converts refused inputs and panics of a solution to outcomes of the design.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -6,10 +6,11 @@ use geometry::OutOfRange;
 use results::Outcome;
 use skin::puncture;
 
-/// Returns a solution, or the outcome of a refused input.
+/// Calls `f` and converts a refused input or a panic to an outcome.
 ///
-/// Validation of a definition refuses invalid parameters. It cannot predict how many scales a tip
-/// reaches, or whether displacements in the tissue decay; any other refusal is an internal error.
+/// Invalid parameters are refused earlier, when a definition is validated. Two conditions are known
+/// only during the solution: the number of scales under a round tip, and whether displacements in
+/// the tissue decay. Any other refusal is an internal error.
 pub(super) fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, Outcome> {
     guarded(f)?.map_err(|refused| match refused.quantity {
         puncture::TIP_REACH => Outcome::RowLimit,
@@ -20,8 +21,8 @@ pub(super) fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, 
 
 /// Calls `f`; returns [`Outcome::Internal`] if it panics.
 pub(super) fn guarded<T>(f: impl FnOnce() -> T) -> Result<T, Outcome> {
-    // Data of a failed design is not used again, except for the calibrations,
-    // which hold complete entries only.
+    // Data of a failed design is not used again. The shared cache of calibrations holds complete
+    // entries only.
     catch_unwind(AssertUnwindSafe(f)).map_err(|_| Outcome::Internal)
 }
 

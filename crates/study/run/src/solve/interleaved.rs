@@ -1,28 +1,27 @@
-//! The order in which a run solves its designs.
+//! Order in which a run solves its designs, so that its remaining time can be estimated.
 
 use std::ops::Range;
 
-/// Number of blocks of a run of medium size.
+/// Number of blocks into which a run of medium size is divided.
 ///
-/// Remaining times are estimated from a few blocks.
+/// The remaining time is estimated from the blocks that are finished.
 const BLOCKS: u64 = 1024;
 
 /// Maximum number of designs in a block.
 ///
-/// Neighbours share springs, which a cache holds only for a limited number of footprints.
+/// The designs of a block are neighbours, which share springs in a cache of limited size.
 const LARGEST: u64 = 64;
 
-/// Golden section: multiples of it, modulo 1, fill the interval evenly.
+/// The golden section: its multiples modulo 1 are evenly spread over `0..1`.
 const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
 
-/// Returns the positions in `ranges`, block by block.
+/// Returns the positions in `ranges` block by block, with consecutive blocks far from each other.
 ///
-/// Consecutive blocks are far from each other.
-///
-/// The costliest designs of a grid are neighbours. The designs solved so far are a sample of all of
-/// them, so the remaining time can be extrapolated. The order depends on `ranges` alone.
+/// The slowest designs of a grid are neighbours. In this order, the solved designs are a sample of
+/// all designs, from which the remaining time can be extrapolated. The order depends on `ranges`
+/// only.
 pub(crate) fn interleaved(ranges: Vec<Range<u64>>) -> impl Iterator<Item = u64> + Clone + Send {
-    // Ordinal of the first position of each range.
+    // Number of positions before each range.
     let (mut starts, mut count) = (Vec::new(), 0);
     for range in &ranges {
         starts.push(count);
@@ -41,16 +40,16 @@ pub(crate) fn interleaved(ranges: Vec<Range<u64>>) -> impl Iterator<Item = u64> 
     })
 }
 
-/// Returns the index of the block that is solved as number `k`, from 0.
+/// Returns the index of the block that is solved after `k` other blocks.
 ///
-/// The first one is in the middle, because the first designs of a grid are often the costliest.
+/// The first block is in the middle, because the first designs of a grid are often the slowest.
 fn nth_block(k: u64, stride: u64, blocks: u64) -> u64 {
-    // Products of large runs exceed 64 bits.
+    // 128 bits, because the product exceeds 64 bits for large runs.
     let multiple = u128::from(k) * u128::from(stride) + u128::from(blocks / 2);
     (multiple % u128::from(blocks)) as u64
 }
 
-/// Returns the number nearest to the golden section of `blocks` without a common divisor.
+/// Returns a number near the golden section of `blocks` that has no common divisor with it.
 fn stride(blocks: u64) -> u64 {
     let golden = (GOLDEN_SECTION * blocks as f64) as u64;
     let mut larger = golden.max(1)..blocks;
@@ -83,9 +82,9 @@ mod tests {
     }
 
     #[test]
-    fn the_first_designs_are_a_sample_of_all() {
+    fn the_first_solved_designs_are_a_sample_of_all() {
         for count in [720_u64, 5_000, 300_000] {
-            // The first tenth of the designs costs two thirds of the time.
+            // The first tenth of the designs takes two thirds of the time.
             let costs: Vec<_> =
                 (0..count).map(|design| (-10.0 * design as f64 / count as f64).exp()).collect();
             let all: f64 = costs.iter().sum();
@@ -94,7 +93,7 @@ mod tests {
                 .map(|design| costs[design as usize])
                 .collect();
             let estimate = sample.iter().sum::<f64>() * count as f64 / sample.len() as f64;
-            // In the order of the grid this ratio is 6.3.
+            // Without interleaving this ratio is 6.3.
             assert!((estimate / all - 1.0).abs() < 0.35, "{count}: {}", estimate / all);
         }
     }

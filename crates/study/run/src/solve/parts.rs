@@ -1,34 +1,34 @@
-//! Parts of a design that columns need.
+//! Parts of a design that must be solved for a given set of columns.
 
 use results::columns::needs_parameter;
 use sweep::{Case, key};
 
-/// Parts of a design besides its first puncture and its bending.
+/// Parts of a design to solve besides its first puncture and its bending.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parts {
-    /// The load positions.
+    /// True if all load positions are solved.
     places: bool,
-    /// The row across.
+    /// True if the row across is solved.
     across: bool,
-    /// The bodies between two radii.
+    /// True if bodies between two radii are solved.
     between: bool,
-    /// Unloading, of puncture and bending.
+    /// True if unloading is solved, for puncture and for bending.
     unloading: [bool; 2],
 }
 
 impl Parts {
-    /// Returns the parts that `columns` need.
+    /// Returns the parts of a design on which `columns` depend.
     pub(super) fn of(columns: &[&str]) -> Self {
         let [places, across, failure, between, unload, unbend] =
             [key::PLACES, key::ACROSS, key::FAILURE, key::RADIUS_TO, key::UNLOAD, key::UNBEND]
                 .map(|key| columns.iter().any(|column| needs_parameter(column, key)));
-        // The first failure may occur across the row. Both directions are compared at the weakest
-        // load position.
+        // A first failure may occur across the row. The forces of both directions are compared at
+        // the weakest load position.
         let across = across || failure;
         Self { places: places || across, across, between, unloading: [unload, unbend] }
     }
 
-    /// Returns `case` without requests for parts that are not needed.
+    /// Returns `case` without the parts that are not solved.
     pub(super) fn of_case(self, case: &Case) -> Case {
         let mut case = *case;
         let [unload, unbend] = self.unloading;

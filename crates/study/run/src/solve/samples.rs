@@ -1,4 +1,4 @@
-//! Solves imperfect samples of a design.
+//! Solves the imperfect samples of a design, with random gaps and slants.
 
 use results::{FlexureResult, PunctureResult, SampleStatistics, Statistics};
 use skin::flexure::{self, BentSample};
@@ -9,9 +9,9 @@ use sweep::Case;
 
 use super::work::DesignWork;
 
-/// Punctures the samples of `case` on `substrate`.
+/// Solves the puncture of all samples of `case` on `substrate`.
 ///
-/// Adds their results to `statistics`, and reports to `work`.
+/// Adds statistics of their measures to `statistics`, and counts each sample in `work`.
 pub(super) fn puncture(
     case: &Case,
     substrate: &RowStiffness,
@@ -21,8 +21,8 @@ pub(super) fn puncture(
     let (mut force, mut penetration) = (Vec::new(), Vec::new());
     let case = &case.with_detail(PathDetail::Critical);
     for number in 1..=case.samples.count as u64 {
-        // A sample with overlapping scales counts as failed. Drawing again would distort the
-        // distribution.
+        // A sample that cannot be drawn or solved counts as failed, because replacing it would
+        // change the distribution.
         let punctured =
             imperfect_row(case, number).and_then(|row| punctured(case, substrate, &row));
         let measures = punctured.map(|result| result.measures);
@@ -35,9 +35,9 @@ pub(super) fn puncture(
     statistics.penetration = Statistics::from_values(penetration);
 }
 
-/// Bends the samples of `case`.
+/// Solves the bending of all samples of `case`.
 ///
-/// Adds their results to `statistics`, and reports to `work`.
+/// Adds statistics of their measures to `statistics`, and counts each sample in `work`.
 pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &DesignWork<'_>) {
     let (mut compliance, mut closing_range) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
@@ -46,7 +46,8 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
         let Some(flexure) = flexure else { continue };
         if let Some(value) = FlexureResult::of_sample(&flexure).measures.compliance {
             compliance.push(value);
-            // Only samples with a compliance, so that both statistics are about the same samples.
+            // Samples without a compliance are excluded, so that both statistics have the same
+            // samples.
             closing_range.extend(flexure.closing_range);
         }
     }
@@ -55,17 +56,17 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
     statistics.compliance = Statistics::from_values(compliance);
 }
 
-/// Returns imperfect row `number` of `case`, or `None` if it does not exist.
+/// Returns sample `number` of `case`, or `None` if the design has no geometrical meaning.
 fn imperfect_row(case: &Case, number: u64) -> Option<Sample> {
     case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()
 }
 
-/// Returns imperfect row `number`, with random numbers common to all designs.
+/// Returns sample `number` of `case`, drawn with random numbers that all designs share.
 pub(super) fn common(case: &Case, number: u64) -> Option<Sample> {
     case.imperfection.common_sample(&case.design, case.samples.seed as u64, number).ok()
 }
 
-/// Punctures an imperfect row of `case`; `None` if scales overlap at rest.
+/// Solves the puncture of a sample of `case`; `None` if its scales cannot be drawn or solved.
 pub(super) fn punctured(
     case: &Case,
     substrate: &RowStiffness,
@@ -77,7 +78,7 @@ pub(super) fn punctured(
     Some(PunctureResult::new(&puncture, substrate.estimated_error()))
 }
 
-/// Bends an imperfect strip of `case`; `None` if scales overlap at rest.
+/// Solves the bending of a sample of `case`; `None` if its scales cannot be drawn or solved.
 pub(super) fn bent(case: &Case, row: &Sample) -> Option<BentSample> {
     flexure::bend_sample(&case.design, &case.common, &case.flexure, row).ok()
 }

@@ -11,27 +11,27 @@ use sweep::{Case, Parameter};
 
 use super::sensitivity::{self, STEP, Wanted, named};
 
-/// Maximum number of varied scales on each side of the punctured one.
+/// Maximum number of scales with a varied gap and slant on each side of the punctured scale.
 ///
-/// The influence of farther scales is negligible.
+/// Scales farther away have a negligible effect.
 const FARTHEST: usize = 60;
 
-/// Parameters that differ from scale to scale.
+/// Keys of the parameters that scatter from scale to scale.
 const SCATTERED: [&str; 2] = ["gap_over_t", "slant_deg"];
 
-/// Measures of bending that depend on a single gap.
+/// Measures of bending that depend only on the first gap to close.
 const OF_FIRST_GAP: [&str; 2] = [name::FIRST_CONTACT_CURVATURE, name::CONTACT_CURVATURE];
 
-/// Returns the nonzero derivatives of puncture measures for single scales.
+/// Returns the nonzero derivatives of puncture measures with respect to single gaps and slants.
 ///
-/// They are with respect to gap and slant of each scale near the punctured one. The substrate stays
-/// fixed, as for imperfect rows.
+/// The gap and the slant of each scale near the punctured one are varied. The substrate does not
+/// change, as for imperfect rows.
 pub(super) fn puncture(
     case: &Case,
     stiffness: &RowStiffness,
 ) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let input = sensitivity::punctured(case, stiffness.clone());
-    // Solve without variations first, to find out how many scales the contact reaches.
+    // The path without variations shows how many scales of the row are affected.
     let (straight, _) = puncture::differentiate(&input, &[])?;
     let farthest = straight.measures.scales.min(FARTHEST) as i32;
     let (mut parameters, mut variations) = (Vec::new(), Vec::new());
@@ -43,14 +43,14 @@ pub(super) fn puncture(
     }
     let (_, derivatives) = puncture::differentiate(&input, &variations)?;
     let mut derivatives = named(case, &parameters, derivatives);
-    // Drop scales without influence; otherwise zeros would fill the journal.
+    // Scales without effect are dropped, so that zeros do not fill the journal.
     derivatives.retain(|derivative| derivative.left != Some(0.0) || derivative.kink.is_some());
     Ok(derivatives)
 }
 
-/// Returns the variation of the gap or slant of the scale `place` alone.
+/// Returns the variation of the gap or slant of a single scale.
 ///
-/// Scale 0 is the punctured one.
+/// `place` is the number of positions from the punctured scale to the right, negative to the left.
 fn one_scale(
     case: &Case,
     input: &PunctureInput,
@@ -67,15 +67,16 @@ fn one_scale(
     Some(Neighbours { below, above, step })
 }
 
-/// Returns the derivatives of bending measures for single gaps and slants.
+/// Returns the derivatives of bending measures with respect to scatter of gaps and slants.
 ///
-/// There is one derivative for all scales. In pure bending each of the `n` gaps contributes the
-/// same, so independent deviations add up to `1/√n` of a common deviation. The number of gaps stays
-/// fixed. Measures that depend on the first gap to close have a kink if all gaps are equal.
+/// All gaps have the same effect in pure bending, so one derivative represents all. For independent
+/// deviations of `n` gaps it is `1/√n` of the derivative with respect to a common deviation. The
+/// number of gaps is fixed. Measures that depend on the first gap to close have a kink if all gaps
+/// are equal.
 pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let gaps = whole_gaps(&case.design.row()?, &case.flexure);
     let mut fixed = *case;
-    // Another gap would change the number of gaps in the strip, which is a jump.
+    // Fixed, because a change of the gap could change the number of gaps, which is a jump.
     fixed.flexure.gaps = Some(gaps);
     let (_, mut derivatives) = sensitivity::flexure(&fixed, Wanted::All)?;
     derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter));

@@ -1,4 +1,4 @@
-//! Derivatives of all measures with respect to all continuous parameters.
+//! Derivatives of the measures of a design with respect to its continuous parameters.
 
 use geometry::{OutOfRange, RowChange};
 use results::ParameterDerivative;
@@ -9,17 +9,17 @@ use skin::{Derivative, Neighbours, PathDetail};
 use substrate::{RowStiffness, StiffnessSlopes};
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
 
-/// Relative step of finite differences of explicit functions.
-// The optimum for central differences is the cube root of the rounding error, 6e-6; a third of it
-// avoids nearby kinks.
+/// Step of finite differences of explicit functions, relative to the size of a parameter.
+// The optimum for central differences is 6e-6, the cube root of the rounding error. A third of it
+// reaches fewer nearby kinks.
 pub(super) const STEP: f64 = 2e-6;
 
-/// Parameters of the derivatives.
+/// Parameters with respect to which measures are differentiated.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Wanted<'a> {
     /// All continuous parameters.
     All,
-    /// These alone.
+    /// Only these parameters.
     Only(&'a [&'static Parameter]),
 }
 
@@ -27,13 +27,14 @@ impl Wanted<'_> {
     fn contains(self, parameter: &Parameter) -> bool {
         let Self::Only(parameters) = self else { return true };
         parameters.iter().any(|listed| {
-            // The derivative with respect to a modulus gives the one with respect to the prefactor.
+            // The derivative with respect to the prefactor follows from a modulus, see
+            // `with_prefactor`.
             let gives_prefactor = listed.key == PREFACTOR && MODULI.contains(&parameter.key);
             listed.key == parameter.key || gives_prefactor
         })
     }
 
-    /// Returns the wanted continuous parameters on which a measure of `case` depends.
+    /// Returns the wanted continuous parameters on which the measure `of` of `case` depends.
     fn parameters(self, case: &Case, of: Measure) -> Vec<&'static Parameter> {
         let belongs = |p: &&Parameter| {
             p.has(Role::Continuous) && of.sections().contains(&p.section) && self.contains(p)
@@ -42,15 +43,15 @@ impl Wanted<'_> {
     }
 }
 
-/// Prefactor of the contact law, and the moduli that are multiplied by it.
+/// Keys of the prefactor of the contact law, and of the moduli by which it is multiplied.
 const PREFACTOR: &str = "c1";
 const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_over_membrane"];
 
-/// Returns the wanted parameters of a path's derivatives, each with its variation.
+/// Returns the wanted parameters of a measure, each with its variation of the input.
 ///
-/// The prefactor of the contact law is omitted: forces depend on its product with the modulus only,
-/// so [`with_prefactor`] computes its derivatives from the derivatives for the modulus. If the
-/// first failure is requested, it is included, because the modulus also bends the scales.
+/// The prefactor of the contact law is omitted, because forces depend only on its product with the
+/// modulus: [`with_prefactor`] computes its derivatives from the derivatives with respect to the
+/// modulus. With a first failure it is included, because the modulus also bends the scales.
 fn variations<P>(
     case: &Case,
     wanted: Wanted<'_>,
@@ -62,9 +63,11 @@ fn variations<P>(
     solved.filter_map(|parameter| Some((parameter, variation(parameter)?))).unzip()
 }
 
-/// Appends derivatives with respect to the prefactor of the contact law.
+/// Adds derivatives with respect to the prefactor of the contact law.
 ///
-/// Sorts the derivatives of each measure in the order of the list of parameters.
+/// They are computed from the derivatives with respect to the modulus.
+///
+/// The derivatives of each measure are sorted in the order of [`PARAMETERS`].
 fn with_prefactor(case: &Case, solved: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
     let c1 = case.common.law.c1;
     let of_measure = |of: &[ParameterDerivative]| {
@@ -82,7 +85,7 @@ fn with_prefactor(case: &Case, solved: &[ParameterDerivative]) -> Vec<ParameterD
     solved.chunk_by(|one, next| one.measure == next.measure).flat_map(of_measure).collect()
 }
 
-/// Punctures the design of `case`, and differentiates its measures.
+/// Solves the puncture of `case` and differentiates its measures.
 pub(super) fn puncture(
     case: &Case,
     wanted: Wanted<'_>,
@@ -94,7 +97,9 @@ pub(super) fn puncture(
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
-/// Punctures the design of `case` from the `end` of a similar design; see [`puncture()`].
+/// Solves the puncture of `case` from the path end of a similar design, like [`puncture()`].
+///
+/// Returns `None` if the path must be followed from rest.
 pub(super) fn puncture_near(
     case: &Case,
     wanted: Wanted<'_>,
@@ -109,7 +114,7 @@ pub(super) fn puncture_near(
     }))
 }
 
-/// Returns the wanted parameters of a puncture, each with its variation.
+/// Returns the wanted parameters of a puncture, each with its variation of the input.
 fn punctured_variations(
     case: &Case,
     wanted: Wanted<'_>,
@@ -120,7 +125,7 @@ fn punctured_variations(
     })
 }
 
-/// Punctures the row across of `case`, and differentiates its force.
+/// Solves the row across of `case` and differentiates its critical force.
 pub(super) fn across(
     case: &Case,
     wanted: Wanted<'_>,
@@ -142,7 +147,7 @@ pub(super) fn across(
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
-/// Critical force of another row of a case, with derivatives by parameter of the case.
+/// Critical force of another row of a case, with derivatives by the parameters of the case.
 struct ForceDerivatives {
     puncture: Puncture,
     parameters: Vec<&'static Parameter>,
@@ -150,9 +155,9 @@ struct ForceDerivatives {
 }
 
 impl ForceDerivatives {
-    /// Punctures `solved`, a row of `case`, and differentiates its critical force.
+    /// Solves `solved`, another row of `case`, and differentiates its critical force.
     ///
-    /// `vary` returns this row for a changed parameter of `case`.
+    /// `vary` returns the input of this row after a change of a parameter of `case`.
     fn of<'a>(
         case: &'a Case,
         wanted: Wanted<'_>,
@@ -173,8 +178,8 @@ impl ForceDerivatives {
 
 /// Differentiates the critical force on a body between the two radii of `case`.
 ///
-/// At the smallest force inside the range, the derivative with respect to the position in the range
-/// vanishes, so the position is kept.
+/// `fraction` is the position of this body in the range of curvatures. It is kept constant, because
+/// the derivative with respect to it is zero at a smallest force inside the range.
 pub(super) fn between(
     case: &Case,
     wanted: Wanted<'_>,
@@ -195,7 +200,7 @@ pub(super) fn between(
 /// Relative difference below which two forces count as equal.
 pub(super) const TIE: f64 = 1e-7;
 
-/// Adds the derivatives of the force in the weaker direction, and of a first failure across.
+/// Adds derivatives of `force_any_direction`, and of `failure_force` if the row across fails first.
 pub(super) fn choose_direction(
     measures: &PunctureMeasures,
     derivatives: &mut Vec<ParameterDerivative>,
@@ -208,7 +213,7 @@ pub(super) fn choose_direction(
             .extend(failing.map(|of| ParameterDerivative { measure: name::FAILURE_FORCE, ..of }));
     }
     let Some(least) = measures.across.any_direction else { return };
-    // If the row across reaches no critical tilt, the row along is the weaker one.
+    // If the row across has no critical force, the row along is the weaker one.
     let force_across = measures.across.force.unwrap_or(f64::INFINITY);
     let along = match measures.weakest.force {
         Some(_) => name::WEAKEST_FORCE,
@@ -220,7 +225,7 @@ pub(super) fn choose_direction(
     let weaker = if force_across < force_along { across } else { along };
     derivatives.extend(weaker.into_iter().map(|derivative| ParameterDerivative {
         measure: name::FORCE_ANY_DIRECTION,
-        // At a tie the derivatives of the two directions differ, so the measure has a kink.
+        // At a tie the derivatives of both directions differ, so the measure has a kink.
         kink: derivative.kink.clone().or(is_tie.then(|| "the other direction is as weak".into())),
         left: derivative.left.filter(|_| !is_tie),
         right: derivative.right.filter(|_| !is_tie),
@@ -228,12 +233,12 @@ pub(super) fn choose_direction(
     }));
 }
 
-/// Returns the derivatives of a measure.
+/// Returns the derivatives that belong to a measure.
 fn of_measure(measure: &str, derivatives: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
     derivatives.iter().filter(|derivative| derivative.measure == measure).cloned().collect()
 }
 
-/// Bends the design of `case`, and differentiates its measures.
+/// Solves the bending of `case` and differentiates its measures.
 pub(super) fn flexure(
     case: &Case,
     wanted: Wanted<'_>,
@@ -266,8 +271,8 @@ pub(super) fn coverage(case: &Case, wanted: Wanted<'_>) -> Vec<ParameterDerivati
         let RowChange { gap, half_base, shift } = change;
         let back = RowChange { gap: -gap, half_base: -half_base, shift: -shift };
         let [left, right] = [-row.coverage_rate(&back), row.coverage_rate(&change)];
-        // Round-off makes the rates on both sides differ by some 1e-15. A scale that enters or
-        // leaves the line changes them by much more.
+        // Rounding makes both rates differ by about 1e-15. A scale that enters or leaves the line
+        // changes them by much more.
         let smooth = (left - right).abs() <= 1e-9;
         Derivative {
             measure: name::COVERAGE,
@@ -282,10 +287,10 @@ pub(super) fn coverage(case: &Case, wanted: Wanted<'_>) -> Vec<ParameterDerivati
     named(case, &parameters, keys.map(derivative).collect())
 }
 
-/// Differentiates the coverage on a curved body by one-sided differences of second order.
+/// Differentiates the coverage by one-sided finite differences of second order.
 fn coverage_difference(case: &Case, index: usize, parameter: &Parameter) -> Derivative {
     let [left, right] = [-1.0, 1.0].map(|side| coverage_rate(case, parameter, side));
-    // Round-off of the coverage over the step.
+    // The tolerance covers rounding errors of the coverage divided by the step.
     let smooth = left.zip(right).is_none_or(|(left, right)| (left - right).abs() <= 1e-7);
     Derivative {
         measure: name::COVERAGE,
@@ -297,7 +302,7 @@ fn coverage_difference(case: &Case, index: usize, parameter: &Parameter) -> Deri
     }
 }
 
-/// Computes the derivative of the coverage on one side, −1 or 1.
+/// Computes the derivative of the coverage on one side of a parameter: −1 below, 1 above.
 fn coverage_rate(case: &Case, parameter: &Parameter, side: f64) -> Option<f64> {
     let step = side * STEP * parameter.size(case)?;
     let [here, next, second] =
@@ -305,13 +310,13 @@ fn coverage_rate(case: &Case, parameter: &Parameter, side: f64) -> Option<f64> {
     Some((4.0 * next? - second? - 3.0 * here?) / (2.0 * step))
 }
 
-/// Computes the coverage after a change of a parameter.
+/// Computes the coverage after adding `by` to a parameter.
 fn coverage_beside(case: &Case, parameter: &Parameter, by: f64) -> Option<f64> {
     let moved = parameter.moved(case, by)?;
     Some(moved.design.leaning_row().ok()?.coverage_on(moved.body()))
 }
 
-/// Adds names and values of the parameters to derivatives.
+/// Adds names and values of their parameters to derivatives.
 pub(super) fn named(
     case: &Case,
     parameters: &[&'static Parameter],
@@ -327,7 +332,7 @@ pub(super) fn named(
         .collect()
 }
 
-/// Returns the puncture problem of `case` on a substrate with this stiffness.
+/// Returns the puncture problem of `case` on a substrate with the given stiffness.
 pub(super) fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
     let Case { design, common, .. } = *case;
     let parameters = case.punctured();
@@ -339,7 +344,7 @@ pub(super) fn bent(case: &Case) -> FlexureInput {
     FlexureInput { design, common, parameters }
 }
 
-/// A case with a varying parameter.
+/// A case with one parameter that is varied.
 pub(super) struct Varied<'a> {
     pub(super) case: &'a Case,
     pub(super) parameter: &'static Parameter,
@@ -347,7 +352,7 @@ pub(super) struct Varied<'a> {
 }
 
 impl Varied<'_> {
-    /// Returns the variation of a function of the case with respect to the parameter.
+    /// Returns an input of the case below and above the value of the parameter, for differences.
     pub(super) fn variation<P>(
         &self,
         of: impl Fn(&Self, f64) -> Option<P>,
@@ -362,13 +367,13 @@ impl Varied<'_> {
         Some(punctured(&moved, self.stiffness(&moved)?))
     }
 
-    /// Returns the input of a row on a body between the two radii.
+    /// Returns the input of a row on a body between the two radii after adding `by`.
     fn punctured_between(&self, fraction: f64, by: f64) -> Option<PunctureInput> {
         let moved = self.parameter.moved(self.case, by)?;
         Some(punctured(&moved.on_body_between(fraction)?, self.stiffness(&moved)?))
     }
 
-    /// Returns the input of the row across.
+    /// Returns the input of the row across after adding `by` to the parameter.
     fn punctured_across(&self, by: f64) -> Option<PunctureInput> {
         let moved = self.parameter.moved(self.case, by)?.across()?;
         let here = self.case.across()?;
@@ -376,7 +381,7 @@ impl Varied<'_> {
         Some(punctured(&moved, stiffness))
     }
 
-    /// Computes the derivative of the factor from the force across to the one along.
+    /// Computes the derivative of the factor that normalises the force across like the force along.
     fn factor_rate(&self) -> f64 {
         let factors = self
             .variation(|varied, by| Some(varied.parameter.moved(varied.case, by)?.across_factor()));
@@ -387,10 +392,10 @@ impl Varied<'_> {
         Some(bent(&self.parameter.moved(self.case, by)?))
     }
 
-    /// Returns the stiffness of a nearby case, by linear extrapolation.
+    /// Returns the stiffness for the case `moved`, extrapolated linearly from the case itself.
     fn stiffness(&self, moved: &Case) -> Option<RowStiffness> {
-        // Determined from the changed bases, because several parameters change them: lengths, also
-        // in mm, and possibly a thickness in mm.
+        // Extrapolated in the dimensions of the bases, which several parameters change: lengths in
+        // units of the thickness, lengths in mm, and a thickness in mm.
         self.slopes?.moved(&self.case.bases(), &moved.bases()).ok()
     }
 }

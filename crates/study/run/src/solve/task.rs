@@ -1,4 +1,4 @@
-//! The task of a worker: solves a design as an entry of the journal.
+//! Solves a design and returns its journal entry.
 
 use std::time::{Duration, Instant};
 
@@ -8,11 +8,11 @@ use super::evaluator::Evaluator;
 use super::work::{WorkMeter, work_of};
 use crate::run_journal::JournalEntry;
 
-/// Solves designs of one sweep as entries of a journal.
+/// Solves designs of one sweep and returns their journal entries.
 pub(crate) struct Task<'a> {
     sweep: &'a Sweep,
     evaluator: Evaluator,
-    /// Settings that differ from the run.
+    /// Settings that differ from the settings of the run, empty except in a rerun.
     settings: String,
     rerun: u64,
     clock: Instant,
@@ -20,9 +20,9 @@ pub(crate) struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    /// Creates the task for the designs of `sweep` in rerun number `rerun`.
+    /// Creates the task for the designs of `sweep` in rerun number `rerun`, 0 for a run.
     ///
-    /// `clock` was started with the session; progress is reported to `work`.
+    /// `clock` is the start of the session. The task reports its progress to `work`.
     pub fn new(
         sweep: &'a Sweep,
         settings: String,
@@ -34,10 +34,10 @@ impl<'a> Task<'a> {
         Self { sweep, evaluator, settings, rerun, clock, work }
     }
 
-    /// Announces the number of paths of `designs`, given by index, to the work meter.
+    /// Sets the expected work of `designs`, given by their indices, in the work meter.
     pub fn measure(&self, designs: impl Iterator<Item = u64>) {
         let work = |index| work_of(&self.grid().case(index), self.sweep.measures());
-        // Saturating: 10⁹ designs with many samples may exceed 2⁶⁴ paths.
+        // The sum saturates, because 10⁹ designs with many samples may exceed 2⁶⁴ paths.
         self.work.begin(designs.map(work).fold(0, u64::saturating_add));
     }
 
@@ -68,6 +68,6 @@ impl<'a> Task<'a> {
 
 /// Rounds seconds to microseconds.
 fn seconds(duration: Duration) -> f64 {
-    // Further digits are noise, and would take a tenth of the length of a line.
+    // More digits are not significant and would lengthen a journal line by a tenth.
     (duration.as_secs_f64() * 1e6).round() / 1e6
 }

@@ -1,6 +1,6 @@
-//! Measures the progress of a run, also within long designs.
+//! Measures the progress of a run, including progress within a design.
 //!
-//! An imperfect design may take a thousand times as long as a perfect one.
+//! An imperfect design, which has many samples, may take a thousand times as long as a perfect one.
 
 use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -14,9 +14,9 @@ use sweep::{Case, Measure};
 /// Time after which the progress within a design is reported.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Total and completed work of a run, shared by all threads.
+/// Total and completed work of a run, counted by all threads.
 ///
-/// The unit is the path of one row or one gap.
+/// The unit is one path: of a row in puncture, or of a gap in bending.
 #[derive(Debug, Default)]
 pub struct WorkMeter {
     all: AtomicU64,
@@ -24,7 +24,7 @@ pub struct WorkMeter {
     slow: Arc<Mutex<Vec<String>>>,
 }
 
-/// Runs `work` for a design, and reports progress if it takes over five seconds.
+/// Calls `work` for a design, and calls `report` with its progress if it takes over five seconds.
 pub fn report_slow<T>(
     design: &str,
     report: impl Fn(String) + 'static,
@@ -41,7 +41,7 @@ fn report_after<T>(
 ) -> T {
     let design = design.to_owned();
     let words = move |far: PathProgress| {
-        // The fraction at rest may be negative zero.
+        // At rest the fraction may be −0.0; adding 0.0 avoids the text "-0.0 %".
         let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.fraction + 0.0);
         let PathProgress { points, .. } = far;
         report(format!(
@@ -52,14 +52,14 @@ fn report_after<T>(
 }
 
 impl WorkMeter {
-    /// Returns and clears the messages about slow designs.
+    /// Returns the messages about slow designs, and clears them.
     pub fn take_slow(&self) -> Vec<String> {
         std::mem::take(&mut *self.slow.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Runs `work` for a design, and stores its progress if it is slow.
+    /// Calls `work` for a design, and stores messages about its progress if it is slow.
     ///
-    /// [`Self::take_slow`] returns the messages.
+    /// [`Self::take_slow`] returns these messages.
     pub fn track<T>(&self, design: &str, work: impl FnOnce() -> T) -> T {
         let slow = Arc::clone(&self.slow);
         let report = move |text| slow.lock().unwrap_or_else(PoisonError::into_inner).push(text);
@@ -72,40 +72,41 @@ impl WorkMeter {
         if all > 0 { (done as f64 / all as f64).min(1.0) } else { 0.0 }
     }
 
-    /// Starts to count `all` units.
+    /// Sets the total work to `all` units and the completed work to 0.
     pub fn begin(&self, all: u64) {
         self.done.store(0, Ordering::Relaxed);
         self.all.store(all, Ordering::Relaxed);
     }
 
-    /// Excludes units that need no work, so that they do not distort the rate.
+    /// Subtracts units that need no work, so that they do not affect the estimated time.
     pub fn leave_out(&self, units: u64) {
         self.all.fetch_sub(units.min(self.all.load(Ordering::Relaxed)), Ordering::Relaxed);
     }
 
-    /// Counts completed units.
+    /// Adds completed units.
     pub fn count(&self, units: u64) {
         self.done.fetch_add(units, Ordering::Relaxed);
     }
 }
 
-/// A part of the work with an expected number of units.
+/// Part of the work with an expected number of units.
 ///
-/// Units beyond the expected number are not counted, and missing ones are added when the part ends.
+/// In total exactly the expected number is counted: excess units are ignored, and missing units are
+/// added when the piece is dropped.
 pub struct WorkPiece<'m> {
     meter: &'m WorkMeter,
     left: Cell<u64>,
 }
 
 impl<'m> WorkPiece<'m> {
-    /// Creates a piece with this expected number of units.
+    /// Creates a piece of work with an expected number of units.
     pub fn new(meter: &'m WorkMeter, units: u64) -> Self {
         Self { meter, left: Cell::new(units) }
     }
 
-    /// Counts completed units.
+    /// Counts completed units, up to the expected number.
     pub fn count(&self, units: u64) {
-        // At most the expected number, so that the fraction never exceeds 1.
+        // The limit keeps the completed fraction of the run at 1 or below.
         let units = units.min(self.left.get());
         self.left.set(self.left.get() - units);
         self.meter.count(units);
@@ -118,16 +119,16 @@ impl Drop for WorkPiece<'_> {
     }
 }
 
-/// Expected work of the parts of a design.
+/// Expected work of a design, in paths, and its number of samples.
 #[derive(Clone, Copy, Debug)]
 struct Parts {
-    /// Work on the ideal design, without its samples.
+    /// Work on the design without scatter.
     ideal: u64,
-    /// Work on one imperfect row.
+    /// Work on the puncture of one imperfect row.
     row: u64,
-    /// Work on one imperfect strip, which is solved gap by gap.
+    /// Work on one imperfect strip, in which each gap is solved.
     strip: u64,
-    /// Number of samples.
+    /// Number of imperfect samples.
     samples: u64,
 }
 
@@ -140,8 +141,8 @@ impl Parts {
         let samples = if case.imperfection.is_none() { 0 } else { case.samples.count as u64 };
         let row = case.design.row().ok().filter(|_| bends > 0 && (is_chain || samples > 0));
         let gaps = row.map_or(1, |row| whole_gaps(&row, &case.flexure) as u64);
-        // Count the work in paths: the meter only shows fractions, so the ratio between designs
-        // matters, not the seconds.
+        // All paths count the same: the meter shows fractions only, so ratios between designs
+        // matter and not their seconds.
         let ideal = 1 + punctures + bends * if is_chain { gaps } else { 1 };
         Self { ideal, row: punctures, strip: bends * gaps, samples }
     }
@@ -151,30 +152,30 @@ impl Parts {
     }
 }
 
-/// Returns the expected work of a design solved for `measures`.
+/// Returns the expected work of a design solved for `measures`, in paths.
 pub(crate) fn work_of(case: &Case, measures: &[Measure]) -> u64 {
     Parts::count(case, measures).sum()
 }
 
-/// Progress of one design.
+/// Counts the work of one design while it is solved.
 pub(crate) struct DesignWork<'m> {
     piece: WorkPiece<'m>,
     parts: Parts,
 }
 
 impl<'m> DesignWork<'m> {
-    /// Creates the progress of `case`.
+    /// Creates the count for `case`, with its expected work.
     pub fn new(meter: &'m WorkMeter, case: &Case, measures: &[Measure]) -> Self {
         let parts = Parts::count(case, measures);
         Self { piece: WorkPiece::new(meter, parts.sum()), parts }
     }
 
-    /// Counts an imperfect row.
+    /// Adds the work of an imperfect row.
     pub fn row_done(&self) {
         self.piece.count(self.parts.row);
     }
 
-    /// Counts an imperfect strip.
+    /// Adds the work of an imperfect strip.
     pub fn strip_done(&self) {
         self.piece.count(self.parts.strip);
     }
@@ -192,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn imperfect_designs_count_as_more_work() {
+    fn imperfect_designs_and_load_positions_count_as_more_work() {
         let perfect = case("slant_deg = 0");
         let uneven =
             case("slant_deg = 0\ngap_cv = 0.1\n[imperfection]\nsamples = 7\n[flexure]\ngaps = 50");

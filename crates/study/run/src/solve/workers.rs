@@ -10,20 +10,20 @@ use solver::uninterrupted;
 
 use crate::progress::RunError;
 
-/// Maximum number of results that wait for the journal.
-// Threads then do not wait for the disk, and memory stays at a few megabytes.
+/// Maximum number of results that wait to be written to the journal.
+// Enough that workers do not wait for the disk; the memory stays at a few megabytes.
 const WAITING: usize = 1024;
 
-/// Solves `groups` on `threads` threads, and passes each result to `sink`.
+/// Solves the designs in `groups` on `threads` threads, and passes each result to `sink`.
 ///
 /// Results arrive in any order. The first error of `sink` ends the work. After `stop` is set,
-/// started designs are finished, unless their paths are interrupted. A thread takes one group at a
-/// time, because the designs of a group share a calibration that is slow to compute. When no group
-/// is left, threads take designs from each other.
+/// started designs are finished, unless their paths are interrupted. Each thread solves one group
+/// at a time, because the designs of a group share springs that are slow to compute. When no group
+/// is left, idle threads solve designs from the groups of other threads.
 ///
 /// # Errors
 ///
-/// If the threads cannot be started, or errors of `sink`.
+/// If a thread cannot be started, or if `sink` returns an error.
 pub(crate) fn solve<T: Send>(
     threads: usize,
     stop: &AtomicBool,
@@ -35,7 +35,7 @@ pub(crate) fn solve<T: Send>(
     let queue = Mutex::new(Queue { groups, open: vec![VecDeque::new(); threads] });
     let next = |worker| {
         let ended = abandoned.load(Ordering::Relaxed) || stop.load(Ordering::Relaxed);
-        // A poisoned lock is safe, because taking a design leaves the queue consistent.
+        // A poisoned lock is safe, because every change leaves the queue consistent.
         let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
         if ended { None } else { queue.next(worker) }
     };
@@ -43,14 +43,14 @@ pub(crate) fn solve<T: Send>(
         let (sender, results) = sync_channel(WAITING);
         for worker in 0..threads {
             let (sender, next, solve) = (sender.clone(), &next, &solve);
-            // If a thread cannot be started, end the others; otherwise the scope would wait for
-            // them.
+            // If a thread cannot be started, the other threads must end, because the scope waits
+            // for all of them.
             start(scope, move || work(|| next(worker), solve, &sender)).map_err(|error| {
                 abandoned.store(true, Ordering::Relaxed);
                 RunError::Threads { count: threads, reason: text::reason(&error) }
             })?;
         }
-        // The channel closes with the last worker.
+        // The channel must close when the last worker ends.
         drop(sender);
         let taken = results.into_iter().try_for_each(&mut sink);
         abandoned.store(taken.is_err(), Ordering::Relaxed);
@@ -62,35 +62,35 @@ fn start<'s>(scope: &'s Scope<'s, '_>, work: impl FnOnce() + Send + 's) -> std::
     thread::Builder::new().spawn_scoped(scope, work).map(|_| ())
 }
 
-/// Runs one thread: solves designs until none is left.
+/// Solves designs on one thread until `next` returns `None`, and sends the results.
 fn work<T>(next: impl Fn() -> Option<u64>, solve: impl Fn(u64) -> T, sender: &SyncSender<T>) {
     while let Some(design) = next() {
-        // An interrupted design counts as not solved, and `stop` is set.
+        // A design is interrupted only after `stop` was set, and counts as not solved.
         let Some(solved) = uninterrupted(|| solve(design)) else { return };
-        // The receiver is only gone if the work was abandoned.
+        // The receiver is dropped only if `sink` returned an error.
         if sender.send(solved).is_err() {
             return;
         }
     }
 }
 
-/// Groups not yet started, and the remaining designs of each worker.
+/// Groups that no worker has taken, and the remaining designs of the group of each worker.
 struct Queue<G> {
     groups: G,
     open: Vec<VecDeque<u64>>,
 }
 
 impl<G: Iterator<Item = Vec<u64>>> Queue<G> {
-    /// Returns the next design for `worker`.
-    ///
-    /// It is from its own group, from a new group, or from the largest remaining group.
+    /// Returns the next design for `worker`: from its own group, a new group, or the largest other
+    /// one.
     fn next(&mut self, worker: usize) -> Option<u64> {
         if self.open[worker].is_empty()
             && let Some(group) = self.groups.next()
         {
             self.open[worker] = group.into();
         }
-        // Take own designs from the front and others' from the back, so that both keep neighbours.
+        // Own designs are taken from the front, designs of another worker from the back, so that
+        // the remaining designs of both workers are neighbours.
         let own = self.open[worker].pop_front();
         own.or_else(|| self.open.iter_mut().max_by_key(|group| group.len())?.pop_back())
     }
@@ -106,7 +106,7 @@ mod tests {
         (0..count).map(|group| (6 * group..6 * group + 6).collect())
     }
 
-    /// Returns an error of the sink.
+    /// Returns an error that a sink could return.
     fn full() -> RunError {
         RunError::Threads { count: 0, reason: "full".to_owned() }
     }

@@ -1,4 +1,4 @@
-//! The smallest critical force on bodies between two radii.
+//! Smallest critical force of a row on bodies between two radii.
 
 use results::{Outcome, PunctureResult};
 use skin::puncture::{BetweenMeasures, Puncture};
@@ -9,27 +9,28 @@ use super::sensitivity::TIE;
 /// Number of equal intervals of the curvature in the first pass.
 const INTERVALS: usize = 4;
 
-/// Number of times that the intervals beside the smallest force are halved.
+/// Number of times that the intervals on both sides of the smallest force are halved.
 ///
-/// The curvature of a smallest force inside the range is then known to a 32nd of the range.
+/// The curvature of a smallest force inside the range is then known to 1/32 of the range.
 const HALVINGS: usize = 3;
 
-/// The smallest force over a range of curvatures.
+/// Smallest force over a range of curvatures, with the curvature at which it occurs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WorstBody {
-    /// Position in the range of curvatures, from 0 to 1.
+    /// Position of the curvature in the range: 0 at one radius, 1 at the other.
     pub fraction: f64,
-    /// `F*` on this body.
+    /// Critical force `F*` on the body with this curvature.
     pub force: f64,
 }
 
-/// Searches the smallest force over the fractions from 0 to 1.
+/// Finds the smallest force over the positions 0 to 1 in the range of curvatures.
 ///
-/// The force is monotonic in the curvature for most designs, but not for all. Evaluates it at equal
-/// intervals, then halves the intervals beside the smallest value.
+/// Most designs have a force that is monotonic in the curvature, but not all. The force is
+/// therefore evaluated at equal intervals, and the intervals beside the smallest value are then
+/// halved.
 ///
 /// # Errors
-/// The outcome of the first body without a critical force: the skin may be weaker there.
+/// The outcome of the first body without a critical force, because the skin may be weaker there.
 pub(super) fn worst_body(
     mut force: impl FnMut(f64) -> Result<f64, Outcome>,
 ) -> Result<WorstBody, Outcome> {
@@ -39,7 +40,7 @@ pub(super) fn worst_body(
         let fraction = k as f64 * width;
         worst = worst.or_smaller(WorstBody { fraction, force: force(fraction)? });
     }
-    // At an end, the forces inside the range are larger.
+    // If the smallest force is at an end of the range, no interval is halved.
     let is_inside = worst.fraction > 0.0 && worst.fraction < 1.0;
     for _ in 0..if is_inside { HALVINGS } else { 0 } {
         width *= 0.5;
@@ -51,15 +52,15 @@ pub(super) fn worst_body(
 }
 
 impl WorstBody {
-    /// Returns the body with the smaller force, or this body if both forces are equal.
+    /// Returns the body with the smaller force, or this one if the forces are equal up to rounding.
     ///
-    /// Forces are equal if scales do not touch, because they then do not depend on the curvature.
+    /// Forces are equal if scales do not touch: they then do not depend on the curvature.
     fn or_smaller(self, other: Self) -> Self {
         if other.force < self.force * (1.0 - TIE) { other } else { self }
     }
 }
 
-/// Adds the smallest force between two radii to a result.
+/// Adds the smallest force between two radii, or the reason why it is unknown, to a result.
 pub(super) fn add_worst(
     case: &Case,
     result: &mut PunctureResult,
@@ -71,7 +72,7 @@ pub(super) fn add_worst(
     result.measures.between = BetweenMeasures { force: Some(force), curvature };
 }
 
-/// Returns the critical force of a puncture, or the reason why it has none.
+/// Returns the critical force of a puncture, or the status of its path if it has none.
 pub(super) fn critical_force(puncture: &Puncture) -> Result<f64, Outcome> {
     let outcome = puncture.status.into();
     match puncture.measures.critical_force {

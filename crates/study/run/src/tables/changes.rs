@@ -1,4 +1,4 @@
-//! Table of values that reruns changed.
+//! Table `reruns.csv`: values that changed when designs were solved again.
 
 use journal::JournalError;
 use results::columns::{design_columns, name};
@@ -8,16 +8,16 @@ use results::{
 
 use crate::run_journal::Archive;
 
-/// Writes the table of values that reruns changed.
+/// Writes `reruns.csv`, the table of values that changed when designs were solved again.
 ///
-/// Returns its name and SHA-256, or `None` if no design was solved again.
+/// Returns its file name and SHA-256, or `None` if no design was solved again.
 pub(super) fn write(
     archive: &Archive,
     folder: &ResultsFolder,
     format: CsvFormat,
 ) -> Result<Option<(String, String)>, JournalError> {
     let mut pairs = archive.entries()?.replaced().peekable();
-    // Write no empty table: a missing table shows that no design was solved again.
+    // The file is omitted rather than empty: its absence shows that no design was solved again.
     if pairs.peek().is_none() {
         return Ok(None);
     }
@@ -32,7 +32,7 @@ pub(super) fn write(
     Ok(Some((ResultsFolder::RERUNS.to_owned(), table.finish()?)))
 }
 
-/// Lists every changed value, or one entry without a column if no value changed.
+/// Lists each changed value of a design; if none changed, one entry with an empty column.
 fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> Vec<RerunChange> {
     let change = |column, values| RerunChange {
         design: rows[1].number,
@@ -41,13 +41,13 @@ fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> 
         column,
         values,
     };
-    // Settings have their own columns.
+    // The settings are in columns of their own.
     let columns = columns.iter().filter(|column| column.name != name::SETTINGS);
     let values =
         columns.map(|column| (column.name.clone(), rows.each_ref().map(|row| column.cell(row))));
     let changed = values.filter(|(_, [old, new])| old != new);
     let mut changes: Vec<_> = changed.map(|(name, values)| change(name, values)).collect();
-    // Also list reruns without changes: they show that the settings do not matter.
+    // Reruns without changes are listed, because they show that the settings have no effect.
     if changes.is_empty() {
         changes.push(change("".into(), [Cell::Empty, Cell::Empty]));
     }

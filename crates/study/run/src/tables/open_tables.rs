@@ -1,4 +1,4 @@
-//! Tables of a run during writing.
+//! Tables of a run while they are being written.
 
 use results::columns::TableLayout;
 use results::{
@@ -7,16 +7,16 @@ use results::{
 };
 use sweep::{Measure, Sweep};
 
-/// Tables with one or more rows per design.
+/// Open files of all tables with one or more rows per design.
 pub(super) struct OpenTables<'a> {
     layouts: &'a [TableLayout],
     designs: Vec<CsvFile<'a, DesignRow>>,
     failures: CsvFile<'a, FailureRow>,
-    /// Table of derivatives, if the sweep requests it.
+    /// Table of derivatives; `None` if the sweep does not request derivatives.
     derivatives: Option<CsvFile<'static, DerivativeRow>>,
 }
 
-/// Formatted rows of some designs for each table.
+/// Formatted rows of several designs for each table.
 pub(super) struct TableLines {
     designs: Vec<Vec<u8>>,
     failures: Vec<u8>,
@@ -24,7 +24,7 @@ pub(super) struct TableLines {
 }
 
 impl<'a> OpenTables<'a> {
-    /// Creates the tables of a sweep.
+    /// Creates the files of the tables of a sweep, with their headers.
     pub fn create(
         folder: &ResultsFolder,
         format: CsvFormat,
@@ -39,13 +39,13 @@ impl<'a> OpenTables<'a> {
         let failures = CsvFile::create(folder, ResultsFolder::FAILURES, format, failures)?;
         let derivatives =
             || CsvFile::create(folder, ResultsFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS);
-        // No empty table if derivatives were not requested.
+        // The file is omitted if derivatives are not requested.
         let is_asked = sweep.measures().contains(&Measure::Sensitivity);
         let derivatives = is_asked.then(derivatives).transpose()?;
         Ok(Self { layouts, designs, failures, derivatives })
     }
 
-    /// Formats the rows of these designs.
+    /// Formats the rows of several designs.
     pub fn lines(&self, rows: &[DesignRow]) -> Result<TableLines, OutputError> {
         let derivatives =
             |table: &CsvFile<_>| table.lines(rows.iter().flat_map(DesignRow::derivatives));
@@ -65,7 +65,7 @@ impl<'a> OpenTables<'a> {
         })
     }
 
-    /// Appends lines to every table.
+    /// Appends formatted rows to every table.
     pub fn append(&mut self, lines: &TableLines) -> Result<(), OutputError> {
         for (table, lines) in self.designs.iter_mut().zip(&lines.designs) {
             table.append(lines)?;
@@ -74,7 +74,7 @@ impl<'a> OpenTables<'a> {
         self.derivatives.iter_mut().try_for_each(|table| table.append(&lines.derivatives))
     }
 
-    /// Moves the tables to their final paths; returns their names with their SHA-256.
+    /// Moves the files to their final paths; returns their names and SHA-256.
     pub fn finish(self) -> Result<Vec<(String, String)>, OutputError> {
         let mut files = Vec::new();
         for (layout, table) in self.layouts.iter().zip(self.designs) {

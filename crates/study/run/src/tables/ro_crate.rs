@@ -1,7 +1,7 @@
 //! Metadata of a results folder, `ro-crate-metadata.json`.
 //!
-//! The folder is an RO-Crate (<https://w3id.org/ro/crate/1.1>): repositories of research data can
-//! read its files, its program and the meaning of every column of `designs.csv`.
+//! The folder is an RO-Crate (<https://w3id.org/ro/crate/1.1>), a format in which repositories of
+//! research data find its files, its program and the meaning of each column of `designs.csv`.
 
 use journal::OutputError;
 use results::ResultsFolder;
@@ -13,10 +13,10 @@ use crate::run_journal::Archive;
 /// Identifier of the article that describes the model.
 const ARTICLE: &str = "https://doi.org/10.1016/j.jmps.2020.104176";
 
-/// Writes the metadata of a run with these tables.
+/// Writes the metadata of a run with the files `tables`.
 ///
-/// The file has no date, so that it is identical for any number of sessions, threads and shards.
-/// Whoever publishes a folder adds authors, licence and date.
+/// The metadata have no date, so that they are identical for any number of sessions, threads and
+/// shards. Authors, licence and date are added when a folder is published.
 pub(super) fn write(
     archive: &Archive,
     folder: &ResultsFolder,
@@ -75,7 +75,7 @@ fn reference(id: &str) -> Value {
     json!({ "@id": id })
 }
 
-/// Returns the entity of a file.
+/// Returns the metadata of a file: name, description and format.
 fn entity(file: &str) -> Value {
     let (_, extension) = file.rsplit_once('.').unwrap_or_default();
     let format = match extension {
@@ -88,8 +88,10 @@ fn entity(file: &str) -> Value {
         ResultsFolder::FAILURES => {
             "one row per measure without a value, with the reason".to_owned()
         }
-        ResultsFolder::SENSITIVITY => "derivatives of the measures by the parameters".to_owned(),
-        ResultsFolder::RERUNS => "settings that a rerun changed".to_owned(),
+        ResultsFolder::SENSITIVITY => {
+            "derivatives of the measures with respect to the parameters".to_owned()
+        }
+        ResultsFolder::RERUNS => "values that reruns changed, with the settings".to_owned(),
         ResultsFolder::RUN_INFO => "record of the run, with the complete definition".to_owned(),
         ResultsFolder::CONTENTS => "length of the journal and SHA-256 of every table".to_owned(),
         ResultsFolder::JOURNAL => "one line per solved design, with a checksum".to_owned(),
@@ -104,7 +106,7 @@ fn entity(file: &str) -> Value {
     })
 }
 
-/// Returns an entity for each column of `designs.csv`: its name, unit and meaning.
+/// Returns the metadata of each column of `designs.csv`: its name, unit and meaning.
 fn columns(layouts: &[TableLayout]) -> Vec<Value> {
     let designs = layouts.iter().find(|layout| layout.file == ResultsFolder::DESIGNS);
     let columns = designs.map(|layout| layout.columns.as_slice()).unwrap_or_default();

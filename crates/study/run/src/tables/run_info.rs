@@ -11,7 +11,7 @@ use super::summary::Summary;
 use crate::options::Options;
 use crate::run_journal::Archive;
 
-/// Information about a run besides its sweep and its results.
+/// Program version, threads and start time of a run, for `run.toml`.
 pub(crate) struct RunInfo<'a> {
     program: &'a Program,
     threads: usize,
@@ -33,7 +33,7 @@ impl<'a> RunInfo<'a> {
         self.clock.elapsed()
     }
 
-    /// Writes the file to `folder`, and returns its SHA-256.
+    /// Writes `run.toml` to `folder` and returns its SHA-256.
     pub fn write(
         &self,
         archive: &Archive,
@@ -55,7 +55,7 @@ impl<'a> RunInfo<'a> {
              sessions = {}\ndesigns = {designs}\ndone = {}\nfailed = {}\nmissing = {}\n",
             quoted(self.program.version),
             quoted(self.program.revision),
-            // A run without solved designs may have no session.
+            // A journal without solved designs may have no session and hence no start time.
             started.unwrap_or("1970-01-01T00:00:00Z"),
             self.elapsed().as_secs_f64(),
             self.threads,
@@ -64,7 +64,7 @@ impl<'a> RunInfo<'a> {
             summary.failed,
             designs - summary.designs,
         );
-        // Writing to a string cannot fail.
+        // `writeln!` to a string cannot fail, so its result is ignored.
         if let Some(sample) = subset.sample {
             let _ = writeln!(text, "sample = {}\nseed = {}", sample.designs, sample.seed);
         }

@@ -14,27 +14,27 @@ pub struct Summary {
     pub designs: u64,
     /// Number of designs that lack a requested value.
     pub failed: u64,
-    /// Number of designs with each status, for each measure with a path.
+    /// Number of designs for each status, for puncture and flexure separately.
     pub statuses: BTreeMap<Measure, BTreeMap<&'static str, u64>>,
-    /// Number of designs with a fold of the surface.
+    /// Number of designs with a fold of the substrate's surface.
     pub folded: u64,
     contests: Vec<Contest>,
 }
 
-/// Best value of a measure, and the first design with it.
+/// Best value of a measure in a run, and the first design that has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Best {
-    /// Label of the value.
+    /// Description of the value, for example "largest critical force".
     pub label: &'static str,
-    /// Physical unit of the value. `None` without a material.
+    /// Physical unit of the value; `None` for dimensionless values.
     pub unit: Option<&'static str>,
-    /// Value, its first design, and the number of ties.
+    /// Value, the first design with this value, and the number of further designs with it.
     pub leader: Leader<DesignNumber>,
-    /// Parameter that makes the value incomparable between designs, if any.
+    /// Parameter that differs between designs and makes their values incomparable, if any.
     pub apart: Option<&'static str>,
-    /// Whether the value is not valid, because the surface of the substrate folds.
+    /// True if the value is not valid because the surface of the substrate folds.
     pub is_folded: bool,
-    /// The best value of the designs without a fold, if the best of all is not valid.
+    /// Best value of the designs without a fold, if the best value of all designs is not valid.
     pub unfolded: Option<Leader<DesignNumber>>,
 }
 
@@ -51,7 +51,7 @@ struct Contest {
     is_invalid_after_fold: bool,
 }
 
-/// Measures of the summary: column names and labels.
+/// Measures in the summary: column names and labels.
 const MEASURES: [(&str, &str); 5] = [
     (name::COVERAGE, "best coverage"),
     (name::CRITICAL_FORCE, "largest critical force"),
@@ -60,11 +60,11 @@ const MEASURES: [(&str, &str); 5] = [
     (name::SOUND_FORCE, "largest force before a fold"),
 ];
 
-/// Label of the compliance in physical units: its inverse, the rigidity.
+/// Label if the compliance is stated in physical units, as flexural rigidity (its inverse).
 const RIGIDITY: &str = "least flexural rigidity";
 
 impl Summary {
-    /// Creates an empty summary of a sweep.
+    /// Creates a summary without designs.
     pub(crate) fn new(sweep: &Sweep) -> Self {
         let contest = |(name, label)| {
             let column = ValueColumn::in_units_of(sweep, name)?;
@@ -81,9 +81,10 @@ impl Summary {
         Self { contests: MEASURES.into_iter().filter_map(contest).collect(), ..Self::default() }
     }
 
-    /// Counts a design.
+    /// Adds a design to the counts and best values.
     ///
-    /// Designs must be added in order, because the first of equal designs is the best.
+    /// Designs must be added in the order of their numbers, because the first of equal ones is
+    /// kept.
     pub(crate) fn add(&mut self, row: &DesignRow) {
         self.designs += 1;
         self.failed += u64::from(row.result.failed());
@@ -93,7 +94,8 @@ impl Summary {
             .into_iter()
             .chain(flexure)
             .for_each(|(measure, outcome)| self.count(measure, outcome));
-        // Folded designs have measures, too, but the largest of these may be meaningless.
+        // Measures of designs with a fold exist but may be invalid, so folds are counted
+        // separately.
         let fold = row.result.puncture.and_then(|puncture| puncture.measures.fold_force);
         self.folded += u64::from(fold.is_some());
         for contest in &mut self.contests {
@@ -110,9 +112,9 @@ impl Summary {
         *self.statuses.entry(measure).or_default().entry(outcome.text()).or_default() += 1;
     }
 
-    /// Returns the best values that exist.
+    /// Returns the best value of each measure that has a value.
     pub fn best(&self) -> impl Iterator<Item = Best> {
-        // Without folds, the force before a fold equals the critical force and would repeat it.
+        // Without any fold, the force before a fold equals the critical force and is omitted.
         self.contests
             .iter()
             .filter(|contest| {
@@ -170,7 +172,7 @@ mod tests {
             .best()
             .map(|best| (best.is_folded, best.unfolded.map(|leader| leader.first.to_string())))
             .collect();
-        // The penetration of the third design is the least, but its surface folds.
+        // Design 0003 has the least penetration, but its surface folds.
         let unfolded = Some("0001".to_owned());
         assert_eq!(folds, [(false, None), (true, unfolded), (false, None)]);
         let apart = of_tilts.best().next();

@@ -1,4 +1,4 @@
-//! Writes the tables of a run from its journal at intervals.
+//! Writes the tables of a run from its journal, repeatedly during the run and at its end.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -18,30 +18,30 @@ use crate::options::Options;
 use crate::progress::{Finished, RunError};
 use crate::run_journal::{Archive, Journal};
 
-/// Reciprocal of the largest fraction of time spent on writing tables: 5 %.
+/// Reciprocal of the largest fraction of time spent on writing tables, here 5 %.
 const SHARE: u32 = 20;
 
 /// Number of designs that one thread formats at a time.
-// Large enough to justify a task, small enough to keep all tasks below a megabyte.
+// Large enough to be worth a task, small enough to keep the texts of a task below a megabyte.
 const PORTION: usize = 32;
 
-/// Names of tables with their SHA-256, in reading order.
+/// File names of tables with their SHA-256, in the order in which a reader should read them.
 type WrittenTables = Vec<(String, String)>;
 
-/// Writes the tables of one run.
+/// Writes the tables of one run and decides when they are due.
 pub(crate) struct TableWriter<'a> {
     folder: ResultsFolder,
     format: CsvFormat,
     every: Duration,
     threads: usize,
     info: RunInfo<'a>,
-    /// Time of the last writing of tables, and its duration.
+    /// Time at which the tables were last written, and the duration of writing.
     written: Instant,
     writing: Duration,
 }
 
 impl<'a> TableWriter<'a> {
-    /// Creates a writer of tables to `folder`.
+    /// Creates a writer of tables in `folder`.
     pub fn new(
         folder: ResultsFolder,
         format: CsvFormat,
@@ -53,26 +53,26 @@ impl<'a> TableWriter<'a> {
         Self { folder, format, every, threads, info, written, writing }
     }
 
-    /// Returns true if the tables should be written again.
+    /// Returns true if enough time has passed to write the tables again.
     pub fn are_due(&self) -> bool {
         self.written.elapsed() > self.every.max(self.writing * SHARE)
     }
 
-    /// Writes the tables, the record of the run and, last, `contents.toml`.
+    /// Writes the tables, then `run.toml`, then `contents.toml`.
     pub fn write(&mut self, journal: &mut Journal) -> Result<Finished, RunError> {
         let begun = Instant::now();
-        // Synchronise first: tables must not contain designs that a power failure removes from the
-        // journal.
+        // The journal is synchronised first. Otherwise tables could contain designs that a power
+        // failure removes from the journal.
         journal.sync()?;
         let archive = journal.records();
         let (summary, tables) = self.write_tables(archive)?;
         let names: Vec<_> = tables.iter().map(|(name, _)| name.clone()).collect();
-        // Remove tables that remain from an earlier run.
+        // Removes tables of an earlier run that this run does not write.
         self.folder.remove_tables_but(&names);
         let record = self.info.write(archive, &self.folder, &summary)?;
         let record = (ResultsFolder::RUN_INFO.to_owned(), record);
         let contents = self.contents(archive, tables.into_iter().chain([record]).collect())?;
-        // Written last: readers accept the tables from here on.
+        // Written last, because readers accept the tables only with a matching `contents.toml`.
         contents.write(&self.folder)?;
         self.folder.sync();
         self.written = Instant::now();
@@ -94,11 +94,11 @@ impl<'a> TableWriter<'a> {
 
     /// Writes the tables; returns the summary and the SHA-256 of each table.
     ///
-    /// Entries are read one by one in the order of their designs; all threads format rows.
+    /// One thread reads the entries in the order of their designs; all threads format rows.
     fn write_tables(&self, archive: &Archive) -> Result<(Summary, WrittenTables), RunError> {
         let (folder, format) = (&self.folder, self.format);
-        // A separate pool, with the number of threads of the run. Its solver threads are idle
-        // meanwhile.
+        // A separate pool of as many threads as the run has. The threads that solve designs are
+        // idle during this time.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build();
         let pool = pool.map_err(|error| RunError::Threads {
             count: self.threads,

@@ -1,4 +1,4 @@
-//! The row across, against isolated values and the counts of another program.
+//! Force of the row across: known values of isolated scales, and counts of another program.
 
 use rayon::prelude::*;
 use results::DesignResult;
@@ -6,7 +6,7 @@ use run::Evaluator;
 use skin::puncture::FailureMode;
 use sweep::{Measure, Sweep};
 
-/// Solves all designs of a definition in order.
+/// Solves all designs of a definition and returns their results in order.
 fn results(text: &str) -> Vec<DesignResult> {
     let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
     let evaluator = Evaluator::new(&[Measure::Puncture]);
@@ -22,7 +22,7 @@ fn forces(result: &DesignResult) -> (Option<f64>, Option<f64>) {
     (measures.critical_force, measures.across.force)
 }
 
-/// `F` over `E* t²` at 10°, for a width of `t`.
+/// The forces are in units of `E* t²`, at a tilt of 10° and for a width of `t`.
 #[test]
 fn the_force_across_an_isolated_scale_matches_known_values() {
     for (length, force) in [(0.1, 0.0170), (0.2, 0.0237), (0.5, 0.0412), (1.0, 0.0682)] {
@@ -51,14 +51,14 @@ fn the_weaker_direction_is_the_smaller_force() {
         (measures.failure.mode, measures.failure.force),
         (Some(FailureMode::Across), Some(across))
     );
-    // An upright square scale is as strong in both directions.
+    // An upright scale with a square base is equally strong in both directions.
     let (along, across) = forces(&all[0]);
     let (along, across) = (along.expect("a force"), across.expect("a force"));
     assert!((along / across - 1.0).abs() < 1e-9, "{along} {across}");
 }
 
 #[test]
-fn the_load_across_is_as_far_from_the_edge_as_along() {
+fn the_load_on_the_row_across_has_the_same_distance_from_the_edge() {
     let across = |load: &str| {
         let text = format!(
             "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.5\nlength_over_t = 2\n\
@@ -67,19 +67,19 @@ fn the_load_across_is_as_far_from_the_edge_as_along() {
         );
         forces(&results(&text)[0]).1.expect("a force")
     };
-    // The base is 2 t wide, like the paper's bases of length L.
+    // The base is 2 t wide: a base of length L, with L = 2 t.
     let inset = across("load_inset_over_t = 0.4");
     assert!((across("load_position = 0.8") / inset - 1.0).abs() < 1e-9);
     assert!((across("load_position = 0.2") / inset - 1.0).abs() < 1e-9);
-    // Between two scales the needle is beside both edges.
+    // A needle between two scales acts at the edge of the row across, with the inset 0.
     let edge = across("load_inset_over_t = 0");
     assert!((across("load_position = 1.1") / edge - 1.0).abs() < 1e-9);
     assert!(inset > 1.02 * edge, "{inset} {edge}");
 }
 
-/// Round-off must not determine the tilt of a balanced block beyond its bifurcation.
+/// An upright block under a central load is balanced and can tilt to either side at a bifurcation.
 ///
-/// Without a rule, round-off would determine whether and in which direction the block tilts.
+/// A fixed rule, not rounding, must decide whether it tilts and to which side.
 #[test]
 fn a_load_in_the_middle_tilts_blocks_across_but_not_along() {
     let text = "name = 'x'\nmeasures = 'puncture'\nsubstrate.coupling = 'full'\n[designs]\n\
@@ -101,7 +101,7 @@ const PAPER: &str = "name = 'x'\nmeasures = 'puncture'\n[designs]\n\
     length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]\n\
     slant_deg = { from = 0, to = 75, step = 15 }\n[array]\nacross = true\n";
 
-/// Counts the designs with both forces and those that are weaker across the row.
+/// Returns the number of designs with both forces, and of those that are weaker across the row.
 fn counts(text: &str) -> (usize, usize) {
     let both: Vec<_> = results(text)
         .iter()
@@ -110,7 +110,7 @@ fn counts(text: &str) -> (usize, usize) {
             Some((along?, across?))
         })
         .collect();
-    // Upright square scales are as strong in both directions.
+    // Rounding differences are ignored: upright square scales are equally strong both ways.
     let weaker = both.iter().filter(|(along, across)| *across < along * (1.0 - 1e-9));
     (both.len(), weaker.count())
 }

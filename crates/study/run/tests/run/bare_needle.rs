@@ -1,12 +1,15 @@
-//! The pressure of a bare needle.
+//! Pressure of a needle on tissue without scales.
 
 use run::{BareNeedle, Evaluator, bare_needle};
 use sweep::{Measure, Sweep};
 
-/// Modulus of the tissue, `MPa`.
+/// Modulus of the tissue in `MPa`.
 const MODULUS: f64 = 1.5;
 
-/// Solves a design, and returns the bare needle, the force in N and the pressure in kPa.
+/// Solves a design; returns the pressure of the bare needle, the force in N and the pressure in
+/// kPa.
+///
+/// The last value is the pressure under the skin.
 fn solved(radius: &str) -> (Option<BareNeedle>, f64, f64) {
     let text = format!(
         "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.8\n\
@@ -19,7 +22,7 @@ fn solved(radius: &str) -> (Option<BareNeedle>, f64, f64) {
     let row = Evaluator::new(&[Measure::Puncture]).row(sweep.grid().number(0), &case);
     let measures = row.result.puncture.expect("a puncture").measures;
     let force = measures.critical_force.expect("a force");
-    // `F = F* E* L t`, with a length of 1.6 mm.
+    // F = F* E* L t, with E* = E_s/(1 − ν²), L = 1.6 mm and t = 2 mm.
     let at_end = force * MODULUS / (1.0 - 0.4 * 0.4) * 1.6 * 2.0;
     let pressure = measures.tissue_pressure_at_force.or(measures.failure.tissue_pressure);
     let pressure = 1e3 * MODULUS * pressure.expect("a pressure");
@@ -28,8 +31,8 @@ fn solved(radius: &str) -> (Option<BareNeedle>, f64, f64) {
 
 #[test]
 fn bare_pressure_follows_hertz_up_to_the_radius_of_the_shaft() {
-    // A thin needle sinks in up to its shaft; a thick one touches with a part of its tip, at the
-    // end of the path and at a smaller force.
+    // A thin needle sinks in up to its shaft. A thick needle touches the tissue with a part of its
+    // tip, both with the critical force and with a smaller force in the definition.
     let needles = [("0.1", 0.1, true), ("2", 2.0, false), ("2\nforce_N = 0.3", 2.0, false)];
     for (given, radius, is_shaft) in needles {
         let (bare, force, under_skin) = solved(&format!("needle_radius_mm = {given}"));
@@ -44,6 +47,6 @@ fn bare_pressure_follows_hertz_up_to_the_radius_of_the_shaft() {
 }
 
 #[test]
-fn a_sharp_needle_has_no_bare_needle_pressure() {
+fn a_sharp_needle_has_no_pressure_on_bare_tissue() {
     assert_eq!(solved("").0, None);
 }

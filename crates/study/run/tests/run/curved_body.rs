@@ -1,11 +1,11 @@
-//! Flat designs that are worn on curved bodies.
+//! Forces of flat designs that are worn on curved bodies.
 
 use std::path::Path;
 
 use run::{Evaluator, curved_body_warning};
 use sweep::{Measure, Sweep};
 
-/// Solves a steep design with further lines, and returns the warning and the critical force.
+/// Solves a steep design with further definition lines; returns the warning and the critical force.
 fn warned(further: &str) -> (Option<String>, f64) {
     let text = format!(
         "name = 'x'\n{further}\n[designs]\ngap_over_t = 0.3\nlength_over_t = 0.8\nslant_deg = 60\n\
@@ -22,7 +22,7 @@ fn warned(further: &str) -> (Option<String>, f64) {
 fn a_flat_design_is_compared_with_named_bodies() {
     let (warning, flat) = warned("");
     let (on_finger, worn) = warned("body.radius_mm = 10");
-    assert_eq!(on_finger, None, "a definition with a body");
+    assert_eq!(on_finger, None, "a definition with a body needs no warning");
     assert!(worn < 0.5 * flat, "{worn} {flat}");
     let warning = warning.expect("a lower force");
     let number = |before: &str| -> f64 {
@@ -34,20 +34,20 @@ fn a_flat_design_is_compared_with_named_bodies() {
     assert!(warning.starts_with("critical_force_N is "), "{warning}");
 }
 
-/// Number of thicknesses in the radius of each named body, for scales of 2 mm.
+/// Radius of each named body divided by the thickness, for scales of 2 mm.
 const RADII: [(&str, f64); 5] =
     [("flat", f64::INFINITY), ("torso", 72.5), ("thigh", 49.5), ("forearm", 22.5), ("finger", 5.0)];
 
-/// A design with its values on a body.
+/// A design with its coverage and critical force on a body.
 #[derive(Clone, Copy, Debug)]
 struct OnBody {
-    /// Gap and length over the thickness, and slant.
+    /// Gap over thickness, length over thickness, and slant in degrees.
     design: [f64; 3],
     coverage: f64,
     force: f64,
 }
 
-/// Solves 75 designs under the recommended needle.
+/// Solves 75 designs under the recommended needle on a body with a radius in thicknesses.
 fn designs_on(radius: f64) -> Vec<OnBody> {
     let text = format!(
         "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.2, 0.3]\n\
@@ -72,13 +72,13 @@ fn designs_on(radius: f64) -> Vec<OnBody> {
     all
 }
 
-/// Returns the rank of each force.
+/// Returns the rank of the force of each design: the number of designs with a smaller force.
 fn ranks(designs: &[OnBody]) -> impl Iterator<Item = f64> {
     let below = designs.iter().map(|own| designs.iter().filter(|d| d.force < own.force).count());
     below.map(|count| count as f64)
 }
 
-/// Computes Spearman's rank correlation of the forces of two lists without ties.
+/// Computes Spearman's rank correlation of the forces in two lists; assumes no equal forces.
 fn rank_correlation(one: &[OnBody], other: &[OnBody]) -> f64 {
     let squares: f64 = ranks(one).zip(ranks(other)).map(|(a, b)| (a - b).powi(2)).sum();
     let count = one.len() as f64;
@@ -91,7 +91,7 @@ fn strongest(designs: &[OnBody]) -> OnBody {
     *covering.max_by(|a, b| a.force.total_cmp(&b.force)).expect("a design")
 }
 
-/// Computes a row of the table of advice in `docs/needle.md`.
+/// Computes a row of the table of bodies in `docs/needle.md`.
 fn row_of_advice(name: &str, radius: f64, flat: &[OnBody]) -> String {
     let here = designs_on(radius);
     let mut ratios: Vec<f64> = here.iter().zip(flat).map(|(h, f)| h.force / f.force).collect();
@@ -110,7 +110,7 @@ fn row_of_advice(name: &str, radius: f64, flat: &[OnBody]) -> String {
 }
 
 #[test]
-fn the_page_on_needles_quotes_forces_on_bodies() {
+fn the_needle_page_states_the_forces_on_named_bodies() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/needle.md");
     let page = std::fs::read_to_string(page).expect("a page");
     let flat = designs_on(f64::INFINITY);

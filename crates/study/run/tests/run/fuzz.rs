@@ -1,6 +1,6 @@
-//! Reading random and damaged journals never panics.
+//! Journals of random or damaged bytes cause an error message, but no panic.
 //!
-//! `scripts/fuzz` runs these tests for any length of time.
+//! `scripts/fuzz` runs these tests for a given time.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use run::Archive;
 
-/// Returns the lines of a valid journal, without checksums.
+/// Returns the lines of a valid journal without their checksums.
 fn journal() -> &'static [String] {
     static LINES: OnceLock<Vec<String>> = OnceLock::new();
     LINES.get_or_init(|| {
@@ -23,10 +23,10 @@ fn journal() -> &'static [String] {
     })
 }
 
-/// Length of `{"crc":"01234567",`.
+/// Length of the start of a line that holds its checksum, `{"crc":"01234567",`.
 const CHECKSUM: usize = 18;
 
-/// Returns the journal with these lines and valid checksums.
+/// Returns a journal of these lines, each with its correct checksum.
 fn sealed(contents: &[String]) -> Vec<u8> {
     let header: serde_json::Value =
         serde_json::from_str(&format!("{{{}", contents[0])).unwrap_or_default();
@@ -43,7 +43,7 @@ fn sealed(contents: &[String]) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Reads a journal; an error must be one line and name the line of the journal.
+/// Reads a journal; an error must be one line of text and state the number of a journal line.
 fn open(bytes: Vec<u8>) -> Result<(), TestCaseError> {
     match Archive::read_from(Cursor::new(bytes), Path::new("journal.jsonl")) {
         Ok(None) => {}
@@ -78,7 +78,7 @@ proptest! {
         open(bytes)?;
     }
 
-    /// With valid checksums, the content is parsed, too.
+    /// The checksums are valid, so that the edited content of the line is parsed.
     #[test]
     fn edited_journals_with_valid_checksums_never_panic(
         line: Index, at: Index, length in 0..12_usize, piece in "[-0-9a-z{}\\[\\]:,.\"\\\\]{0,12}"

@@ -1,4 +1,4 @@
-//! Damaged journals are refused with the line, or continued to the same tables.
+//! Damaged journals are refused with the number of a line, or continued to the same tables.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use rand_chacha::rand_core::SeedableRng as _;
 use run::{Options, Program, RunError, Start, WorkMeter};
 use sweep::{Subset, Sweep};
 
-/// Definition of 48 designs; some punctures stop early.
+/// Definition of 48 designs, of which some punctures stop early.
 const DESIGNS: &str = "name = 'x'\nmeasures = ['coverage', 'puncture']\n[designs]\n\
                        gap_over_t = [0.1, 0.3, 0.5]\nlength_over_t = [0.2, 1]\n\
                        slant_deg = { from = 0, to = 70, step = 10 }\n\
@@ -37,13 +37,13 @@ pub fn resume(folder: &Path) -> Result<(), RunError> {
     run::run(&sweep, all, folder, Start::Resume, &options, &program, |_| ()).map(|_| ())
 }
 
-/// Returns the concatenated tables.
+/// Returns the texts of all tables, concatenated.
 fn tables(folder: &Path) -> String {
     let tables = ["designs.csv", "coverage.csv", "critical_force.csv", "failures.csv"];
     tables.map(|table| fs::read_to_string(folder.join(table)).expect("a table")).concat()
 }
 
-/// Damages `journal` at a random position, and describes the damage.
+/// Damages `journal` at a random position, and returns a description of the damage.
 fn damage(journal: &mut Vec<u8>, random: &mut ChaCha8Rng) -> String {
     let at = random.random_range(0..journal.len());
     let length = random.random_range(1..300_usize).min(journal.len() - at);
@@ -66,7 +66,7 @@ fn damage(journal: &mut Vec<u8>, random: &mut ChaCha8Rng) -> String {
     format!("kind {kind} at {at}, {length} bytes")
 }
 
-/// Returns the number of the first line in which two texts differ, from 1.
+/// Returns the number (from 1) of the first line in which two texts differ.
 fn first_difference(one: &[u8], other: &[u8]) -> usize {
     let same = one.iter().zip(other).take_while(|(a, b)| a == b).count();
     1 + String::from_utf8_lossy(&one[..same]).matches('\n').count()
@@ -88,7 +88,7 @@ fn damaged_journals_are_refused_or_give_the_same_tables() {
         fs::write(place.path().join(JOURNAL), &damaged).expect("writable");
         match resume(place.path()) {
             Ok(()) => {
-                assert!(tables(place.path()) == expected, "{what}: other tables");
+                assert!(tables(place.path()) == expected, "{what}: the tables differ");
                 recovered += 1;
             }
             Err(error) => {
@@ -105,7 +105,7 @@ fn damaged_journals_are_refused_or_give_the_same_tables() {
             }
         }
     }
-    // Both cases occur: torn ends, and damage before intact lines.
+    // Truncated journals are continued; damage before intact lines is refused.
     assert!(refused > 50 && recovered > 20, "{refused} refused, {recovered} recovered");
 }
 
@@ -124,5 +124,5 @@ fn a_journal_continues_after_removal_of_a_damaged_line() {
     lines.remove(20);
     fs::write(&path, lines.concat()).expect("writable");
     resume(place.path()).expect("a run");
-    assert!(tables(place.path()) == expected, "the same tables");
+    assert!(tables(place.path()) == expected, "the tables differ");
 }

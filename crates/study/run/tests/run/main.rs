@@ -1,4 +1,4 @@
-//! Runs: independent rows, damaged journals, derivatives and reference results.
+//! Tests of runs: independence of rows, damaged journals, derivatives and reference results.
 
 mod across;
 mod bare_needle;

@@ -1,4 +1,4 @@
-//! Ends of paths and solution times of random designs with all combinations of features.
+//! Paths of random designs with random combinations of all features end without numerical errors.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -16,7 +16,7 @@ use sweep::{Case, Measure};
 
 use super::sensitivity::designs::number;
 
-/// Random numbers of one design.
+/// Source of the random numbers of one design.
 struct Draw(ChaCha8Rng);
 
 impl Draw {
@@ -29,7 +29,7 @@ impl Draw {
     }
 }
 
-/// Draws a design with a random choice of features; each has its default in some designs.
+/// Returns a design with randomly chosen features; a feature that is not chosen has its default.
 pub fn mixed_case(seed: u64) -> Case {
     let mut draw = Draw(ChaCha8Rng::seed_from_u64(seed));
     let mut case = Case::default();
@@ -85,14 +85,15 @@ pub fn mixed_case(seed: u64) -> Case {
     case
 }
 
-/// Returns the range of seeds in `SQUAMA_HUNT`, such as `0..2000`, or else a small one.
+/// Returns the range of seeds in the variable `SQUAMA_HUNT`, such as `0..2000`, or by default
+/// 0..150.
 fn seeds() -> std::ops::Range<u64> {
     let range = std::env::var("SQUAMA_HUNT").unwrap_or_else(|_| "0..150".to_owned());
     let (from, to) = range.split_once("..").expect("a range of seeds");
     from.parse().expect("a seed")..to.parse().expect("a seed")
 }
 
-/// Returns the processor time of this thread.
+/// Returns the processor time that this thread has used.
 fn processor_time() -> Duration {
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     let nanoseconds = statistics.split_whitespace().next().and_then(|n| n.parse().ok());
@@ -109,7 +110,7 @@ fn is_numeric(outcome: Outcome) -> bool {
     )
 }
 
-/// Solves puncture and bending of a design, and returns the outcome of every path.
+/// Solves puncture and bending of a design, and returns name and outcome of each path.
 fn outcomes(case: &Case) -> Vec<(&'static str, Outcome)> {
     let evaluator = Evaluator::new(&[Measure::Puncture, Measure::Flexure]);
     let result = evaluator.row(number(), case).result;
@@ -126,20 +127,20 @@ fn outcomes(case: &Case) -> Vec<(&'static str, Outcome)> {
     outcomes
 }
 
-/// Each design has a path with a rare event, which the solver passes.
+/// Each of these designs has a path with a rare event; the solver must continue beyond the event.
 #[test]
 fn paths_pass_rare_events() {
     let expected = [
-        // A sharp tip leaves its notch while it sticks.
+        // A sharp tip, which rests in the notch between two scales, leaves it while the tip sticks.
         (180, "unloading", Outcome::Complete),
         (1118, "unloading", Outcome::Complete),
-        // A tip that stuck starts to slide again at a vanishing rate.
+        // A sticking tip begins to slide again with a rate of almost zero.
         (404, "unloading", Outcome::Complete),
         (889, "unloading", Outcome::Complete),
         (935, "unloading", Outcome::Complete),
-        // A load in the middle of an upright scale, beyond a bifurcation.
+        // A load in the middle of an upright scale exceeds the load of a bifurcation.
         (170, "weakest", Outcome::Untilted),
-        // All contacts of a strip open with their corners at the ends of their edges.
+        // All contacts of a strip open while each corner is at the end of an edge.
         (1007, "unbending", Outcome::Complete),
         (1198, "unbending", Outcome::Complete),
         // The moment of a strip reaches its maximum.
@@ -155,7 +156,9 @@ fn paths_pass_rare_events() {
     }
 }
 
-/// Punctures a design with this largest step; returns the outcome and the forces.
+/// Solves a puncture with the given largest step.
+///
+/// Returns its outcome, critical force, force at a fold, and force at the first failure.
 fn forces(case: &Case, max_step: f64) -> (Outcome, [Option<f64>; 3]) {
     let mut case = *case;
     case.common.solver.max_step = max_step;
@@ -165,12 +168,12 @@ fn forces(case: &Case, max_step: f64) -> (Outcome, [Option<f64>; 3]) {
     (punctured.outcome, [measures.critical_force, measures.fold_force, measures.failure.force])
 }
 
-/// Asserts that the forces with default steps and with small steps agree.
+/// Asserts that forces computed with default steps and with small steps agree.
 ///
-/// Returns false, without a comparison, if a path ended for a numeric reason.
+/// Returns false if no comparison is possible because a path ended for a numerical reason.
 fn compare_with_small_steps(seed: u64) -> bool {
     let mut case = mixed_case(seed);
-    // Friction has a history, which depends slightly on the step.
+    // No friction, because slip depends on the history of the path and slightly on the step.
     case.common.friction = 0.0;
     if let Needle::Guided { friction } = &mut case.puncture.needle {
         *friction = 0.0;
@@ -192,7 +195,7 @@ fn compare_with_small_steps(seed: u64) -> bool {
     true
 }
 
-/// Every event on a path is located, so smaller steps find the same forces.
+/// The solver locates every event on a path, so smaller steps give the same forces.
 #[test]
 fn forces_do_not_depend_on_the_step() {
     let compared =
@@ -201,7 +204,7 @@ fn forces_do_not_depend_on_the_step() {
     assert!(100 * compared > 95 * (seeds.end - seeds.start), "{compared} of {seeds:?}");
 }
 
-/// At most one path in a hundred ends numerically, and no design takes more than 10 s.
+/// At most 1 % of the paths end for a numerical reason, and no design takes more than 10 s.
 #[test]
 #[ignore = "takes minutes; SQUAMA_HUNT=FROM..TO selects other seeds"]
 fn few_random_designs_stop_for_numerical_reasons() {

@@ -1,4 +1,4 @@
-//! Compares the committed tables of the paper sweep with new solutions.
+//! New solutions agree with the committed tables of the paper's sweep.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use results::columns::design_columns;
 use run::Evaluator;
 use sweep::Sweep;
 
-/// Number of compared designs, and their distance in the grid.
+/// Number of designs that are compared, and their distance in the grid.
 ///
 /// The slant is the fastest axis of the grid, with six values.
 const DESIGNS: u64 = 40;
@@ -18,9 +18,9 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../..")
 }
 
-/// Returns the cells of a row that differ from the reference.
+/// Returns a text for each cell that differs from the reference.
 ///
-/// Numbers may differ by 1e-9, relative to the larger.
+/// Numbers may differ by 1e-9 of the larger one.
 fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<String> {
     assert_eq!(ours.iter().map(|(name, _)| *name).collect::<Vec<_>>(), reference.header());
     ours.iter()
@@ -31,12 +31,13 @@ fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<
                 (Ok(a), Ok(b)) => (a - b).abs() <= 1e-9 * a.abs().max(b.abs()),
                 _ => *ours == theirs,
             };
-            // The number of steps may differ, but not the result.
+            // Numbers of path points and iterations may change without a change of results.
             let path = name.ends_with("_points") || name.ends_with("_iterations");
-            // A value that vanishes except for round-off has no significant digits.
+            // A value that is zero except for rounding has no significant digits.
             let nothing =
                 *name == "axial_energy_share" && theirs.parse().is_ok_and(|x: f64| x < 1e-20);
-            // A difference of nearly equal values has few significant digits.
+            // The error estimate is a difference of nearly equal values and has few significant
+            // digits.
             let difference = *name == "flexure_error";
             (!same && !path && !nothing && !difference)
                 .then(|| format!("{name}: {ours} instead of {theirs}"))

@@ -1,4 +1,4 @@
-//! Compares derivatives of all measures with differences of solutions.
+//! Derivatives of all measures agree with finite differences of complete solutions.
 
 mod branches;
 mod curves;
@@ -21,7 +21,7 @@ use sweep::{Case, Measure, Parameter, Sweep};
 use designs::random_case;
 use differences::Differences;
 
-/// Tolerated relative error of a derivative, compared to differences.
+/// Tolerated error of a derivative compared with differences, relative to the derivative.
 const TOLERANCE: f64 = 1e-6;
 
 fn derivatives(case: &Case) -> Vec<ParameterDerivative> {
@@ -29,28 +29,27 @@ fn derivatives(case: &Case) -> Vec<ParameterDerivative> {
     solved.row.result.sensitivity
 }
 
-/// Compares the derivatives of `case` with differences of solutions.
+/// Compares the derivatives of `case` with differences, and returns the number of comparisons.
 ///
-/// Compares each component and, in a long campaign, the derivatives along gradients. Returns the
-/// number of comparisons.
+/// In a long campaign, the derivative of each measure along its gradient is compared, too.
 fn compare(case: &Case) -> usize {
     compare_with(case, is_long())
 }
 
-/// Compares each component of the gradients with differences.
+/// Compares derivatives with differences, and returns the number of comparisons.
 ///
-/// If requested, also compares the derivative of each measure along its gradient.
+/// `along_gradients` also compares the derivative of each measure along its gradient.
 fn compare_with(case: &Case, along_gradients: bool) -> usize {
     let (derivatives, differences) = (derivatives(case), Differences::of(case));
     let compared = compare_components(case, &derivatives, &differences);
-    // The derivative along each gradient needs solutions of its own, which take most of the time.
+    // Each gradient needs its own solutions, which take most of the time.
     if !along_gradients {
         return compared;
     }
     compared + compare_along_gradients(case, &derivatives, &differences)
 }
 
-/// Compares each derivative with differences. Returns the number of comparisons.
+/// Compares each derivative with differences, and returns the number of comparisons.
 fn compare_components(
     case: &Case,
     derivatives: &[ParameterDerivative],
@@ -70,9 +69,9 @@ fn compare_components(
     compared
 }
 
-/// Compares the derivative of each measure along its gradient.
+/// Compares the derivative of each measure along its gradient with differences.
 ///
-/// Errors of the components do not cancel in this direction.
+/// In this direction errors of the components do not cancel.
 fn compare_along_gradients(
     case: &Case,
     derivatives: &[ParameterDerivative],
@@ -101,7 +100,7 @@ fn compare_along_gradients(
     compared
 }
 
-/// Returns true in a long campaign.
+/// Returns true if the environment variable `SQUAMA_CAMPAIGNS` requests a long campaign.
 fn is_long() -> bool {
     std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
 }
@@ -116,19 +115,19 @@ fn compare_designs(count: u64) {
     assert!(compared.iter().sum::<usize>() > 100 * compared.len(), "{compared:?}");
 }
 
-/// Number of designs that are always compared, and time to start further ones.
+/// Number of designs that are always compared, and time after which no further one is started.
 const FEW: u64 = 8;
 const LONGEST: Duration = Duration::from_secs(8);
 
-/// Compares eight designs; in a long campaign up to three hundred.
+/// Compares eight random designs, and in a long campaign up to three hundred.
 #[test]
 fn derivatives_match_differences_of_solutions() {
     compare_designs(if is_long() { 300 } else { FEW });
 }
 
-/// Rows with friction, some of them with sticking contacts at the end.
+/// Compares rows with friction; some of them end with sticking contacts.
 ///
-/// A sticking contact preserves part of its slip along the path, which depends on the parameter,
+/// The slip of a sticking contact was accumulated along the path and depends on the parameters,
 /// too.
 #[test]
 fn derivatives_of_rows_with_friction_match_differences() {
@@ -146,7 +145,7 @@ fn derivatives_of_rows_with_friction_match_differences() {
     assert!(compared.iter().sum::<usize>() > 80 * compared.len(), "{compared:?}");
 }
 
-/// The position of a smooth maximum moves along the path.
+/// A smooth maximum of the force moves along the path when a parameter changes.
 #[test]
 fn the_position_of_a_smooth_peak_has_derivatives() {
     let text = "name = 'smooth-peak'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.166\nlength_over_t = 0.735\n\
@@ -165,7 +164,7 @@ fn the_position_of_a_smooth_peak_has_derivatives() {
     assert!(compare(&case) > 90);
 }
 
-/// Beyond the end of its range, a slant has values that definitions do not accept.
+/// Derivatives at a slant of 0 vary it to negative slants, which definitions do not accept.
 #[test]
 fn upright_scales_have_derivatives_in_puncture_and_bending() {
     let mut case = random_case(0);
@@ -180,11 +179,9 @@ fn upright_scales_have_derivatives_in_puncture_and_bending() {
     }
 }
 
-/// Layers of finite thickness have derivatives with respect to all parameters.
-///
-/// The thickness is one of them.
+/// A layer has derivatives with respect to all parameters, including its thickness.
 #[test]
-fn layers_have_derivatives() {
+fn designs_on_a_layer_have_derivatives() {
     let count = if is_long() { 3 } else { 1 };
     for (number, thickness) in [(1, 3.0), (2, 1.2), (5, 7.0)].into_iter().take(count) {
         let case = Case { tissue_thickness: Some(thickness), ..random_case(number) };

@@ -1,4 +1,4 @@
-//! The smallest force on bodies between two radii.
+//! Smallest critical force of a design on bodies between two radii.
 
 use results::{DesignResult, Outcome, PunctureResult};
 use run::Evaluator;
@@ -17,7 +17,7 @@ fn punctured(body: &str) -> PunctureResult {
 }
 
 #[test]
-fn the_worst_body_does_not_depend_on_the_order_of_the_radii() {
+fn the_worst_force_does_not_depend_on_the_order_of_the_radii() {
     let finger = punctured("radius_over_t = 8").measures.critical_force;
     for body in [
         "radius_over_t = 8\nradius_to_over_t = 500",
@@ -34,7 +34,7 @@ fn the_worst_body_does_not_depend_on_the_order_of_the_radii() {
 }
 
 #[test]
-fn no_body_in_the_range_has_less_than_the_worst_force() {
+fn no_body_between_the_radii_has_a_smaller_force_than_the_worst_one() {
     let between = punctured("radius_over_t = 3\nradius_to_over_t = -40");
     let worst = between.measures.between.force.expect("a force");
     for k in 0..=32 {
@@ -53,7 +53,7 @@ fn the_worst_force_is_unknown_if_scales_overlap_on_a_body() {
     assert_eq!(between.measures.between.force, None);
 }
 
-/// Solves a design with derivatives, on bodies from 200 t to a radius.
+/// Solves a design with derivatives on bodies between the radii 200 t and `to`.
 fn differentiated(gap: f64, to: f64) -> DesignResult {
     let text = format!(
         "name = 'x'\n[designs]\ngap_over_t = {gap}\nlength_over_t = 1\nslant_deg = 60\n\

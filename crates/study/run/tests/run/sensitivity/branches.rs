@@ -1,4 +1,4 @@
-//! Contact branches in which the designs of these tests end.
+//! Derivatives agree with differences for every kind of contact at the end of a path.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -13,10 +13,10 @@ use super::designs::{self, random_case};
 use super::differences::Differences;
 use super::{compare, compare_components, derivatives};
 
-/// Returns the contact branches at the ends of the puncture and bending paths.
+/// Returns the kinds of contact at the ends of the puncture and bending paths.
 ///
-/// Branches are a corner on an edge, corners together, a tip on the neighbour's end, and flush
-/// sides.
+/// The kinds are a corner on an edge, two corners together, a tip on the base or top of the
+/// neighbour, and flush sides.
 fn branches(case: &Case) -> BTreeSet<&'static str> {
     let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), case);
     let punctured = solved.puncture.iter().flat_map(|p| &p.events);
@@ -54,7 +54,7 @@ fn ends(
     ends.into_values().collect()
 }
 
-/// Returns a steep design with a large tilt; a few of them end in rare branches.
+/// Returns a steep design with a large critical tilt; a few of these end with rare contacts.
 pub fn steep_case(number: u64) -> Case {
     let mut case = random_case(number);
     case.puncture.critical_tilt_deg = 10.0 + 25.0 * (number % 7) as f64 / 7.0;
@@ -63,9 +63,9 @@ pub fn steep_case(number: u64) -> Case {
     case
 }
 
-/// Derivatives match differences in every contact branch.
+/// The two designs end with all four kinds of contact, and their derivatives match differences.
 #[test]
-fn every_branch_of_the_contact_is_exercised() {
+fn derivatives_match_differences_for_every_kind_of_contact() {
     let exercised = [43, 97].into_par_iter().flat_map_iter(|number| {
         let case = steep_case(number);
         assert!(compare(&case) > 30, "{case:?}");
@@ -75,17 +75,17 @@ fn every_branch_of_the_contact_is_exercised() {
     assert_eq!(exercised, BTreeSet::from(["corner", "edge", "flush", "tip"]));
 }
 
-/// With full coupling, the neighbours of a deeply punctured scale meet above it.
+/// With full coupling, a deeply punctured scale sinks until its neighbours touch above it.
 #[test]
-fn neighbours_meet_above_a_deeply_punctured_scale() {
+fn neighbours_touch_above_a_deeply_punctured_scale() {
     let mut case = Case { coupling: Coupling::Full, ..Case::default() };
     (case.design.gap, case.design.length, case.design.slant_deg) = (0.1, 0.4, 75.0);
     let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), &case);
     let events = solved.puncture.iter().flat_map(|puncture| &puncture.events);
     let mut pairs = events.map(|event| (event.left_scale, event.right_scale));
     assert!(pairs.any(|pair| pair == (Some(-1), Some(1))));
-    // Only two parameters, because with full coupling each neighbouring footprint needs a slow
-    // calibration.
+    // Only two parameters are compared, because differences need springs for each changed
+    // footprint, which are slow to compute with full coupling.
     let is_compared =
         |by: &ParameterDerivative| ["gap_over_t", "slant_deg"].contains(&by.parameter);
     let compared: Vec<_> = derivatives(&case).into_iter().filter(is_compared).collect();

@@ -1,4 +1,4 @@
-//! Compares derivatives of curves at given points with differences of solutions.
+//! Derivatives of forces and moments at given points agree with differences of solutions.
 
 use rayon::prelude::*;
 use run::{CurvePoints, Evaluator};
@@ -7,7 +7,7 @@ use sweep::{Case, Measure, Parameter, Sweep};
 use super::designs::{number, random_case};
 use super::is_long;
 
-/// Tolerated error of a rate times the parameter, relative to the value.
+/// Tolerated error of a derivative times the size of its parameter, relative to the value.
 const TOLERANCE: f64 = 1e-6;
 
 type CurveOf = fn(&Evaluator, &Case, &[&'static Parameter], &[f64]) -> CurvePoints;
@@ -20,9 +20,9 @@ fn moments(e: &Evaluator, case: &Case, by: &[&'static Parameter], at: &[f64]) ->
     e.moment_curve(case, by, at).expect("a curve")
 }
 
-/// Compares the rates of a curve with differences of solutions.
+/// Compares the derivatives at points of a curve with differences of solutions.
 ///
-/// Skips points at which differences with a step and with half of it disagree. Returns the number
+/// Skips points at which differences with a step and with half a step disagree. Returns the number
 /// of comparisons.
 fn compare(case: &Case, keys: &[&str], places: &[f64], curve: CurveOf) -> usize {
     let evaluator = Evaluator::new(&[]);
@@ -68,11 +68,11 @@ const OF_PUNCTURE: [&str; 8] = [
     "needle_friction",
 ];
 
-/// Random rows, with and without friction, under free and guided needles.
+/// Compares random rows with and without friction, under free and guided needles.
 ///
-/// The curves extend beyond the critical displacement.
+/// Some points of the curves lie beyond the critical displacement.
 #[test]
-fn rates_of_force_curves_match_differences() {
+fn derivatives_of_force_curves_match_differences() {
     let count = if is_long() { 12 } else { 6_u64 };
     let compared = (0..count).into_par_iter().map(|k| {
         let mut case = random_case(2000 + k);
@@ -95,9 +95,9 @@ fn rates_of_force_curves_match_differences() {
     assert!(compared.iter().sum::<usize>() > 16 * count as usize, "{compared:?}");
 }
 
-/// Random strips with and without contact.
+/// Compares random strips, with and without contact.
 #[test]
-fn rates_of_moment_curves_match_differences() {
+fn derivatives_of_moment_curves_match_differences() {
     let keys = [
         "gap_over_t",
         "slant_deg",
@@ -118,9 +118,9 @@ fn rates_of_moment_curves_match_differences() {
     assert!(compared.iter().sum::<usize>() > 100, "{compared:?}");
 }
 
-/// A parameter without derivatives has no rate, and keeps its index.
+/// The derivative with respect to an unused parameter is `None`, at the index of the parameter.
 #[test]
-fn a_parameter_without_derivatives_has_no_rate() {
+fn a_parameter_that_the_case_does_not_use_has_no_derivative() {
     let case = random_case(1);
     let case = Case { tissue_thickness: None, ..case };
     let keys = ["gap_over_t", "tissue_thickness_over_t", "slant_deg"];
@@ -131,9 +131,9 @@ fn a_parameter_without_derivatives_has_no_rate() {
     assert!(points[1].is_none(), "no path reaches this depth");
 }
 
-/// A length in mm changes the springs, too.
+/// The derivative with respect to a length in mm, times the thickness, equals the relative one.
 #[test]
-fn lengths_in_mm_have_the_rate_of_the_relative_length() {
+fn derivatives_by_lengths_in_mm_equal_scaled_derivatives_by_relative_lengths() {
     let text = "name = 'x'\n[designs]\ngap_mm = 0.5\nlength_mm = 2.0\nslant_deg = 40\n[material]\nthickness_mm = 2.0\nsubstrate_modulus_MPa = 0.1";
     let case = Sweep::parse(text, "x.toml", &[]).expect("a sweep").grid().case(0);
     let keys = ["gap_mm", "gap_over_t", "length_mm", "length_over_t"];

@@ -5,14 +5,14 @@ use rand_chacha::ChaCha8Rng;
 use skin::Base;
 use sweep::{Case, DesignNumber, Sweep};
 
-/// Returns the number of a design that belongs to no grid.
+/// Returns a design number for designs that are not part of a grid.
 pub fn number() -> DesignNumber {
     Sweep::parse("name = 'x'", "x.toml", &[]).unwrap().grid().number(0)
 }
 
-/// Returns random design `number`.
+/// Returns the random design with the seed `number`.
 ///
-/// Both bases, both contact laws and both substrate laws occur in turn.
+/// The base, the contact law and the substrate law alternate with `number`.
 pub fn random_case(number: u64) -> Case {
     let mut random = ChaCha8Rng::seed_from_u64(number);
     let mut between = |low: f64, high: f64| random.random_range(low..high);

@@ -1,4 +1,4 @@
-//! Finite differences of solutions.
+//! Finite differences of complete solutions, with which derivatives are compared.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -9,38 +9,38 @@ use sweep::{Case, Measure, Parameter};
 
 use super::TOLERANCE;
 
-/// A direction in which parameters change together.
+/// Direction in parameter space: parameters with their rates.
 pub type Direction = [(&'static Parameter, f64)];
 
-/// Differences of the solutions of designs near a design.
+/// Finite differences of the measures of one design.
 pub struct Differences<'a> {
     case: &'a Case,
-    /// Shares the calibration of footprints that several designs have.
+    /// Shared by all solutions, so that equal footprints are solved once.
     evaluator: Evaluator,
-    /// Results by direction and step.
+    /// Results by direction and number of steps.
     solved: RefCell<HashMap<(String, i32), DesignResult>>,
 }
 
-/// Smallest step; the others are multiples.
+/// Length of the smallest step.
 const STEP: f64 = 1.25e-5;
 
-/// Steps, as multiples of the smallest.
+/// Step lengths as multiples of the smallest step.
 ///
-/// Short ones are for designs near a kink, long ones for derivatives near round-off. An estimate
-/// also takes the doubled step, so the first three share solutions.
+/// Short steps avoid nearby kinks, long steps reduce rounding errors. Each estimate uses a step and
+/// its double, so the first three estimates share solutions.
 const STEPS: [i32; 5] = [128, 64, 32, 8, 1];
 
-/// Relative difference of estimates with successive steps for a smooth measure.
+/// Relative difference of estimates with successive steps below which a measure counts as smooth.
 const AGREE: f64 = 1e-4;
 
-/// Elasticity below which a derivative is within round-off.
+/// Rounding error of a difference, divided by the measure.
 ///
-/// Round-off of the solver and of the differences.
+/// It contains the rounding errors of the solver and of the subtraction.
 const NOISE: f64 = 1e-7;
 
-/// Relative accuracy of numerically located maxima such as the largest stiffness.
+/// Relative accuracy of maxima that are located numerically, such as the largest stiffness.
 ///
-/// The search stops when three values agree to 1e-10.
+/// The search for a maximum stops when three values agree to 1e-10.
 const SEARCHED: f64 = 2e-10;
 
 impl<'a> Differences<'a> {
@@ -48,16 +48,17 @@ impl<'a> Differences<'a> {
         Self::of_measures(case, &Measure::USUAL)
     }
 
-    /// Creates the differences of some kinds of measures; the others have no values.
+    /// Creates the differences of the given kinds of measures only.
     pub fn of_measures(case: &'a Case, measures: &[Measure]) -> Self {
         let evaluator = Evaluator::new(measures);
         Self { case, evaluator, solved: RefCell::default() }
     }
 
-    /// Returns the relative error of a directional derivative.
+    /// Returns the error of a directional derivative `ours`, relative to itself.
     ///
-    /// The reference is a central difference. Returns the first sufficiently small error, or else
-    /// the smallest. `None` if the measure does not exist nearby or has a kink there.
+    /// The reference is a central difference. Of the errors with different steps, the first one
+    /// below the tolerance is returned, or else the smallest. Returns `None` if the measure does
+    /// not exist near the design or has a kink there.
     pub fn off(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
         let mut estimates = STEPS.into_iter().filter_map(|steps| {
@@ -67,8 +68,8 @@ impl<'a> Differences<'a> {
             let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
             Some((fine + (fine - rough) / 3.0, f64::from(steps) * STEP))
         });
-        // Differences are as accurate as the agreement of successive steps. Without agreement,
-        // there is a kink in between.
+        // The difference of estimates with successive steps measures their accuracy. If they do not
+        // agree, there is a kink between the solutions.
         let (mut rough, _) = estimates.next()?;
         let mut offs = estimates.filter_map(|(fine, step)| {
             let pair = [std::mem::replace(&mut rough, fine), fine];
@@ -77,14 +78,15 @@ impl<'a> Differences<'a> {
             let nearest = off.into_iter().flatten().reduce(f64::min)?;
             (spread <= AGREE || nearest == 0.0).then_some((nearest - spread).max(0.0))
         });
-        // Shorter steps are only used if longer ones do not suffice.
+        // Shorter steps are used only if no longer step gives a sufficiently small error.
         let first = offs.next()?;
         if first <= TOLERANCE { Some(first) } else { Some(offs.fold(first, f64::min)) }
     }
 
-    /// Returns the relative error of a directional derivative, compared to one side.
+    /// Returns the error of a directional derivative `ours` compared with a one-sided difference.
     ///
-    /// Returns the first sufficiently small error, or else the smallest.
+    /// Of the errors with different steps, the first one below the tolerance is returned, or else
+    /// the smallest.
     pub fn off_one_sided(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
         let offs = STEPS.iter().filter_map(|&steps| {
@@ -126,7 +128,7 @@ impl<'a> Differences<'a> {
     }
 }
 
-/// Returns the measure with this name.
+/// Returns the value of the measure `name`, or `None` if it has no value.
 pub fn value(result: &DesignResult, name: &str) -> Option<f64> {
     let puncture = result.puncture.map(|puncture| puncture.measures);
     let flexure = result.flexure.map(|flexure| flexure.measures);

@@ -1,4 +1,4 @@
-//! The first failure, and the largest stresses.
+//! Derivatives of the force at the first failure and of the largest stresses.
 
 use results::ParameterDerivative;
 use run::Evaluator;
@@ -26,7 +26,7 @@ fn failure(case: &Case) -> FailureMeasures {
     solved.row.result.puncture.unwrap().measures.failure
 }
 
-/// Random designs that break, that lose a bond, and that end otherwise.
+/// A third of the designs has a strength of scales, a third a strength of bonds, a third neither.
 #[test]
 fn first_failure_derivatives_match_differences_of_solutions() {
     let mut modes = Vec::new();
@@ -34,7 +34,7 @@ fn first_failure_derivatives_match_differences_of_solutions() {
         let mut case = random_case(number);
         case.judge_failure = true;
         let whole = failure(&case);
-        // Half of the force at the first failure, over `E_s t²`.
+        // Half of the force at the first failure, in units of E_s t².
         let plane_strain = 1.0 - case.puncture.poisson_ratio.powi(2);
         case.needle_force =
             whole.force.map(|force| 0.5 * force * case.design.length / plane_strain);
@@ -49,7 +49,7 @@ fn first_failure_derivatives_match_differences_of_solutions() {
         derivatives.retain(|derivative| MEASURES.contains(&derivative.measure));
         let compared = compare_components(&case, &derivatives, &Differences::of(&case));
         assert!(compared >= 30, "{compared} {case:?}");
-        // A strength alone moves the point of its failure.
+        // The force depends on a strength exactly if this strength determines the first failure.
         let by_strength = derivatives
             .iter()
             .find(|d| d.measure == "failure_force" && d.parameter.contains("strength"));
@@ -63,7 +63,7 @@ fn first_failure_derivatives_match_differences_of_solutions() {
     );
 }
 
-/// Slender elastic scales bend before they tilt.
+/// Slender elastic scales reach the bending limit before the critical tilt.
 #[test]
 fn elastic_scale_derivatives_match_differences_of_solutions() {
     for number in [0, 1] {
@@ -87,7 +87,8 @@ fn elastic_scale_derivatives_match_differences_of_solutions() {
         }
         // Measures without a value have no derivatives.
         assert!(derivatives.iter().all(|d| d.measure != "critical_force"), "{case:?}");
-        // One design without the row across and one with it; in a long campaign both with both.
+        // The first design has no row across and the second has one. In a long campaign each design
+        // is compared with and without a row across.
         let rows_across = if is_long() { vec![false, true] } else { vec![number == 1] };
         for across in rows_across {
             case.across = across;
@@ -96,7 +97,7 @@ fn elastic_scale_derivatives_match_differences_of_solutions() {
     }
 }
 
-/// With the gap across given, and with the gap along in both directions.
+/// Half of the designs have a gap across of their own, the others the gap of the row.
 #[test]
 fn force_across_derivatives_match_differences_of_solutions() {
     for number in 0..4 {

@@ -1,4 +1,4 @@
-//! Compares one-sided derivatives at kinks with one-sided differences.
+//! One-sided derivatives at kinks agree with one-sided differences.
 
 use results::ParameterDerivative;
 use run::Evaluator;
@@ -8,7 +8,7 @@ use super::designs::{self, random_case};
 use super::differences::Differences;
 use super::{TOLERANCE, derivatives};
 
-/// Compares the one-sided derivatives of every measure that has a kink, and returns them.
+/// Compares the one-sided derivatives at all kinks of a design with differences, and returns them.
 fn compare_sides(case: &Case) -> Vec<ParameterDerivative> {
     let differences = Differences::of(case);
     let mut kinks = derivatives(case);
@@ -30,7 +30,7 @@ fn compare_sides(case: &Case) -> Vec<ParameterDerivative> {
     kinks
 }
 
-/// The critical tilt is at a change of contact.
+/// The critical tilt of these designs coincides with a change of contact.
 #[test]
 fn one_sided_derivatives_at_a_change_of_contact_match_differences() {
     let mut changes = std::collections::BTreeSet::new();
@@ -47,10 +47,10 @@ fn one_sided_derivatives_at_a_change_of_contact_match_differences() {
     assert!(changes.contains("closed"), "{changes:?}");
 }
 
-/// When a contact with friction closes, it slips on one side of the kink.
+/// When a contact with friction closes at the kink, it slips on one side of the kink only.
 #[test]
 fn one_sided_derivatives_at_a_closing_contact_with_friction_match_differences() {
-    // The left derivative agrees with differences of solutions and with an independent program.
+    // An independent program confirms the left derivative.
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.07849724324026891\n\
                 length_over_t = 0.4446590509574837\nslant_deg = 41.18411012602079\n\
                 [contact]\nfriction = 0.2\n[puncture]\ncritical_tilt_deg = 3.832614316679949";
@@ -68,9 +68,9 @@ fn one_sided_derivatives_at_a_closing_contact_with_friction_match_differences() 
     for number in 0..12 {
         let mut case = random_case(number);
         if number == 7 {
-            // With an exponent of 1.1 the stiffness of a contact grows from 0 as the step of a
-            // difference to the power of 0.1, so differences do not converge to the derivative on
-            // the side where it closes: of this soft contact they are 0.1 to 0.2 % off.
+            // With an exponent of 1.1 the stiffness of a contact grows from zero with the power 0.1
+            // of its approach. Differences then do not converge on the side on which it closes; for
+            // this soft contact their error is 0.1 to 0.2 %.
             case.common.law.c2 = 1.0;
         }
         case.common.friction = [0.05, 0.2, 0.5][number as usize % 3];
@@ -102,7 +102,7 @@ fn one_sided_derivatives_at_a_closing_contact_with_friction_match_differences() 
     assert!(closings > 40, "{closings}");
 }
 
-/// Gap at which two scales are equally deep.
+/// At the chosen gap two scales are equally deep, so `penetration` has a kink.
 #[test]
 fn one_sided_derivatives_with_two_deepest_scales_match_differences() {
     let deepest = |case: &Case| {
@@ -135,7 +135,7 @@ fn one_sided_derivatives_with_two_deepest_scales_match_differences() {
     assert!(found > 0);
 }
 
-/// `d = t tan 45°` minus the base: a vertical line ends at the corner of a base.
+/// A vertical line from a top corner ends at a corner of a base, because `d + 2a = t tan 45°`.
 #[test]
 fn one_sided_derivatives_of_the_coverage_at_a_corner_match_differences() {
     let mut case = random_case(0);
@@ -144,23 +144,23 @@ fn one_sided_derivatives_of_the_coverage_at_a_corner_match_differences() {
     assert!(kinks.iter().any(|kink| kink.measure == "coverage"), "{kinks:?}");
 }
 
-/// At `b = 2 a`, the mesh grading of boundary elements changes to another length.
+/// At `b = 2 a` the smaller side, over which boundary elements are graded, changes.
 ///
-/// Springs from the table do not depend on it.
+/// The springs of this design come from the table, so the change must not cause a kink.
 #[test]
-fn switching_the_mesh_grading_causes_no_kink() {
+fn a_change_of_the_mesh_grading_causes_no_kink() {
     let mut case = random_case(0);
     (case.design.width, case.design.length) = (0.4, 0.4);
     let kinks = compare_sides(&case);
     assert!(kinks.iter().all(|kink| kink.measure != "critical_force"), "{kinks:?}");
 }
 
-/// Designs of the paper with one-sided derivatives that only differ by round-off.
+/// One-sided derivatives of these designs of the paper differ only by rounding.
 ///
-/// In some, the critical tilt is the largest on both sides. In others, scales are upright and
-/// either corner meets an edge at the same curvature.
+/// In the first list, the tilt is largest at the critical tilt on both sides. In the second list,
+/// scales are upright, and both corners meet an edge at the same curvature.
 #[test]
-fn round_off_between_two_sides_is_not_a_kink() {
+fn rounding_differences_between_two_sides_are_not_kinks() {
     let paper = Sweep::parse("name = 'paper'", "paper.toml", &[]).unwrap();
     let check = |number: u64, measure: &str| {
         let mut derivatives = derivatives(&paper.grid().case(number - 1));
@@ -176,9 +176,9 @@ fn round_off_between_two_sides_is_not_a_kink() {
     }
 }
 
-/// At the end of a range, parameters can only change in one direction.
+/// At a limit of its range, a parameter can change in one direction only.
 #[test]
-fn derivatives_at_the_end_of_a_range_match_one_sided_differences() {
+fn derivatives_at_a_limit_of_a_range_match_one_sided_differences() {
     let mut case = random_case(1);
     (case.design.slant_deg, case.puncture.poisson_ratio) = (0.0, 0.5);
     case.puncture.load_position = 1.0;
@@ -202,9 +202,9 @@ fn derivatives_at_the_end_of_a_range_match_one_sided_differences() {
     assert!(compared > 10, "{compared}");
 }
 
-/// Strips bent just until scales touch.
+/// Each strip is bent until its scales just touch.
 ///
-/// Beyond, the compliance jumps, so it has no derivative.
+/// At larger rotations the compliance jumps, so it has no derivative.
 #[test]
 fn the_compliance_has_no_derivative_at_first_contact() {
     for (gap, length, slant_deg) in
@@ -215,7 +215,7 @@ fn the_compliance_has_no_derivative_at_first_contact() {
         case.design.slant_deg = slant_deg;
         let curvature = skin::flexure::contact_curvature(&case.design, &case.flexure);
         let touching = curvature.unwrap().unwrap() * case.flexure.membrane_length / 2.0;
-        // Also near this rotation: round-off decides whether the last step includes the contact.
+        // Rotations that differ by rounding: in some of them the last step includes the contact.
         for off in [-1e-12, -1e-15, 0.0, 1e-15] {
             case.flexure.max_end_rotation_deg = (touching * (1.0 + off)).to_degrees();
             let derivatives = derivatives(&case);
@@ -228,9 +228,9 @@ fn the_compliance_has_no_derivative_at_first_contact() {
     }
 }
 
-/// While contacts of a strip stick, derivatives are differences of solutions.
+/// While contacts of a strip stick, derivatives are computed as differences of solutions.
 ///
-/// The kink states this.
+/// The text of their kink states this.
 #[test]
 fn derivatives_of_sticking_strips_match_differences() {
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.3\nlength_over_t = 1\nslant_deg = 75\n[contact]\nfriction = 0.5";

@@ -1,4 +1,4 @@
-//! The weakest of several load positions.
+//! Derivatives with several load positions, and with other positions than the right corner.
 
 use results::ParameterDerivative;
 use run::Evaluator;
@@ -15,7 +15,7 @@ fn of_weakest(case: &Case) -> Vec<ParameterDerivative> {
     derivatives
 }
 
-/// Free needles and guided needles with friction, on both substrates.
+/// Half of the designs have a free needle, half a guided needle with friction.
 #[test]
 fn derivatives_of_the_weakest_force_match_differences() {
     for number in 0..6 {
@@ -26,7 +26,7 @@ fn derivatives_of_the_weakest_force_match_differences() {
             case.needle_friction = Some(Scalar::Number(0.3));
         }
         let derivatives = of_weakest(&case);
-        // The weakest position does not depend on the nominal load position.
+        // The positions that are compared do not depend on the load position of the design.
         let by_place = derivatives.iter().find(|d| d.parameter == "load_position");
         assert_eq!(by_place.and_then(ParameterDerivative::derivative), Some(0.0), "{case:?}");
         let compared = compare_components(&case, &derivatives, &Differences::of(&case));
@@ -36,7 +36,8 @@ fn derivatives_of_the_weakest_force_match_differences() {
 
 /// Both corners of an upright scale are equally weak.
 ///
-/// If the scale leans, one of them is weaker. Other parameters change both equally.
+/// A slant makes one of them weaker, so there is a kink. Other parameters change both forces
+/// equally.
 #[test]
 fn equally_weak_positions_have_one_sided_derivatives() {
     let mut case = random_case(0);
@@ -54,7 +55,7 @@ fn equally_weak_positions_have_one_sided_derivatives() {
     }
 }
 
-/// A frictionless round tip has derivatives with respect to everything but its friction.
+/// A frictionless round tip has derivatives with respect to all parameters except its friction.
 #[test]
 fn a_frictionless_round_tip_has_derivatives() {
     let mut case = random_case(4);
@@ -71,7 +72,7 @@ fn a_frictionless_round_tip_has_derivatives() {
     }
 }
 
-/// A load left of the middle tilts an upright scale to the left.
+/// A load left of the middle of the top tilts an almost upright scale to the left.
 #[test]
 fn a_load_left_of_the_middle_has_derivatives() {
     let mut case = random_case(0);
@@ -81,7 +82,8 @@ fn a_load_left_of_the_middle_has_derivatives() {
     assert!(compare(&case) > 50);
 }
 
-/// A free load and a needle with friction, given by their distance from the corner.
+/// The position of a free load and of a needle with friction is given by the distance to the
+/// corner.
 #[test]
 fn the_inset_of_the_load_has_derivatives() {
     for number in 0..4 {

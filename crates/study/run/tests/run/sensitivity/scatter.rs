@@ -12,9 +12,7 @@ fn force(case: &Case, stiffness: &RowStiffness) -> Option<f64> {
     puncture::solve(design, stiffness.clone(), common, parameters).ok()?.measures.critical_force
 }
 
-/// Derivatives for single scales add up to the derivative for all scales.
-///
-/// The substrate stays fixed.
+/// On a fixed substrate, derivatives for single scales add up to the derivative for all scales.
 #[test]
 fn derivatives_for_single_scales_add_up_to_the_common_derivative() {
     let mut compared = 0;
@@ -43,7 +41,7 @@ fn derivatives_for_single_scales_add_up_to_the_common_derivative() {
             let Some((above, below)) = moved(step).zip(moved(-step)) else { continue };
             let (sum, whole) = (slopes.iter().sum::<f64>(), (above - below) / (2.0 * step));
             let size = slopes.iter().map(|slope| slope.abs()).sum::<f64>();
-            // If the force hardly changes, round-off dominates its differences.
+            // If the force hardly changes, its differences consist of rounding errors.
             let allowed = 1e-5 * size + 1e-8 * above.abs() / unit;
             assert!((sum - whole).abs() < allowed, "{key} {k}: {sum} {whole}");
             compared += 1;

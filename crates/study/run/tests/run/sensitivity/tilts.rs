@@ -16,7 +16,7 @@ fn by_tilt(case: &Case) -> Vec<ParameterDerivative> {
     derivatives
 }
 
-/// Every twentieth design of the paper; all in a long campaign.
+/// Compares every twentieth design of the paper, and in a long campaign every design.
 #[test]
 fn derivatives_with_respect_to_the_critical_tilt_match_differences() {
     let paper = Sweep::parse("name = 'paper'", "paper.toml", &[]).unwrap();
@@ -33,7 +33,7 @@ fn derivatives_with_respect_to_the_critical_tilt_match_differences() {
     assert!(compared > 11 * cases.len(), "{compared} of {}", cases.len());
 }
 
-/// The first part of a path does not depend on its end.
+/// These measures depend on the first part of the path only, which is the same for all tilts.
 #[test]
 fn measures_before_the_end_do_not_depend_on_the_critical_tilt() {
     for number in 0..6 {
@@ -46,9 +46,9 @@ fn measures_before_the_end_do_not_depend_on_the_critical_tilt() {
     }
 }
 
-/// A critical tilt given by the needle friction is not a parameter of its own.
+/// If the needle friction `f` determines the critical tilt `φ`, the tilt is no parameter.
 ///
-/// By the chain rule, `dm/df = dm/dφ dφ/df`.
+/// By the chain rule, the derivatives of a measure `m` are `dm/df = dm/dφ dφ/df`.
 #[test]
 fn needle_friction_replaces_the_critical_tilt_as_a_parameter() {
     let [friction, tilt] = ["needle_friction", TILT].map(|key| Parameter::named(key).unwrap());

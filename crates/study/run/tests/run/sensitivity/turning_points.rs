@@ -1,4 +1,4 @@
-//! Derivatives at turning points of load and depth, and of the forces at these points.
+//! Derivatives of forces and positions at which load or depth reverses.
 
 use rayon::prelude::*;
 use run::Evaluator;
@@ -12,7 +12,9 @@ use super::{compare_components, derivatives, is_long};
 const MEASURES: [&str; 4] =
     ["peak_displacement", "peak_tilt_deg", "load_stability_force", "depth_stability_force"];
 
-/// Returns whether load and depth first reverse at a change of contact.
+/// Returns, for load and depth, whether the first reversal is at a change of contact.
+///
+/// `None` if the load or depth does not reverse.
 fn turns_at_events(case: &Case) -> [Option<bool>; 2] {
     let puncture = Evaluator::new(&Measure::USUAL).solve(designs::number(), case).puncture.unwrap();
     let measures = puncture.measures;
@@ -23,7 +25,7 @@ fn turns_at_events(case: &Case) -> [Option<bool>; 2] {
 
 /// Returns a steep design with soft contacts and another load position.
 ///
-/// The depth of a few of them reverses smoothly.
+/// In a few of these designs the depth reverses smoothly.
 fn soft_case(number: u64) -> Case {
     let mut case = steep_case(number);
     case.puncture.load_position = 0.2 + 0.8 * (number % 13) as f64 / 13.0;
@@ -32,7 +34,7 @@ fn soft_case(number: u64) -> Case {
     case
 }
 
-/// Designs with load and depth that reverse smoothly or at a change of contact.
+/// The designs contain all combinations of smooth reversals and reversals at a change of contact.
 #[test]
 fn derivatives_at_turning_points_match_differences() {
     let mut cases = [5, 6].map(steep_case).to_vec();
