@@ -26,7 +26,7 @@ pub struct FitDefinition {
 /// A number to be fitted, between two bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unknown {
-    /// Key of a parameter, or name of the offset of a curve.
+    /// Name for messages: a key, the key and file of a specimen, or the offset of a file.
     pub name: String,
     /// Unit, `-` if it has none.
     pub unit: &'static str,
@@ -43,7 +43,7 @@ impl Unknown {
         self.from + scaled * (self.to - self.from)
     }
 
-    /// Returns how the definition states the range of this unknown, for messages.
+    /// Returns the key with which a definition sets the range of this unknown, for messages.
     pub fn key(&self) -> String {
         match self.source {
             Source::Parameter(parameter) | Source::Specimen(parameter, _) => {
@@ -60,24 +60,26 @@ impl Unknown {
 /// Quantity that an unknown represents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
+    /// Parameter with the same value for all curves.
     Parameter(&'static Parameter),
-    /// Parameter of the specimen of one curve, with the index of the curve.
+    /// Parameter of a single specimen, with the index of its curve.
     Specimen(&'static Parameter, usize),
-    /// Offset of a curve: index of the curve, and of the axis (0 or 1).
+    /// Offset of a curve: index of the curve, and index of the axis (0 or 1).
     Offset(usize, usize),
 }
 
 /// A measured curve with its specimen.
 #[derive(Debug)]
 pub(crate) struct TestCurve {
-    /// The fitted points: loading, then unloading.
+    /// The curve with its fitted points only: loading branch, then unloading branch.
     pub(crate) measured: MeasuredCurve,
-    /// Number of points of the unloading branch.
+    /// Number of fitted points of the unloading branch.
     pub(crate) unloading: usize,
-    /// Displacement or curvature at which unloading begins.
+    /// Displacement or curvature at which unloading begins, in the units of the curve.
     pub(crate) turn: f64,
-    /// Positions of the ends of branches, of holds and of drops.
+    /// Events within the fitted range, e.g. first contact, reversals, holds and drops.
     pub(crate) events: Vec<CurveEvent>,
+    /// The specimen: the design of the definition with the parameters in `own`.
     pub(crate) case: Case,
     /// Parameters set in the table of this curve. Unknowns do not change them.
     pub(crate) own: Vec<&'static Parameter>,
@@ -118,19 +120,19 @@ impl FitDefinition {
         let mut paths = Vec::new();
         for table in tables(&entries, &name)? {
             let own = table.own_values()?;
-            // Each specimen is read as a definition of its own, which checks its values.
+            // Read the definition again with the values of this specimen, to check these values.
             let specimen = own.iter().map(|(_, setting)| setting);
-            // The last value of a key counts, so the specimen overrides the command line.
+            // The last value of a key applies: the specimen overrides the command line.
             let specimen: Vec<_> = settings.iter().chain(specimen).cloned().collect();
             let case = one_design(&read_entries(path, &specimen)?, &name)?.grid().case(0);
             let own: Vec<_> = own.into_iter().map(|(parameter, _)| parameter).collect();
             for measured in table.measured(folder)? {
                 let curve = table.branches(measured, &case, &own)?;
                 let measured = &curve.measured;
-                // Checked here, because the line of the curve is known only here.
+                // Check the material keys here, where the line of the curve is known.
                 let missing = measured.test.units(&case).err().filter(|_| measured.is_physical);
                 if let Some(missing) = missing {
-                    let expected = format!("{missing} beside a file in mm and N");
+                    let expected = format!("{missing} for a file in physical units");
                     let place = table.place();
                     return Err(not_accepted(place, "curve.file", &measured.file, &expected));
                 }
@@ -151,7 +153,7 @@ impl FitDefinition {
         Ok(Self { sweep, unknowns, curves })
     }
 
-    /// Returns the numbers to be fitted.
+    /// Returns the unknowns of the fit.
     pub fn unknowns(&self) -> &[Unknown] {
         &self.unknowns
     }
@@ -179,9 +181,9 @@ fn not_accepted(place: &Place, key: &str, found: impl Display, expected: &str) -
     refused(place, key, WrongValue::NotAccepted { found, expected }.into())
 }
 
-/// Reads the definition without its curves.
+/// Returns the sweep of a definition, without the curves.
 ///
-/// Apart from its variables, it must have a single design.
+/// The sweep must have a single design, apart from `[variables]`.
 fn one_design(entries: &KeyValues, name: &str) -> Result<Sweep, InvalidFit> {
     let shared = entries.iter().filter(|e| !["curve", PER_SPECIMEN].contains(&e.key.as_str()));
     let entries = shared.cloned().collect();
@@ -197,7 +199,7 @@ fn one_design(entries: &KeyValues, name: &str) -> Result<Sweep, InvalidFit> {
     }
 }
 
-/// Returns the parameters listed in `[variables]`.
+/// Returns the unknowns in `[variables]`.
 fn parameters(entries: &KeyValues, sweep: &Sweep) -> Result<Vec<Unknown>, InvalidFit> {
     let written = entries.iter().filter(|entry| entry.key == "variables");
     let written: Vec<_> = written.filter_map(|entry| table(&entry.value)).flatten().collect();
@@ -215,14 +217,15 @@ fn parameters(entries: &KeyValues, sweep: &Sweep) -> Result<Vec<Unknown>, Invali
             }
             let entry = written.iter().find(|entry| entry.key == parameter.key);
             let place = entry.map_or(Place::Argument("[variables]".into()), |e| e.place.clone());
-            let expected = "bounds of a number that the curve follows, e.g. { from = 0.1, to = 1 }";
+            let expected =
+                "bounds of a continuous parameter of the skin, e.g. { from = 0.1, to = 1 }";
             let key = format!("variables.{}", parameter.key);
             Err(not_accepted(&place, &key, variable.to_toml(), expected))
         })
         .collect()
 }
 
-/// Replaces the parameters in `per_specimen` with an unknown for each curve.
+/// Replaces each parameter in `per_specimen` with one unknown for each curve.
 fn per_specimen(
     entries: &KeyValues,
     mut unknowns: Vec<Unknown>,
@@ -254,7 +257,7 @@ fn per_specimen(
             })
             .collect();
         if own.len() < 2 {
-            let expected = "at least two curves without a value of their own";
+            let expected = "at least two [[curve]] that do not set this parameter";
             return Err(not_accepted(&entry.place, PER_SPECIMEN, &entry.value, expected));
         }
         unknowns.splice(index..index, own);
@@ -276,15 +279,16 @@ impl TestCurve {
         one.test == two.test && one.is_physical == two.is_physical && self.case == other.case
     }
 
-    /// Returns the points of the loading branch.
+    /// Returns the fitted points of the loading branch.
     pub(crate) fn loading(&self) -> &[[f64; 2]] {
         &self.measured.points[..self.measured.points.len() - self.unloading]
     }
 
-    /// Returns one model unit on each axis, in the units of the curve.
+    /// Returns the size of one model unit on each axis, in the units of the curve.
     pub(crate) fn units(&self, case: &Case) -> [f64; 2] {
         let MeasuredCurve { test, is_physical, .. } = self.measured;
-        // `FitDefinition::read` has checked that physical curves have their units.
+        // `FitDefinition::read` has checked that a case with a physical curve has all material
+        // keys, so `units` succeeds.
         if is_physical { test.units(case).unwrap_or([f64::NAN; 2]) } else { [1.0; 2] }
     }
 }

@@ -1,17 +1,17 @@
-//! Errors of a fit.
+//! Errors that end a fit without a result.
 
-/// A fit without a result.
+/// Reason why a fit has no result.
 #[derive(Debug, thiserror::Error)]
 pub enum FitError {
-    /// The fit was stopped.
+    /// The caller stopped the fit before it converged.
     #[error("stopped before the fit converged")]
     Stopped,
-    /// There are not more points than unknowns.
+    /// The number of measured points does not exceed the number of unknowns.
     #[error(
         "too few points: {points}, for {unknowns} unknowns; expected more points than unknowns"
     )]
     TooFew {
-        /// Number of points of all curves.
+        /// Total number of points of all curves.
         points: usize,
         /// Number of unknowns.
         unknowns: usize,
@@ -19,7 +19,7 @@ pub enum FitError {
     /// The definition has no unknowns.
     #[error("there are no unknowns; add [variables] or offsets to a [[curve]]")]
     NoUnknowns,
-    /// Profiles kept finding better minima, up to the maximum number of restarts.
+    /// Profiles still found better minima after the maximum number of restarts.
     #[error(
         "the search did not converge: the sum of squares has too many local minima; narrow the ranges of [variables]"
     )]

@@ -1,9 +1,9 @@
 //! Result of a fit: estimates, confidence intervals and undetermined unknowns.
 //!
-//! Let `r` be the residuals over the noise of their curves, `p` the unknowns scaled to their
-//! ranges, and `J = ∂r/∂p` at the minimum. Near it, the covariance of `p` is `(JᵀJ)⁻¹ = V S⁻² Vᵀ`,
-//! with the singular values `S` and directions `V` of `J`. It gives the correlations, and predicts
-//! the profiles that determine the intervals.
+//! Let `r` be the residuals divided by the noise of their curves, `p` the unknowns scaled to their
+//! ranges, and `J = ∂r/∂p` at the minimum. The covariance of `p` is `(JᵀJ)⁻¹ = V S⁻² Vᵀ`, with the
+//! singular values `S` and right singular vectors `V` of `J`. The correlations follow from this
+//! covariance. It also predicts the profiles, from which the intervals are determined.
 
 use std::sync::atomic::AtomicBool;
 
@@ -24,24 +24,24 @@ use crate::search::{Minimum, Noise, Residuals};
 pub struct Fitted {
     /// Estimates, in the order of the unknowns.
     pub estimates: Vec<Estimate>,
-    /// Correlations of the estimates, −1 to 1.
+    /// Matrix of the correlations of the estimates, −1 to 1.
     pub correlations: Vec<Vec<f64>>,
     /// Groups of undetermined unknowns, by index.
     ///
-    /// The curves hardly depend on the unknown in a group of one. In a larger group, only
-    /// combinations of the unknowns are determined.
+    /// In a group of one, the curves hardly depend on the unknown. In a larger group, the curves
+    /// determine only combinations of the unknowns.
     pub undetermined: Vec<Vec<usize>>,
-    /// Parameters that differ from specimen to specimen.
+    /// Distributions of the parameters that differ from specimen to specimen.
     pub scatter: Vec<Scatter>,
     /// Measured and fitted curves.
     pub curves: Vec<FittedCurve>,
-    /// Mean curves of specimens of one design.
+    /// Mean curves, one for each design with several specimens.
     pub means: Vec<MeanCurve>,
-    /// Number of solved skins.
+    /// Number of evaluations of the model, each for all curves.
     pub solutions: usize,
-    /// Number of restarts from a better minimum on a profile.
+    /// Number of restarts of the fit because a profile found a better minimum.
     pub restarts: usize,
-    /// Design of the definition, with the estimates.
+    /// Definition of the design with the estimates as values of the unknowns.
     pub sweep: Sweep,
 }
 
@@ -52,9 +52,9 @@ pub struct Estimate {
     pub unknown: Unknown,
     /// Value at the minimum of the sum of squares.
     pub value: f64,
-    /// Ends of the 95 % confidence interval.
+    /// Lower and upper end of the 95 % confidence interval.
     ///
-    /// `None` where it extends to the end of the range.
+    /// `None` for an end at which the interval extends to the bound of the range.
     pub interval: [Option<f64>; 2],
     /// True if the value is at a bound of its range.
     pub at_end: bool,
@@ -78,7 +78,7 @@ pub struct Scatter {
     pub specimens: Vec<usize>,
     /// Mean of the specimens.
     pub mean: f64,
-    /// 95 % confidence interval of the mean of all possible specimens.
+    /// 95 % confidence interval of the mean of the population of specimens.
     pub mean_interval: [f64; 2],
     /// Standard deviation over the specimens, without the uncertainty of their estimates.
     pub deviation: f64,
@@ -103,7 +103,8 @@ impl Scatter {
         let quantiles = ChiSquared::new(freedom)
             .map_or([f64::NAN; 2], |chi| [0.975, 0.025].map(|p| chi.inverse_cdf(p)));
         let [low, high] = quantiles.map(|quantile| squares / quantile);
-        // The observed variance is the sum of the scatter and of the errors of the estimates.
+        // The observed variance is the variance of the specimens plus the mean square error of the
+        // estimates. Subtract this error.
         let [deviation, low, high] =
             [squares / freedom, low, high].map(|variance| (variance - error).max(0.0).sqrt());
         Self {
@@ -117,7 +118,7 @@ impl Scatter {
     }
 }
 
-/// Returns the 97.5 % quantile of Student's distribution, which bounds intervals of 95 %.
+/// Returns the 97.5 % quantile of Student's distribution, for two-sided intervals of 95 %.
 fn student_quantile(freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975))
 }
@@ -129,17 +130,19 @@ pub struct FittedCurve {
     pub file: String,
     /// Quantities on the axes, with their units.
     pub axes: [String; 2],
-    /// Displacement or curvature, measured value, fitted value.
+    /// Displacement or curvature, measured force or moment, fitted force or moment.
     pub points: Vec<[f64; 3]>,
     /// True if the columns have physical units, false for units of the model.
     pub is_physical: bool,
-    /// Lines that were left out: remarks, footers, and gaps in the recording.
+    /// Numbers of the lines that were left out: remarks, footers, and gaps in the recording.
     pub left_out: Vec<u64>,
-    /// Whether the signs of the file were reversed, on both axes.
+    /// True for each axis on which the signs of the file were reversed.
     pub reversed: [bool; 2],
-    /// Ends of branches, holds and drops.
+    /// Events of the measured curve, e.g. first contact, reversals, holds and drops.
     pub events: Vec<CurveEvent>,
-    /// True if the skin resists at no point, for example because signs are reversed.
+    /// True if the model carries load at no point, or no measured value is positive.
+    ///
+    /// The signs of the file are then probably wrong.
     pub is_turned: bool,
     /// Standard deviation of the residuals.
     pub noise: f64,
@@ -147,37 +150,37 @@ pub struct FittedCurve {
     ///
     /// The model then differs systematically from the skin.
     pub trend: Option<f64>,
-    /// Factor by which this correlation widens the intervals, at least 1.
+    /// Factor by which the correlation of residuals widens the intervals, at least 1.
     pub widening: f64,
     /// Number of points beyond the end of the fitted path.
     pub beyond: usize,
-    /// Number of derivatives from differences of solutions.
+    /// Number of derivatives that are finite differences of two solutions.
     pub differenced: usize,
 }
 
-/// Maximum number of iterations for the noise. Three or four usually suffice.
+/// Maximum number of iterations to estimate the noise. Three or four usually suffice.
 const ROUNDS: usize = 10;
-/// Relative change of the noise at convergence.
+/// Largest relative change of the noise at convergence.
 const SETTLED: f64 = 1e-3;
-/// Smallest noise as a fraction of the size of a curve: accuracy of the solver.
+/// Smallest noise, as a fraction of the size of a curve: the accuracy of the solver.
 const LEAST_NOISE: f64 = 1e-8;
-/// Singular values below this fraction of the largest are round-off.
+/// Singular values below this fraction of the largest singular value are round-off.
 const ROUND_OFF: f64 = 1e-6;
-/// Maximum number of restarts from better minima on profiles.
+/// Maximum number of minima for which profiles are computed: the first, and those from restarts.
 const RESTARTS: usize = 6;
 /// Correlation above which the curves determine only a combination of undetermined unknowns.
 const TOGETHER: f64 = 0.9;
-/// Significance limit for the correlation of neighbouring residuals, times √n.
+/// Correlation of neighbouring residuals above which it is significant, times `√n` for `n` points.
 ///
-/// Independent residuals exceed it in one of 44 curves.
+/// Independent residuals exceed this limit in one of 44 curves.
 const BEYOND_CHANCE: f64 = 2.0;
-/// Threshold for a rise of the fitted curve before contact, in standard errors.
+/// Significant difference of the mean fitted and measured force before contact.
 ///
-/// The rise is relative to the measured force.
+/// Its unit is the standard error of the measured mean.
 const ABOVE_NOISE: f64 = 4.0;
-/// Minimum of such a rise, as a fraction of the largest force.
+/// Least value of this difference, as a fraction of the largest force.
 const ABOVE_TOE: f64 = 0.01;
-/// Noise below this fraction of the size of a curve is not examined for correlation.
+/// Fraction of the size of a curve below which noise is not examined for correlation.
 const NEGLIGIBLE: f64 = 1e-4;
 
 impl FitDefinition {
@@ -187,7 +190,8 @@ impl FitDefinition {
     ///
     /// # Errors
     ///
-    /// If there are too few points or no unknowns, if no skin can be solved, or after `stop`.
+    /// If there are too few points or no unknowns, if no skin can be solved, if the search does not
+    /// converge, or if `stop` is set.
     pub fn fit(&self, stop: &AtomicBool, work: &WorkMeter) -> Result<Fitted, FitError> {
         let points = self.curves.iter().map(|curve| curve.measured.points.len()).sum();
         let unknowns = self.unknowns.len();
@@ -197,7 +201,7 @@ impl FitDefinition {
         if points <= unknowns {
             return Err(FitError::TooFew { points, unknowns });
         }
-        // No measures: only curves are computed.
+        // The evaluator has no measures, because the fit needs only curves.
         let evaluator = Evaluator::new(&[]);
         let mut residuals = Residuals::new(self, &evaluator, (stop, work));
         let sizes: Vec<_> = residuals.noise.iter().map(|noise| noise.deviation).collect();
@@ -207,12 +211,12 @@ impl FitDefinition {
 }
 
 /// Singular value decomposition of the Jacobian.
-///
-/// Contains the singular values, the directions in the space of unknowns (columns), and their
-/// components at the points.
 struct Directions {
+    /// Singular values.
     values: Vec<f64>,
+    /// Right singular vectors in columns; the rows are unknowns.
     unknowns: DMatrix<f64>,
+    /// Left singular vectors in columns; the rows are points of all curves.
     points: DMatrix<f64>,
 }
 
@@ -221,7 +225,9 @@ impl Directions {
         self.values.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Returns the covariance of the unknowns, in which directions within round-off stay finite.
+    /// Returns the covariance of the scaled unknowns.
+    ///
+    /// Singular values within round-off are replaced with a small value, so the result is finite.
     fn covariance(&self) -> DMatrix<f64> {
         let least = (ROUND_OFF * self.largest()).max(ROUND_OFF);
         let spread = self.values.iter().map(|size| size.max(least).recip());
@@ -234,7 +240,9 @@ impl Directions {
 }
 
 impl Residuals<'_> {
-    /// Computes the result at a minimum, or at better ones that profiles find.
+    /// Computes the result at a minimum, and restarts whenever a profile finds a better minimum.
+    ///
+    /// `sizes` are the root mean squares of the measured curves.
     fn settle(&mut self, mut minimum: Minimum, sizes: &[f64]) -> Result<Fitted, FitError> {
         for restarts in 0..RESTARTS {
             minimum = self.weight(minimum, sizes)?;
@@ -295,8 +303,9 @@ impl Residuals<'_> {
 
     /// Estimates the noise of each curve from its residuals.
     ///
-    /// The sum of squares is divided by the number of points minus the degrees of freedom that the
-    /// unknowns take from this curve.
+    /// The variance is the sum of squares divided by the degrees of freedom: the number of points
+    /// minus this curve's share of the determined unknowns. `sizes` are the root mean squares of
+    /// the measured curves.
     fn noise_at(&self, scaled: &[f64], sizes: &[f64]) -> Result<Vec<Noise>, FitError> {
         let directions = self.directions(scaled)?;
         let model = self.solved(scaled)?.ok_or(FitError::Unsolvable)?;
@@ -311,10 +320,10 @@ impl Residuals<'_> {
                 .map(|at| directions.points[at].powi(2))
                 .sum();
             let squares: f64 = residuals.iter().map(|r| r * r).sum();
-            // At least 1: an offset may fit a short curve exactly.
+            // At least 1, because an offset may fit a short curve exactly.
             let freedom = (residuals.len() as f64 - taken).max(1.0);
             let deviation = (squares / freedom).sqrt();
-            // Errors of the solver have a trend, too, if the curve has no noise.
+            // Without noise, residuals are errors of the solver, which are correlated: ignore this.
             let trend = trend(&residuals).filter(|_| deviation > NEGLIGIBLE * size);
             let widening = trend
                 .map_or(1.0, |trend| ((1.0 + trend) / (1.0 - trend)).min(residuals.len() as f64));
@@ -405,8 +414,9 @@ impl Residuals<'_> {
 
     /// Returns the events of a curve.
     ///
-    /// A flat beginning counts as an approach only if the fitted curve rises in it, or if the
-    /// fitted offset lies in it; otherwise the skin is merely soft at first.
+    /// A flat beginning counts as an approach only if the fitted displacement offset lies in its
+    /// second half or, without such an offset, if the fitted curve rises before contact. Otherwise
+    /// the skin is merely soft at first.
     fn events(
         &self,
         (number, curve): (usize, &TestCurve),
@@ -428,7 +438,7 @@ impl Residuals<'_> {
     }
 }
 
-/// Returns true if a fitted curve before contact exceeds the measured force.
+/// Returns true if fitted and measured forces differ significantly before `contact`.
 fn rises_before(points: &[[f64; 2]], model: &ModelCurve, contact: f64) -> bool {
     let largest = points.iter().map(|point| point[1].abs()).fold(0.0, f64::max);
     let toe = points.iter().zip(&model.values).filter(|(point, _)| point[0] <= contact);
@@ -519,7 +529,7 @@ mod tests {
         let best = definition.fit(&stop, &work).expect("a fit");
         let mut residuals = Residuals::new(&definition, &evaluator, (&stop, &work));
         let sizes: Vec<_> = residuals.noise.iter().map(|noise| noise.deviation).collect();
-        // This point is not a minimum: any profile finds better ones.
+        // This point is not a minimum, so any profile finds better points.
         let scaled = vec![0.9, 0.9];
         let poor = Minimum { cost: residuals.cost(&scaled).expect("a cost"), scaled };
         let settled = residuals.settle(poor, &sizes).expect("a fit");

@@ -1,4 +1,4 @@
-//! Fits parameters of a skin to curves from a testing machine.
+//! Fits parameters of a skin to force or moment curves of a testing machine.
 
 mod definition;
 mod error;

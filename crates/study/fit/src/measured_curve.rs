@@ -22,9 +22,9 @@ use self::number_table::{NumberTable, Row, Rows};
 /// Kind of test in which a curve was measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Test {
-    /// Force over displacement of a needle.
+    /// Force on a needle as a function of its displacement.
     Puncture,
-    /// Moment over curvature of a strip.
+    /// Moment on a strip as a function of its curvature.
     Bending,
 }
 
@@ -45,7 +45,7 @@ impl Test {
         }
     }
 
-    /// Returns the units of the model on both axes, in mm and N or in 1/mm and N mm.
+    /// Returns the size of one model unit on each axis, in mm and N or in 1/mm and N mm.
     ///
     /// # Errors
     ///
@@ -75,24 +75,24 @@ pub struct MeasuredCurve {
     pub is_physical: bool,
     /// Unit of the first column of the file, in units of [`Self::points`].
     pub(crate) x_unit: f64,
-    /// Lines that were left out: remarks, footers, and gaps in the recording.
+    /// Numbers of the lines that were left out: remarks, footers, and gaps in the recording.
     ///
-    /// Only the first specimen of a table lists the lines outside of the table.
+    /// If a table has several specimens, only the first one lists the lines outside of the table.
     pub left_out: Vec<u64>,
     /// Displacement or curvature, then force or moment, in the order of the file.
     pub points: Vec<[f64; 2]>,
-    /// Line of each point.
+    /// Line number of each point.
     lines: Vec<u64>,
-    /// Whether the signs of the file were reversed, on both axes.
+    /// True for each axis on which the signs of the file were reversed.
     pub reversed: [bool; 2],
 }
 
-/// Largest file of measured curves: a million points with ten columns.
+/// Maximum size of a file of measured curves in bytes: a million points in ten columns.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// Bounds of an offset, as a fraction of the largest value on its axis.
+/// Largest offset that is searched, as a fraction of the largest absolute value on its axis.
 const FARTHEST_OFFSET: f64 = 0.25;
-/// Fraction of the largest force that the noise before contact does not reach.
+/// Fraction of the largest force above which a force is certainly contact, not noise.
 const TOUCHING: f64 = 0.1;
 
 /// Error in a file of measurements.
@@ -107,11 +107,13 @@ pub struct InvalidMeasured {
 impl MeasuredCurve {
     /// Reads the curves of all specimens in the file at `path`.
     ///
-    /// `columns` names the first columns of the file. Without it, the header of the file does.
+    /// `columns` names the first columns of the file. If it is `None`, the header of the file names
+    /// the columns.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, no two columns belong to one test, or a cell is not a number.
+    /// If the file cannot be read, no two columns belong to one kind of test, or a cell is not a
+    /// number.
     pub fn read(path: &Path, columns: Option<&[String]>) -> Result<Vec<Self>, InvalidMeasured> {
         let file = path.display().to_string();
         match read_text(path) {
@@ -134,14 +136,14 @@ impl MeasuredCurve {
             |line, problem: String| InvalidMeasured { file: file.to_owned(), line, problem };
         let rows = Rows::new(text).map_err(|error| wrong(None, error.to_string()))?;
         if rows.open_quote.is_some() {
-            let problem = "a quote (\") is not closed, expected it in pairs".to_owned();
+            let problem = "a quote (\") is not closed, expected quotes in pairs".to_owned();
             return Err(wrong(rows.open_quote, problem));
         }
         let tables = tables(&rows, columns.is_some());
         if tables.is_empty() {
             let header = Header::find(&rows, 0..rows.all.len(), columns);
             header.curves().map_err(|problem| wrong(header.line(&rows), problem))?;
-            return Err(wrong(None, "holds no points, expected a line for each".to_owned()));
+            return Err(wrong(None, "holds no points, expected a line for each point".to_owned()));
         }
         let (mut curves, mut specimens) = (Vec::new(), Vec::new());
         for table in &tables {
@@ -152,7 +154,7 @@ impl MeasuredCurve {
             let is_named = tables.len() > 1 || specimens_here.len() > 1;
             let mut from = 0;
             for (index, columns) in specimens_here.into_iter().enumerate() {
-                // A header may name more specimens than the table has columns.
+                // A header may name more specimens than the table has columns. Skip the others.
                 if index > 0 && columns.indices.iter().all(|column| *column >= width) {
                     continue;
                 }
@@ -187,7 +189,7 @@ impl MeasuredCurve {
         };
     }
 
-    /// Reads one curve from a table.
+    /// Reads one curve from a table; an error has its line number and a description.
     fn in_table(
         rows: &Rows,
         (table, mut left_out): (&NumberTable, Vec<u64>),
@@ -205,13 +207,15 @@ impl MeasuredCurve {
             }
             let pair = indices.map(|index| rows.all[row].cell(index));
             if pair == ["", ""] {
-                // A specimen may end before those beside it.
+                // Empty cells after the last point belong to a specimen that is shorter than its
+                // neighbours in the table. Empty cells before the last point are gaps.
                 if last.is_some_and(|last| row < last) {
                     left_out.push(*line);
                 }
                 continue;
             }
-            // Text in a column of numbers begins a remark. Results may follow the last reading.
+            // Leave out rows of results after the last point, and remarks: rows with text in a
+            // column that has a number in the first row of the table.
             let is_result = last.is_some_and(|last| row > last) && rows.number(pair[0]).is_none();
             if is_result || (rows.are_numbers(row, indices) && !rows.is_like(row, table.rows[0])) {
                 left_out.push(*line);
@@ -251,10 +255,10 @@ impl MeasuredCurve {
 
     /// Returns the range in which the offset of an axis is searched.
     ///
-    /// A displacement offset is also searched up to the end of a long approach without force.
+    /// The range of a displacement offset includes the end of a long approach without force.
     pub(crate) fn offset_range(&self, axis: usize) -> [f64; 2] {
         let [largest_x, largest_load] = [0, 1].map(|axis| {
-            // A curve of zeros also needs bounds that differ.
+            // The bounds must differ, even if all values are zero.
             let sizes = self.points.iter().map(|point| point[axis].abs());
             sizes.fold(f64::MIN_POSITIVE, f64::max)
         });
@@ -265,10 +269,11 @@ impl MeasuredCurve {
         let [first, x] = [0, touching].map(|index| self.points[index][0]);
         let near = FARTHEST_OFFSET * loading::range(&self.points);
         if touching > 0 && first.abs() > to && near > 0.0 {
-            // If the displacement of the machine has another origin, search around its first value.
+            // The machine measures the displacement from a distant origin: search around the first
+            // value.
             return [first - near, x.max(first + near)];
         }
-        // Contact may begin anywhere before `x`, or the force may rise slowly from the beginning.
+        // Contact may begin anywhere before `x`, because the force may rise slowly.
         if x > to {
             [-to, x + 0.1 * to]
         } else if x < -to {
@@ -283,7 +288,7 @@ impl MeasuredCurve {
         self.branches().loading.into_iter().map(|index| self.points[index]).collect()
     }
 
-    /// Divides the curve into its branches.
+    /// Divides the curve into its loading and unloading branches, and detects events.
     pub(crate) fn branches(&self) -> Branches {
         loading::branches(&self.points, &self.lines)
     }
@@ -295,8 +300,8 @@ fn tables(rows: &Rows, are_columns_named: bool) -> Vec<NumberTable> {
     if !are_columns_named {
         return tables;
     }
-    // If the definition names the columns, a repetition of the row above the longest table begins
-    // another specimen.
+    // If the definition names the columns, their header in the file is unknown text. A repetition
+    // of the row of text above the longest table then begins another specimen.
     let longest = tables.iter().find(|table| table.is_longest);
     let repeated = longest.and_then(|table| table.above.clone().last());
     let repeated = repeated.filter(|row| rows.is_text(*row)).map(|row| &rows.all[row].cells);
@@ -305,18 +310,18 @@ fn tables(rows: &Rows, are_columns_named: bool) -> Vec<NumberTable> {
 
 /// Refuses a row with more cells than columns.
 ///
-/// A number with a decimal comma between commas would become two cells.
+/// In a file with commas between cells, a decimal comma would split a number into two cells.
 fn check_width(cells: &csv::StringRecord, columns: usize) -> Result<(), String> {
     if cells.iter().skip(columns).all(str::is_empty) {
         return Ok(());
     }
     Err(format!(
-        "has {} cells under {columns} columns, expected as many; cells with decimal commas are separated by semicolons",
+        "has {} cells under {columns} columns, expected one cell for each column; with decimal commas, separate the cells by semicolons",
         cells.len()
     ))
 }
 
-/// Reads a text file, or returns the problem.
+/// Reads a text file. An error is a description of the problem.
 fn read_text(path: &Path) -> Result<String, String> {
     let bytes = read_input_bytes(path, MAX_BYTES)
         .map_err(|error| format!("cannot be read ({}), expected a CSV file", reason(&error)))?;
@@ -325,7 +330,7 @@ fn read_text(path: &Path) -> Result<String, String> {
     })
 }
 
-/// Decodes UTF-8, UTF-16, or otherwise Windows-1252.
+/// Decodes text in UTF-8 or UTF-16, and other text as Windows-1252.
 ///
 /// `None` for bytes that are not text.
 fn decoded(bytes: &[u8]) -> Option<String> {
@@ -396,8 +401,8 @@ mod tests {
     #[test]
     fn an_open_quote_is_refused_at_its_line() {
         let message = refused("displacement_mm,force_N\n0,0\n\"1,2\n3,4\n5,6\n");
-        assert_eq!(message, "a.csv:3: a quote (\") is not closed, expected it in pairs");
-        // Quoted line ends in a header, and inch marks in a preamble, are not mistakes.
+        assert_eq!(message, "a.csv:3: a quote (\") is not closed, expected quotes in pairs");
+        // Quoted line ends in a header, and inch marks in a preamble, are accepted.
         let curve = parsed("3\" needle\n\"Displacement\n[mm]\",\"Force\n[N]\"\n0,0\n1,2\n");
         assert_eq!(curve.points, [[0.0, 0.0], [1.0, 2.0]]);
     }
@@ -447,7 +452,7 @@ mod tests {
         let message = message.expect_err("another unit").to_string();
         assert_eq!(
             message,
-            "a.csv:3: column 3 is force_lbf according to its unit in the file, but columns states force_N; expected the same unit"
+            "a.csv:3: column 3 is force_lbf according to its unit in the file, but is named force_N; expected the same unit"
         );
         let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
         assert_eq!(curve[0].points, [[1.0, 2.0], [3.0, 4.0]]);
@@ -461,9 +466,9 @@ mod tests {
         let files: Vec<_> = curves.iter().map(|curve| curve.file.as_str()).collect();
         assert_eq!(files, ["a.csv, specimen A", "a.csv, specimen B 7"]);
         assert_eq!(curves[0].points, [[1.0, 2.0], [5.0, 6.0]]);
-        // The second specimen is shorter.
+        // Empty cells after the last point of the shorter second specimen are not left-out lines.
         assert_eq!((&*curves[1].points, &*curves[1].left_out), (&[[3.0, 4.0]][..], &[][..]));
-        // A single row of numbers is not a specimen.
+        // A header with a single row of numbers below it is not a specimen.
         assert_eq!(parsed(below).left_out, [5, 6, 7]);
         let below = format!("{below}7;8\n");
         let curves = MeasuredCurve::parse(&below, "a.csv", None).expect("curves");
@@ -475,7 +480,7 @@ mod tests {
     }
 
     #[test]
-    fn footers_and_lone_numbers_are_left_out() {
+    fn footers_and_single_rows_of_numbers_are_left_out() {
         let curve = parsed("x,y\n25,100\n\nDisplacement (mm),Force (N)\n1,2\n3,4\n\nEnd of test\n");
         assert_eq!((&*curve.left_out, curve.points.len()), (&[1, 2, 8][..], 2));
     }
@@ -529,7 +534,7 @@ mod tests {
             assert_eq!(decoded(&bytes).as_deref(), Some(text));
         }
         assert_eq!(parsed(text).points, [[0.5, 2.0]]);
-        // Without a byte-order mark.
+        // UTF-16 without a byte-order mark is recognised, too.
         let units: Vec<u16> = "Weg mm\tKraft kN\r\n0,5\t0,002\r\n".encode_utf16().collect();
         let big: Vec<u8> = units.iter().flat_map(|unit| unit.to_be_bytes()).collect();
         let little: Vec<u8> = units.iter().flat_map(|unit| unit.to_le_bytes()).collect();
@@ -551,7 +556,7 @@ mod tests {
         assert!(refused("").contains("a.csv: has no header; expected displacement_mm"));
         assert_eq!(
             refused("displacement_mm,force_N\n"),
-            "a.csv: holds no points, expected a line for each"
+            "a.csv: holds no points, expected a line for each point"
         );
         assert_eq!(
             refused("displacement_mm,force_N\n0,0\n1,x\n"),

@@ -1,4 +1,4 @@
-//! Curves of the model, with derivatives with respect to the unknowns.
+//! Force and moment curves of the model, and their derivatives with respect to the unknowns.
 
 use rayon::prelude::*;
 use results::Outcome;
@@ -13,11 +13,11 @@ use crate::measured_curve::Test;
 #[derive(Clone, Debug)]
 pub(crate) struct ModelCurve {
     pub(crate) values: Vec<f64>,
-    /// Derivatives of all values, for each unknown.
+    /// Derivatives of `values`, one vector per unknown.
     pub(crate) rates: Vec<Vec<f64>>,
-    /// Number of points before the needle touches, where the force is zero.
+    /// Number of points without load, before contact or after unloading. The model value is zero.
     pub(crate) before: usize,
-    /// Number of points beyond the end of the path. They have its last value.
+    /// Number of points beyond the end of the path. They have the last value of the path.
     pub(crate) beyond: usize,
     /// Number of derivatives from finite differences, because the path provides none.
     pub(crate) differenced: usize,
@@ -25,22 +25,22 @@ pub(crate) struct ModelCurve {
 
 /// Position of a measured point relative to the solved path.
 enum Position {
-    /// Before the needle touches, where the force is zero.
+    /// The skin carries no load: before contact, or after unloading.
     Before,
-    /// Displacement or curvature in model units, and the point of the model there.
+    /// On the path: displacement or curvature in model units, and the solved point.
     On(f64, CurvePoint),
     /// Beyond the end of the path.
     Beyond,
 }
 
-/// Step of finite differences of units, as a fraction of the range.
+/// Step for derivatives of the units of a curve, as a fraction of the range of the unknown.
 ///
-/// Units are smooth formulas.
+/// The units are smooth formulas, so a small step is accurate.
 const STEP: f64 = 1e-6;
 
-/// Step of finite differences of solutions, as a fraction of the range.
+/// Step for finite differences of solved paths, as a fraction of the range of the unknown.
 ///
-/// Equilibria are accurate to about `1e-9`, so differences are accurate to about `1e-5`.
+/// Equilibria are accurate to about `1e-9`, so these differences are accurate to about `1e-5`.
 const SOLVED_STEP: f64 = 1e-4;
 
 impl FitDefinition {
@@ -54,9 +54,10 @@ impl FitDefinition {
         curves.map(|(k, curve)| self.model_curve(evaluator, (k, curve), values)).collect()
     }
 
-    /// Returns the specimen of a curve, or the design of the definition for `None`.
+    /// Returns the case of a curve's specimen, with the given values of the unknowns.
     ///
-    /// The design has the means of parameters that differ from specimen to specimen.
+    /// For `None`, returns the design of the definition. If a parameter differs from specimen to
+    /// specimen, the design has the mean of its values.
     pub(crate) fn case(&self, curve: Option<(usize, &TestCurve)>, values: &[f64]) -> Case {
         let mut case = curve.map_or_else(|| self.sweep.grid().case(0), |(_, curve)| curve.case);
         for (unknown, &value) in self.unknowns.iter().zip(values) {
@@ -75,7 +76,7 @@ impl FitDefinition {
 
     /// Returns the parameters that differ from specimen to specimen.
     ///
-    /// Each comes with its unknowns by index.
+    /// Each parameter is paired with the indices of its unknowns, one per specimen.
     pub(crate) fn specimens(&self) -> Vec<(&'static Parameter, Vec<usize>)> {
         let mut specimens: Vec<(&'static Parameter, Vec<usize>)> = Vec::new();
         for (j, unknown) in self.unknowns.iter().enumerate() {
@@ -88,7 +89,7 @@ impl FitDefinition {
         specimens
     }
 
-    /// Computes the model curve of curve `number`, with derivatives for all unknowns.
+    /// Computes model values for measured curve `number`, with derivatives for all unknowns.
     fn model_curve(
         &self,
         evaluator: &Evaluator,
@@ -104,7 +105,8 @@ impl FitDefinition {
             beyond: positions.filter(|p| matches!(p, Position::Beyond)).count(),
             differenced: 0,
         };
-        // `point.rates` holds only the unknowns that change this curve, in the order of unknowns.
+        // `point.rates` has entries only for unknowns that are parameters of this curve. `index`
+        // counts these entries.
         let mut index = 0;
         for (unknown, &value) in self.unknowns.iter().zip(values) {
             let rates = match unknown.of(Some((number, curve))) {
@@ -121,7 +123,7 @@ impl FitDefinition {
         Ok(model)
     }
 
-    /// Solves for the points of curve `number`.
+    /// Solves the model at the displacements or curvatures of measured curve `number`.
     fn solve_curve<'a>(
         &self,
         evaluator: &'a Evaluator,
@@ -152,18 +154,18 @@ impl FitDefinition {
 
 /// A measured curve with the solved points of the model.
 struct SolvedCurve<'a> {
-    /// Index of the curve.
+    /// Index of the curve in the definition.
     number: usize,
     curve: &'a TestCurve,
     case: Case,
-    /// One model unit on each axis, in the units of the curve.
+    /// Size of one model unit on each axis, in the units of the measured curve.
     units: [f64; 2],
-    /// Offset of each axis, in the units of the curve.
+    /// Offset of each axis, in the units of the measured curve.
     offsets: [f64; 2],
     path: Path<'a>,
-    /// Position of each measured point.
+    /// Position of each measured point relative to the solved path.
     positions: Vec<Position>,
-    /// Value at the farthest point that the path reaches, in model units.
+    /// Force or moment at the last measured point that the loading path reaches, in model units.
     last: f64,
 }
 
@@ -174,8 +176,8 @@ impl SolvedCurve<'_> {
         let values = self.positions.iter().map(|position| match position {
             Position::Before => offsets[1],
             Position::On(_, point) => offsets[1] + units[1] * point.value,
-            // Compare with the last value. The report counts these points and advises to exclude
-            // them.
+            // Use the last value of the path. The report counts these points and recommends
+            // excluding them from the fit.
             Position::Beyond => offsets[1] + units[1] * self.last,
         });
         values.collect()
@@ -183,7 +185,7 @@ impl SolvedCurve<'_> {
 
     /// Returns the derivatives with respect to an unknown that is not a parameter of this curve.
     ///
-    /// They are nonzero for the offsets of this curve only.
+    /// The derivatives are nonzero only if the unknown is an offset of this curve.
     fn offset_rates(&self, source: Source) -> Vec<f64> {
         match source {
             Source::Offset(of, 1) if of == self.number => vec![1.0; self.positions.len()],
@@ -194,7 +196,7 @@ impl SolvedCurve<'_> {
         }
     }
 
-    /// Evaluates `f` at points on the curve, and returns 0 elsewhere.
+    /// Evaluates `f` at the measured points on the path. Other measured points have the value 0.
     fn on_curve(&self, f: impl Fn(f64, &CurvePoint) -> f64) -> Vec<f64> {
         let values = self.positions.iter().map(|position| match position {
             Position::On(at, point) => f(*at, point),
@@ -204,18 +206,20 @@ impl SolvedCurve<'_> {
     }
 }
 
-/// Derivative of a curve with respect to a parameter.
+/// Differentiates the values of a solved curve with respect to a fitted parameter.
 struct By<'a> {
     solved: &'a SolvedCurve<'a>,
     unknown: &'a Unknown,
     parameter: &'static Parameter,
+    /// Value of the parameter at which the curve was solved.
     value: f64,
 }
 
 impl By<'_> {
-    /// Returns the derivatives in model units, with index `k` in `point.rates`.
+    /// Returns the derivatives of force or moment at constant position, in model units.
     ///
-    /// Missing derivatives are replaced with differences of two solutions.
+    /// `k` is the index of the parameter in `point.rates`. Derivatives that the path does not
+    /// provide are replaced by differences of two solutions, and counted in `differenced`.
     fn own_rates(&self, k: usize, differenced: &mut usize) -> Result<Vec<f64>, Outcome> {
         let SolvedCurve { curve, case, path, positions, .. } = self.solved;
         let mut rates = self.solved.on_curve(|_, point| point.rates[k].unwrap_or(f64::NAN));
@@ -230,7 +234,8 @@ impl By<'_> {
         let [on, back] = [on, back].map(|of| of.into_iter().map(|i| at[i]).collect::<Vec<_>>());
         let step = SOLVED_STEP * (self.unknown.to - self.unknown.from);
         let ends = [self.value - step, self.value + step];
-        // One-sided at an end of the range, because values beyond it may be invalid (friction < 0).
+        // At an end of the range the difference is one-sided, because values beyond the range may
+        // be invalid (friction < 0).
         let ends = ends.map(|end| end.clamp(self.unknown.from, self.unknown.to));
         let [below, above] = ends.map(|end| {
             let moved = self.parameter.put(case, Scalar::Number(end));
@@ -238,15 +243,16 @@ impl By<'_> {
         });
         for ((i, below), above) in unknown.into_iter().zip(below?).zip(above?) {
             let rise = below.zip(above).map(|(below, above)| above.value - below.value);
-            // If only one of the two paths reaches the point, the difference is undefined.
+            // If either path ends before this point, no difference exists: assume 0.
             rates[i] = rise.map_or(0.0, |rise| rise / (ends[1] - ends[0]));
         }
         Ok(rates)
     }
 
-    /// Converts derivatives to the units of the curve.
+    /// Converts derivatives from model units to the units of the measured curve.
     ///
-    /// The units may depend on the parameter, too. The point then also moves along the curve.
+    /// `own` are derivatives at constant position. If the units depend on the parameter, the
+    /// measured point also has another position on the model curve; this change is added.
     fn with_units(&self, own: &[f64]) -> Vec<f64> {
         let SolvedCurve { curve, case, units, .. } = self.solved;
         let step = STEP * (self.unknown.to - self.unknown.from);
@@ -263,7 +269,10 @@ impl By<'_> {
 }
 
 impl Unknown {
-    /// Returns the fitted parameter of a curve, unless the curve sets it itself.
+    /// Returns the parameter that this unknown changes in the case of a curve.
+    ///
+    /// `None` for offsets, parameters of other specimens, and parameters that the table of the
+    /// curve sets. If `curve` is `None`, the case is the design of the definition.
     fn of(&self, curve: Option<(usize, &TestCurve)>) -> Option<&'static Parameter> {
         match (self.source, curve) {
             (Source::Parameter(p), None) => Some(p),
@@ -274,17 +283,18 @@ impl Unknown {
     }
 }
 
-/// The path of a test, which turns back at a displacement or curvature.
+/// Solver of the loading and unloading path of a test.
 struct Path<'a> {
     evaluator: &'a Evaluator,
     test: Test,
+    /// Displacement or curvature at which unloading begins, in model units.
     turn: f64,
 }
 
 impl Path<'_> {
-    /// Solves for points on the loading branch, then on the unloading branch.
+    /// Returns the points at the given positions on the loading and unloading branches.
     ///
-    /// Points of the unloading branch have no derivatives.
+    /// Points of the loading branch are first. Points of the unloading branch have no derivatives.
     fn solve(
         &self,
         case: &Case,
@@ -311,14 +321,15 @@ impl Path<'_> {
     }
 }
 
-/// Returns the positive displacements or curvatures, which lie on the path.
+/// Returns the positive displacements or curvatures. Only these can lie on the path.
 fn touching(wanted: &[f64]) -> Vec<f64> {
     wanted.iter().copied().filter(|at| *at > 0.0).collect()
 }
 
-/// Returns the positions of measured points, from the points found on the path.
+/// Returns the position of each measured point relative to the solved path.
 ///
-/// The first `loading` points found are on the loading branch.
+/// `found` has an entry for each positive value in `wanted`; its first `loading` entries belong to
+/// the loading branch.
 fn positions(wanted: &[f64], found: CurvePoints, loading: usize) -> Vec<Position> {
     let mut found = found.into_iter().enumerate();
     let mut positions = Vec::new();
@@ -327,14 +338,14 @@ fn positions(wanted: &[f64], found: CurvePoints, loading: usize) -> Vec<Position
         positions.push(match found {
             Some((_, Some(point))) => Position::On(at, point),
             Some((k, None)) if k < loading => Position::Beyond,
-            // The needle does not touch yet, or no longer below the residual displacement.
+            // The skin carries no load: before contact, or below the residual displacement.
             None | Some(_) => Position::Before,
         });
     }
     positions
 }
 
-/// Returns the value at the farthest point that the path reaches.
+/// Returns the force or moment at the largest position that the path reaches, otherwise 0.
 fn last(wanted: &[f64], points: &CurvePoints) -> f64 {
     let reached = wanted.iter().zip(points).filter_map(|(at, point)| Some((at, point.as_ref()?)));
     reached.max_by(|a, b| a.0.total_cmp(b.0)).map_or(0.0, |(_, point)| point.value)

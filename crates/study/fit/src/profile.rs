@@ -1,9 +1,10 @@
 //! Confidence intervals by profile likelihood.
 //!
-//! One unknown is fixed, and the others are fitted. The interval contains the values at which the
-//! sum of the weighted squares rises by at most `t²`, where `t` is the 97.5 % quantile of Student's
-//! distribution. Unlike intervals from the covariance, it may be one-sided or open, for example for
-//! a gap that never closes, because then the curve is the same for all wider gaps.
+//! The profile of an unknown is the minimum of the weighted sum of squares over all other unknowns,
+//! as a function of this unknown. Its interval contains the values at which the profile is at most
+//! `t²` above the minimum, where `t` is the 97.5 % quantile of Student's distribution. Unlike
+//! intervals from the covariance, such an interval may be one-sided or open. For example, the
+//! interval of a gap that never closes has no upper end: the curve is the same for all wider gaps.
 
 use nalgebra::DMatrix;
 
@@ -12,47 +13,49 @@ use crate::search::{Minimum, Residuals};
 
 /// Ratio of successive distances from the estimate at which the profile is sampled.
 const OUTWARD: f64 = 1.5;
-/// Root of the rise, as a multiple of `t`, beyond which no other minimum is expected.
+/// Square root of the rise of a profile at which its sampling stops, as a multiple of `t`.
+///
+/// Beyond this rise the profile is not expected to fall to another minimum.
 const FAR: f64 = 4.0;
-/// Least and largest first distance from the estimate, as fractions of the range.
+/// Bounds of the first distance from the estimate that is sampled, as fractions of the range.
 const FIRST: [f64; 2] = [1e-9, 0.06];
 /// Maximum number of fits to locate an end of an interval.
 const MOST_STEPS: usize = 12;
-/// Accuracy of the root of the rise at an end, as a fraction of `t`.
+/// Accepted error of the square root of the rise at an interval end, as a fraction of `t`.
 const ACCURACY: f64 = 0.02;
-/// Accuracy of an end, as a fraction of its distance from the estimate.
+/// Accuracy of an interval end, as a fraction of its distance from the estimate.
 const NEAR: f64 = 0.01;
-/// Maximum number of passes in which ends are moved to points of other profiles.
+/// Maximum number of passes that move interval ends outwards to points of other profiles.
 const MOST_PASSES: usize = 4;
-/// Fall of the sum of weighted squares that restarts the fit.
+/// Decrease of the weighted sum of squares below the minimum that restarts the fit.
 const BETTER: f64 = 0.05;
-/// Distance at which a value counts as at its bound, as a fraction of the range.
+/// Distance from a bound within which a value counts as at the bound, as a fraction of the range.
 ///
-/// The search keeps its iterates strictly between the bounds.
+/// The search never reaches a bound: its iterates stay strictly between the bounds.
 pub(crate) const AT_END: f64 = 1e-3;
 
-/// Profiles of the sum of squares around a minimum.
+/// Computes profiles of the weighted sum of squares around a minimum.
 pub(crate) struct Profiles<'r, 'a> {
     pub(crate) residuals: &'r Residuals<'a>,
     pub(crate) minimum: &'r Minimum,
-    /// Covariance of the scaled unknowns from the derivatives, to predict the profiles.
+    /// Covariance of the scaled unknowns, computed from the derivatives. It predicts the profiles.
     pub(crate) covariance: &'r DMatrix<f64>,
-    /// Quantile of Student's distribution.
+    /// 97.5 % quantile of Student's distribution.
     pub(crate) t: f64,
 }
 
 /// Confidence interval of a scaled unknown.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Interval {
-    /// Lower and upper end; `None` if the interval extends to the end of the range.
+    /// Lower and upper end; `None` if the interval extends to the bound of the range.
     pub(crate) ends: [Option<f64>; 2],
-    /// Other unknowns that are at a bound of their range where the interval ends.
+    /// Indices of other unknowns that reach a bound of their range at an end of the interval.
     pub(crate) rests_on: Vec<usize>,
 }
 
-/// Reason for which a profile is not completed.
+/// Reason why a profile was not completed.
 pub(crate) enum Aborted {
-    /// A better minimum, from which the fit has to start again.
+    /// The profile found better scaled unknowns, from which the fit must restart.
     Better(Vec<f64>),
     Failed(FitError),
 }
@@ -63,11 +66,14 @@ impl From<FitError> for Aborted {
     }
 }
 
-/// A point of a profile: the fixed value, all unknowns, and the rise of the sum of squares.
+/// A point of a profile.
 #[derive(Clone, Debug)]
 struct ProfilePoint {
+    /// Scaled value of the fixed unknown.
     at: f64,
+    /// Scaled values of all unknowns.
     scaled: Vec<f64>,
+    /// Weighted sum of squares above the minimum.
     rise: f64,
 }
 
@@ -82,7 +88,7 @@ impl Profiles<'_, '_> {
                 self.residuals.profile(|| [0, 1].map(|side| self.end(j, side, &minimum)));
             ends.push([low?, high?]);
         }
-        // A profile may miss a valley that the profile of another unknown visits.
+        // A profile may miss a minimum that the profile of another unknown has found.
         for _ in 0..MOST_PASSES {
             let mut has_changed = false;
             for (j, ends) in ends.iter_mut().enumerate() {
@@ -100,7 +106,7 @@ impl Profiles<'_, '_> {
         Ok(ends.iter().enumerate().map(|(j, ends)| self.interval(j, ends)).collect())
     }
 
-    /// Returns the interval of unknown `j` with these ends.
+    /// Returns the interval of unknown `j` between `ends`.
     fn interval(&self, j: usize, ends: &[Option<ProfilePoint>; 2]) -> Interval {
         let mut rests_on = Vec::new();
         for end in ends.iter().flatten() {
@@ -120,7 +126,9 @@ impl Profiles<'_, '_> {
         ProfilePoint { at: scaled[j], scaled, rise: 0.0 }
     }
 
-    /// Returns the farthest point beyond an end that was evaluated and belongs to the interval.
+    /// Returns the farthest evaluated point beyond `end` that belongs to the interval.
+    ///
+    /// The interval is for unknown `j`; `side` is 0 at its lower end and 1 at its upper end.
     fn visited_beyond(&self, j: usize, side: usize, end: f64) -> Option<ProfilePoint> {
         let direction = if side == 0 { -1.0 } else { 1.0 };
         let tolerance = NEAR * (end - self.minimum.scaled[j]).abs();
@@ -136,9 +144,9 @@ impl Profiles<'_, '_> {
         farthest
     }
 
-    /// Returns the end of the interval of unknown `j` at a side; `None` if it is open.
+    /// Locates the lower (`side` 0) or upper (`side` 1) end of the interval of unknown `j`.
     ///
-    /// `from` is a point within the interval.
+    /// `None` if the interval extends to the bound. `from` is a point within the interval.
     fn end(
         &self,
         j: usize,
@@ -150,8 +158,8 @@ impl Profiles<'_, '_> {
         let limit = self.t.powi(2);
         let mut inner = from.clone();
         let mut outer: Option<ProfilePoint> = None;
-        // Go on beyond the first crossing, because the sum of squares may fall again: its kinks
-        // make several valleys.
+        // Continue beyond the first point outside of the interval: the sum of squares has kinks
+        // and may fall below the limit again.
         let half = self.t * self.covariance[(j, j)].sqrt();
         let mut distance = half.clamp(FIRST[0], FIRST[1]);
         let mut last = inner.clone();
@@ -167,7 +175,8 @@ impl Profiles<'_, '_> {
         // Without a point outside of the interval, the interval extends to the bound.
         let Some(mut outer) = outer else { return Ok(None) };
         for _ in 0..MOST_STEPS {
-            // Near a minimum, the root of the rise is proportional to the distance.
+            // Near a minimum, the square root of the rise is proportional to the distance, so
+            // interpolate the root linearly.
             let [inside, outside] = [&inner, &outer].map(|point| point.rise.max(0.0).sqrt());
             let fraction = ((self.t - inside) / (outside - inside)).clamp(0.1, 0.9);
             let guess = inner.at + fraction * (outer.at - inner.at);
@@ -188,12 +197,12 @@ impl Profiles<'_, '_> {
         Ok(Some(outer))
     }
 
-    /// Fits the other unknowns with unknown `j` fixed, starting from a point of the profile.
+    /// Fits the other unknowns with unknown `j` fixed at `at`, starting from profile point `from`.
     fn at(&self, j: usize, at: f64, from: &ProfilePoint) -> Result<ProfilePoint, Aborted> {
         let mut start = from.scaled.clone();
         let moved = (at - from.at) / self.covariance[(j, j)];
         for (i, scaled) in start.iter_mut().enumerate() {
-            // Far from the minimum, the prediction is unreliable.
+            // Far from the minimum the prediction is unreliable, so limit its step.
             let step = (moved * self.covariance[(i, j)]).clamp(-0.25, 0.25);
             *scaled = (*scaled + step).clamp(AT_END, 1.0 - AT_END);
         }
@@ -207,7 +216,7 @@ impl Profiles<'_, '_> {
     }
 }
 
-/// Returns true for a scaled value at a bound.
+/// Returns true if a scaled value is at a bound of its range.
 pub(crate) fn is_at_end(scaled: f64) -> bool {
     !(AT_END..=1.0 - AT_END).contains(&scaled)
 }

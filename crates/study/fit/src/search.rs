@@ -14,40 +14,42 @@ use crate::definition::FitDefinition;
 use crate::error::FitError;
 use crate::model::ModelCurve;
 
-/// Number of starting points per unknown, and number of the best that are improved.
+/// Number of points per unknown in the first sample of the ranges.
 const STARTS: usize = 8;
+/// Number of the best sampled points at which local searches start.
 const IMPROVED: usize = 6;
 
 /// Maximum number of steps of a local search.
 ///
-/// With noise, a search takes five to ten.
+/// A search on curves with noise takes five to ten steps.
 const MOST_STEPS: u64 = 60;
 
-/// Expected number of solutions of a local search, to predict the remaining work.
+/// Expected number of model evaluations in a local search, to predict the remaining work.
 const EXPECTED: u64 = 12;
-/// Expected number of solutions of a profile.
+/// Expected number of model evaluations in a profile, to predict the remaining work.
 const EXPECTED_PROFILE: u64 = 60;
 
-/// Residual of a skin that cannot be solved.
+/// Weighted residual at all points if the path of any curve cannot be solved.
 ///
-/// It is larger than any other residual, but finite: the solver stops at infinite residuals.
+/// The value exceeds all other residuals, but is finite, because the Levenberg–Marquardt solver
+/// stops at infinite residuals.
 const UNSOLVABLE: f64 = 1e6;
 
-/// Gradient of the sum of squares at convergence.
+/// Scaled gradient of the sum of squares below which a search has converged.
 ///
 /// Residuals are divided by the noise, so the sum of their squares is about the number of points.
 const FLAT: f64 = 1e-7;
 
-/// Relative change of the sum of squares at convergence.
+/// Relative change of the sum of squares in a step below which a search has converged.
 ///
 /// The unknowns then change by about `1e-4` of their confidence intervals.
 const CHANGED: f64 = 1e-9;
-/// Relative change of the sum of squares at convergence of a point of a profile.
+/// Relative change of the sum of squares below which a search for a profile point has converged.
 ///
-/// It is larger, because these points only locate the ends of a confidence interval.
+/// It is larger than `CHANGED`, because profile points only locate the ends of an interval.
 const CHANGED_IN_PROFILE: f64 = 1e-5;
 
-/// Residuals of all curves, divided by the noise.
+/// Residuals of all curves, divided by the noise of each curve.
 ///
 /// Unknowns are scaled to 0 … 1 between their bounds.
 pub(crate) struct Residuals<'a> {
@@ -55,38 +57,41 @@ pub(crate) struct Residuals<'a> {
     pub(crate) evaluator: &'a Evaluator,
     pub(crate) noise: Vec<Noise>,
     pub(crate) stop: &'a AtomicBool,
-    /// Last solution. Its derivatives are usually requested next.
+    /// Scaled unknowns and curves of the last evaluation. The solver usually requests their
+    /// derivatives next.
     last: RefCell<Option<(Vec<f64>, Solved)>>,
     solutions: RefCell<usize>,
-    /// Evaluated unknowns, with the sum of squares of each curve.
+    /// Evaluated scaled unknowns, with the unweighted sum of squares of each curve.
     visited: RefCell<Vec<(Vec<f64>, Vec<f64>)>>,
     work: &'a WorkMeter,
     /// Progress of the current search or profile.
     piece: RefCell<Option<WorkPiece<'a>>>,
 }
 
-/// Noise of a curve.
+/// Estimated noise of a measured curve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Noise {
     /// Standard deviation of the residuals.
     pub(crate) deviation: f64,
     /// Correlation of neighbouring residuals, if it is significant.
     pub(crate) trend: Option<f64>,
-    /// Number of points for each independent one: `(1 + ρ)/(1 − ρ)` for a correlation `ρ`.
+    /// Number of points divided by the number of independent points.
+    ///
+    /// It is `(1 + ρ)/(1 − ρ)` for a correlation `ρ` of neighbouring residuals, at least 1.
     pub(crate) widening: f64,
 }
 
 impl Noise {
     /// Returns the deviation by which residuals are divided.
     ///
-    /// It is larger than the standard deviation if residuals are correlated: `n` correlated
+    /// If residuals are correlated, the result exceeds the standard deviation: `n` correlated
     /// residuals determine their mean as accurately as `n/widening` independent ones.
     pub(crate) fn scale(&self) -> f64 {
         self.deviation * self.widening.sqrt()
     }
 }
 
-/// Curves of the model; `None` if a path cannot be solved.
+/// Model curves, one for each measured curve; `None` if a path cannot be solved.
 type Solved = Option<Rc<Vec<ModelCurve>>>;
 
 impl<'a> Residuals<'a> {
@@ -100,8 +105,8 @@ impl<'a> Residuals<'a> {
         let improved = IMPROVED + if definition.curves.len() > 1 { 3 } else { 0 };
         let profiles = EXPECTED_PROFILE * count as u64;
         work.begin((STARTS * count + 1) as u64 + EXPECTED * improved as u64 + profiles);
-        // Weight curves by their size until their noise is known, because newtons and newton
-        // millimetres cannot be compared.
+        // Until their noise is known, divide the residuals of each curve by the size of the curve,
+        // because forces in N and moments in N mm cannot be compared.
         let noise = definition.curves.iter().map(|curve| {
             let points = &curve.measured.points;
             let squares: f64 = points.iter().map(|point| point[1].powi(2)).sum();
@@ -121,18 +126,18 @@ impl<'a> Residuals<'a> {
         }
     }
 
-    /// Returns the number of solved skins.
+    /// Returns the number of model evaluations so far, each for all curves.
     pub(crate) fn solutions(&self) -> usize {
         *self.solutions.borrow()
     }
 
-    /// Returns the values of scaled unknowns.
+    /// Converts scaled unknowns to their values.
     pub(crate) fn values(&self, scaled: &[f64]) -> Vec<f64> {
         let unknowns = self.definition.unknowns.iter().zip(scaled);
         unknowns.map(|(unknown, &scaled)| unknown.value(scaled)).collect()
     }
 
-    /// Computes the model curves at scaled unknowns.
+    /// Computes the model curves at scaled unknowns, or returns the last ones for equal unknowns.
     pub(crate) fn solved(&self, scaled: &[f64]) -> Result<Solved, FitError> {
         if let Some((at, solved)) = &*self.last.borrow()
             && at == scaled
@@ -158,7 +163,7 @@ impl<'a> Residuals<'a> {
         Ok(solved)
     }
 
-    /// Returns the residuals of each curve, in its own unit.
+    /// Returns the residuals (model minus measurement) of each curve, in the unit of the curve.
     pub(crate) fn of_curves(&self, model: &[ModelCurve]) -> Vec<Vec<f64>> {
         let curves = self.definition.curves.iter().zip(model);
         let residuals = curves.map(|(curve, model)| {
@@ -170,7 +175,7 @@ impl<'a> Residuals<'a> {
 
     /// Returns all residuals, divided by the noise of their curves.
     fn weighted(&self, scaled: &[f64]) -> Result<Vec<f64>, FitError> {
-        // If one curve has no solution, the whole set of unknowns is rejected.
+        // If any curve has no solution, reject these unknowns for all curves.
         let Some(model) = self.solved(scaled)? else {
             let points = self.definition.curves.iter().map(|curve| curve.measured.points.len());
             return Ok(vec![UNSOLVABLE; points.sum()]);
@@ -179,7 +184,7 @@ impl<'a> Residuals<'a> {
         Ok(curves.flat_map(|(of, noise)| of.into_iter().map(move |r| r / noise.scale())).collect())
     }
 
-    /// Returns one column of the Jacobian of the weighted residuals.
+    /// Returns the derivatives of the weighted residuals with respect to one scaled unknown.
     pub(crate) fn column(&self, model: &[ModelCurve], unknown: usize) -> Vec<f64> {
         let Self { definition, noise, .. } = self;
         let range = definition.unknowns[unknown].to - definition.unknowns[unknown].from;
@@ -194,7 +199,7 @@ impl<'a> Residuals<'a> {
         Ok(self.weighted(scaled)?.iter().map(|r| r * r).sum())
     }
 
-    /// Lists the evaluated unknowns with at most this sum of the weighted squares.
+    /// Lists the evaluated points with a weighted sum of squares of at most `limit`.
     pub(crate) fn visited_below(&self, limit: f64) -> Vec<Minimum> {
         let mut below = Vec::new();
         for (scaled, squares) in &*self.visited.borrow() {
@@ -207,7 +212,7 @@ impl<'a> Residuals<'a> {
         below
     }
 
-    /// Searches for a local minimum from `start`.
+    /// Searches for a local minimum from `start` over all unknowns, and reports progress.
     pub(crate) fn improve(&self, start: Vec<f64>) -> Result<Minimum, FitError> {
         self.with_progress(EXPECTED, || self.minimise(start, None))
     }
@@ -226,7 +231,7 @@ impl<'a> Residuals<'a> {
 
     /// Searches for a local minimum from `start`.
     ///
-    /// The unknown `fixed` keeps its value in `start`.
+    /// If `fixed` is the index of an unknown, this unknown keeps its value in `start`.
     pub(crate) fn minimise(
         &self,
         start: Vec<f64>,
@@ -249,15 +254,15 @@ impl<'a> Residuals<'a> {
                 Ok(Minimum { cost: self.cost(&scaled)?, scaled })
             }
             Err(ConstraintSolveError::Evaluation(stopped)) => Err(stopped),
-            // The bounds are always 0 and 1.
-            Err(_) => unreachable!("bounds in order"),
+            Err(_) => unreachable!("the bounds are always 0 and 1, which are valid"),
         }
     }
 
     /// Returns the best of several local minima.
     ///
-    /// Local searches start at the best points of a space-filling sample. Several are needed: where
-    /// the contact state changes, the sum of squares has kinks, and local minima next to them.
+    /// Local searches start at the best points of a space-filling sample. Several searches are
+    /// needed, because the sum of squares has a kink wherever a contact state changes, and local
+    /// minima beside these kinks.
     pub(crate) fn best(&self) -> Result<Minimum, FitError> {
         let count = self.definition.unknowns.len();
         let mut starts = (0..=STARTS * count)
@@ -282,16 +287,17 @@ pub(crate) struct Minimum {
     pub(crate) scaled: Vec<f64>,
 }
 
-/// Residuals over all unknowns, or all but one that is fixed.
+/// Residuals as a function of all unknowns, or of all unknowns except a fixed one.
 struct Slice<'r, 'a> {
     residuals: &'r Residuals<'a>,
+    /// Index and scaled value of the fixed unknown.
     fixed: Option<(usize, f64)>,
     lower: Vec<f64>,
     upper: Vec<f64>,
 }
 
 impl Slice<'_, '_> {
-    /// Returns all unknowns for given free ones.
+    /// Returns all scaled unknowns: the free ones, with the fixed one inserted.
     fn all(&self, free: &[f64]) -> Vec<f64> {
         let mut all = free.to_vec();
         if let Some((j, value)) = self.fixed {
@@ -303,7 +309,7 @@ impl Slice<'_, '_> {
 
 /// Returns point `k` of Roberts's R sequence, which fills the unit cube.
 ///
-/// Point 0 is the centre.
+/// `count` is the dimension. Point 0 is the centre of the cube.
 fn filling(k: usize, count: usize) -> Vec<f64> {
     let root = (0..40).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / (count as f64 + 1.0)));
     (0..count).map(|j| (0.5 + k as f64 * root.powi(-(j as i32 + 1))).fract()).collect()
@@ -330,8 +336,8 @@ impl Jacobian for &Slice<'_, '_> {
                 .filter(|j| self.fixed.is_none_or(|(fixed, _)| *j != fixed))
                 .map(|j| self.residuals.column(&model, j))
                 .collect(),
-            // A zero gradient ends the search. Only starts can be unsolvable: the solver takes no
-            // step to a worse point.
+            // A zero gradient ends the search. Only a starting point can be unsolvable, because the
+            // Levenberg–Marquardt solver takes no step to a worse point.
             None => vec![vec![0.0; points]; free.len()],
         };
         let rows = (0..points).flat_map(|i| columns.iter().map(move |column| column[i]));

@@ -1,4 +1,4 @@
-//! Files that are written atomically.
+//! Files that are written atomically: they appear under their names only when complete.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -10,7 +10,7 @@ use text::reason;
 use crate::digest::digits;
 use crate::partial_file::{PartialFile, remove_abandoned_files};
 
-/// A file or folder that cannot be written.
+/// Error: a file or folder cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot be written ({reason}), {advice}", path.display())]
 pub struct OutputError {
@@ -46,7 +46,7 @@ impl OutputError {
 
     /// Creates the error for a journal that cannot be written.
     pub fn journal(path: &Path, error: &io::Error) -> Self {
-        let advice = "check free space; --resume then goes on with the run";
+        let advice = "check free space, then continue with --resume";
         Self { path: path.to_owned(), reason: reason(error), advice }
     }
 }
@@ -80,7 +80,7 @@ impl AtomicFile {
     ///
     /// # Errors
     ///
-    /// If it cannot be written to the disk.
+    /// If the file cannot be written to the disk or renamed.
     pub fn finish(self) -> Result<String, OutputError> {
         let moved = self.partial.move_to(&self.path);
         moved.map_err(|error| OutputError::file(&self.path, &error))?;
@@ -100,24 +100,22 @@ impl Write for AtomicFile {
     }
 }
 
-/// Creates `folder` and its parents, and removes abandoned partial files.
-///
-/// Such files remain from killed processes.
+/// Creates `folder` and its parents, and removes partial files that killed processes left there.
 ///
 /// # Errors
 ///
-/// If it cannot be created.
+/// If the folder cannot be created.
 pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(folder).map_err(|error| OutputError::folder(folder, &error))?;
     remove_abandoned_files(folder);
     Ok(())
 }
 
-/// Reads the text file at `path`; refuses pipes and devices, which may never end.
+/// Reads the text file at `path`.
 ///
 /// # Errors
 ///
-/// If it cannot be read or is not a regular file.
+/// If the file cannot be read, or is a pipe or device: reading these may never end.
 pub fn read_text(path: &Path) -> io::Result<String> {
     if fs::metadata(path)?.is_file() {
         fs::read_to_string(path)
@@ -126,11 +124,11 @@ pub fn read_text(path: &Path) -> io::Result<String> {
     }
 }
 
-/// Writes `text` as the file `name` in `folder`; returns its SHA-256.
+/// Writes `text` to the file `name` in `folder`, and returns the SHA-256 of `text`.
 ///
 /// # Errors
 ///
-/// If it cannot be written.
+/// If the file cannot be written.
 pub fn write_text(folder: &Path, name: &str, text: &str) -> Result<String, OutputError> {
     let mut file = AtomicFile::create(folder, name)?;
     let written = file.write_all(text.as_bytes());
@@ -138,9 +136,9 @@ pub fn write_text(folder: &Path, name: &str, text: &str) -> Result<String, Outpu
     file.finish()
 }
 
-/// Synchronises the renames in `folder` to the disk.
+/// Flushes the names of the files in `folder` to the disk.
 pub fn sync_folder(folder: &Path) {
-    // Not all systems support this; the files themselves are already on the disk.
+    // Ignore errors: not all systems can flush a folder, and the files are already on the disk.
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
 }
 
@@ -149,7 +147,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_unfinished_file_does_not_replace_the_old_one() {
+    fn unfinished_file_does_not_replace_the_existing_file() {
         let folder = tempfile::tempdir().expect("a folder");
         write_text(folder.path(), "x.csv", "old").expect("writable");
         let mut file = AtomicFile::create(folder.path(), "x.csv").expect("writable");
@@ -160,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn two_writers_of_one_file_do_not_interfere() {
+    fn concurrent_writers_of_one_file_do_not_interfere() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut files = ["one", "other"].map(|text| {
             let mut file = AtomicFile::create(folder.path(), "x.csv").expect("writable");

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 
 use sha2::{Digest as _, Sha256};
 
-/// Number of bytes read at a time.
+/// Number of bytes in each read from a source.
 const PIECE: usize = 1 << 16;
 
 /// Returns the SHA-256 of `bytes`.
@@ -17,7 +17,7 @@ pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
 ///
 /// # Errors
 ///
-/// If it cannot be read.
+/// If `source` cannot be read.
 pub fn sha256_of(mut source: impl Read) -> io::Result<String> {
     let (mut hasher, mut piece) = (Sha256::new(), vec![0; PIECE]);
     loop {
@@ -30,7 +30,7 @@ pub fn sha256_of(mut source: impl Read) -> io::Result<String> {
     }
 }
 
-/// Returns the digest of `hasher` in hexadecimal digits.
+/// Returns the digest of `hasher` as lower-case hexadecimal digits.
 pub(crate) fn digits(hasher: Sha256) -> String {
     let mut text = String::new();
     for byte in hasher.finalize() {
@@ -44,9 +44,9 @@ pub(crate) fn digits(hasher: Sha256) -> String {
 mod tests {
     use super::*;
 
-    /// The example of one block in FIPS 180-4.
+    /// Tests the example of a message with one block for FIPS 180-4.
     #[test]
-    fn the_digest_matches_the_published_example() {
+    fn sha256_matches_the_published_example() {
         let known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
         assert_eq!(sha256("abc"), known);
         assert_eq!(sha256_of("abc".as_bytes()).expect("text"), known);

@@ -1,12 +1,12 @@
-//! Errors about unusable journals.
+//! Error type for journals that cannot be used.
 
 use std::path::PathBuf;
 
 use crate::atomic_file::OutputError;
 
-/// A journal that cannot be used.
+/// Error: a journal cannot be used.
 ///
-/// Each message is one line that states the expected input.
+/// Each message is one line, and states the expected input or the remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     /// The folder already holds results.
@@ -17,7 +17,7 @@ pub enum JournalError {
     Holds {
         /// Folder.
         folder: PathBuf,
-        /// Name of these results.
+        /// Name of the results in the folder.
         what: &'static str,
     },
     /// The folder holds tables without a journal.
@@ -25,10 +25,10 @@ pub enum JournalError {
     NoJournal {
         /// Folder.
         folder: PathBuf,
-        /// First of these files.
+        /// Name of the first table.
         file: String,
     },
-    /// There is no journal.
+    /// The folder contains no journal.
     #[error("{}: holds no journal, expected the folder of a run", .0.display())]
     Missing(PathBuf),
     /// Another process is writing to the journal.
@@ -37,14 +37,14 @@ pub enum JournalError {
     /// The path is not a regular file.
     #[error("{}: is not a regular file, expected a journal that squama writes", .0.display())]
     NoFile(PathBuf),
-    /// A line was changed and sealed again.
-    #[error("{}: {line} differs from {table}, which was written from it, so one of its lines was changed; restore the journal, or solve everything again {again}", path.display())]
+    /// A line was edited, and its checksum was adapted.
+    #[error("{}: {line} differs from {table}, which was written from the journal, so a line of the journal was changed; restore the journal, or solve everything again {again}", path.display())]
     Edited {
         /// Path of the journal.
         path: PathBuf,
         /// Design or point of the first changed line.
         line: String,
-        /// Name of the table.
+        /// Name of the table that was written from the journal.
         table: String,
         /// Advice on how to solve everything again.
         again: &'static str,
@@ -54,7 +54,7 @@ pub enum JournalError {
     LinesLost {
         /// Path of the journal.
         path: PathBuf,
-        /// Number of missing lines and number of expected lines, in words.
+        /// Text with the number of missing lines and the number of expected lines.
         lost: String,
     },
     /// The journal cannot be read.
@@ -65,7 +65,7 @@ pub enum JournalError {
         /// Error message of the system.
         reason: String,
     },
-    /// A line before the last intact one is damaged.
+    /// A line before the last intact line is damaged.
     #[error("{}:{line}: damaged line ({problem}); restore the line, or remove line {line} to solve its design again", path.display())]
     Damaged {
         /// Path of the journal.
@@ -76,7 +76,7 @@ pub enum JournalError {
         problem: String,
     },
     /// The first line is damaged.
-    #[error("{}:1: not the first line of a journal ({problem}); restore it, or use --fresh to discard everything", path.display())]
+    #[error("{}:1: not the first line of a journal ({problem}); restore the line, or use --fresh to discard all results", path.display())]
     NoHeader {
         /// Path of the journal.
         path: PathBuf,
@@ -84,7 +84,7 @@ pub enum JournalError {
         problem: String,
     },
     /// The journal has the format of another version of the program.
-    #[error("{}:1: a journal of format {found}, this squama reads format {expected}; squama {by} wrote it and still reads it; --fresh or another folder with --out DIR solves everything again", path.display())]
+    #[error("{}:1: a journal of format {found}, but this squama reads format {expected}; use squama {by}, which wrote the journal, or solve everything again with --fresh or in another folder with --out DIR", path.display())]
     OtherFormat {
         /// Path of the journal.
         path: PathBuf,
@@ -92,7 +92,7 @@ pub enum JournalError {
         found: u64,
         /// Format that this program reads.
         expected: u64,
-        /// Name and version of the program that wrote the journal.
+        /// Version and revision of the program that wrote the journal.
         by: String,
     },
     /// The journal has another definition, subset of designs or program.
@@ -102,7 +102,7 @@ pub enum JournalError {
         path: PathBuf,
         /// Description of the difference.
         difference: String,
-        /// Expected values.
+        /// Text that states the expected values or the remedy.
         expected: &'static str,
     },
     /// The journal cannot be written.

@@ -13,10 +13,12 @@ use crate::digest::sha256;
 use crate::error::JournalError;
 use crate::seal::Seal;
 
-/// Format of journals: 2 has typed results, 1 had rows of text.
+/// Current format of journals.
+///
+/// Format 1 stored results as rows of text. Format 2 stores typed results.
 const FORMAT: u64 = 2;
 
-/// The program that wrote a journal.
+/// Version and source revision of the program that wrote a journal.
 #[derive(Clone, Copy, Debug)]
 pub struct Program {
     /// Version of the program.
@@ -25,9 +27,9 @@ pub struct Program {
     pub revision: &'static str,
 }
 
-/// Subset of the designs in a journal.
+/// Requirements on the type that states which designs a journal contains.
 ///
-/// It is written to the header and shown in messages.
+/// The subset of the designs is written to the header and shown in messages.
 pub trait Designs: Clone + Default + Display + PartialEq + Serialize + DeserializeOwned {}
 
 impl<D: Clone + Default + Display + PartialEq + Serialize + DeserializeOwned> Designs for D {}
@@ -36,7 +38,7 @@ impl<D: Clone + Default + Display + PartialEq + Serialize + DeserializeOwned> De
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound(deserialize = "D: Designs"))]
 pub struct JournalHeader<D> {
-    /// Format of the lines.
+    /// Number of the format of the lines.
     format: u64,
     /// Version of the program.
     version: String,
@@ -47,7 +49,7 @@ pub struct JournalHeader<D> {
     /// Subset of the designs.
     #[serde(default)]
     subset: D,
-    /// Complete definition.
+    /// Complete text of the definition.
     definition: String,
 }
 
@@ -64,12 +66,16 @@ impl<D: Designs> JournalHeader<D> {
         }
     }
 
-    /// Returns the first line of a journal, including its line end, with the header under `key`.
+    /// Returns the first line of a journal, including its line end.
+    ///
+    /// The line is a JSON object that contains the header under `key`.
     pub(crate) fn line(&self, key: &str) -> Vec<u8> {
         Seal::default().seal(&BTreeMap::from([(key, self)]))
     }
 
-    /// Parses the first line of the journal at `path`, with the header under `key`.
+    /// Parses `bytes`, the first line of the journal at `path`.
+    ///
+    /// The line is a JSON object that contains the header under `key`.
     pub(crate) fn read(bytes: &mut [u8], key: &str, path: &Path) -> Result<Self, JournalError> {
         let refuse = |problem: String| JournalError::NoHeader { path: path.to_owned(), problem };
         let object = Seal::default().open(bytes).map_err(refuse)?;
@@ -83,22 +89,22 @@ impl<D: Designs> JournalHeader<D> {
         header.ok_or_else(|| refuse("expected the header that squama writes".to_owned()))
     }
 
-    /// Returns the seal of the lines after the first.
+    /// Returns the seal that computes the checksums of all lines after the header.
     pub fn seal(&self) -> Seal {
         Seal::over(&[&self.definition_sha256, &self.version, &self.revision])
     }
 
-    /// Returns the SHA-256 of definition, designs and program together.
+    /// Returns one SHA-256 of definition, subset of the designs and program.
     pub fn digest(&self) -> String {
         sha256(format!("{} {}\n{}\n{}", self.version, self.revision, self.subset, self.definition))
     }
 
-    /// Returns the complete definition.
+    /// Returns the complete text of the definition.
     pub fn definition(&self) -> &str {
         &self.definition
     }
 
-    /// Returns true if the checksum matches the definition.
+    /// Returns true if the SHA-256 in the header matches the definition.
     fn is_sound(&self) -> bool {
         self.definition_sha256 == sha256(&self.definition)
     }
@@ -113,24 +119,23 @@ impl<D: Designs> JournalHeader<D> {
         &self.definition_sha256
     }
 
-    /// Returns version and revision of the program.
+    /// Returns version and revision of the program, e.g. "1.0.0 (abc123)".
     pub fn program(&self) -> String {
         format!("{} ({})", self.version, self.revision)
     }
 
-    /// Returns the header of the same journal for another subset of the designs.
+    /// Returns this header with another subset of the designs.
     #[must_use]
     pub fn with_subset(self, subset: D) -> Self {
         Self { subset, ..self }
     }
 
-    /// Requires that the journal at `path` has the header `wanted`.
-    ///
-    /// The error message states `expected`.
+    /// Checks that this header of the journal at `path` equals the header `wanted`.
     ///
     /// # Errors
     ///
-    /// If program, definition or subset differ.
+    /// If program, definition or subset differ. The message contains the difference and the text
+    /// `expected`.
     pub fn require(
         &self,
         wanted: &Self,
@@ -143,7 +148,7 @@ impl<D: Designs> JournalHeader<D> {
         })
     }
 
-    /// Describes the difference between `wanted` and this header.
+    /// Describes the first difference between this header and `wanted`; `None` if they are equal.
     fn difference(&self, wanted: &Self) -> Option<String> {
         if self.program() != wanted.program() {
             let (here, there) = (self.program(), wanted.program());
@@ -153,15 +158,17 @@ impl<D: Designs> JournalHeader<D> {
             let changes = changes(&self.definition, &wanted.definition);
             return Some(format!("has another definition: {changes}"));
         }
-        // The format and the digest were checked when the header was read.
+        // No need to compare format and SHA-256: `read` has checked them.
         (self.subset != wanted.subset)
             .then(|| format!("contains {} instead of {}", self.subset, wanted.subset))
     }
 }
 
-/// Returns format and program of a first line if its format is another one.
+/// Returns format and program of a journal if its format is not the current one.
 ///
-/// In format 1, searches stated format and program side by side.
+/// `object` is the first line of the journal, with the header under `key`. In format 1 the first
+/// line of a search contained the number of the format under `key`, and the program under
+/// `program`.
 fn other_format(object: &[u8], key: &str) -> Option<(u64, String)> {
     let line: serde_json::Value = serde_json::from_slice(object).ok()?;
     let header = line.get(key)?;
@@ -175,7 +182,7 @@ fn other_format(object: &[u8], key: &str) -> Option<(u64, String)> {
     (found != FORMAT).then_some((found, program))
 }
 
-/// Lists the keys in which two definitions differ.
+/// Lists the keys in which the definition of a journal, `here`, differs from `there`.
 fn changes(here: &str, there: &str) -> String {
     let (here, there) = (keys(here), keys(there));
     let names: BTreeSet<_> = here.keys().chain(there.keys()).collect();
@@ -186,7 +193,7 @@ fn changes(here: &str, there: &str) -> String {
     changes.collect::<Vec<_>>().join("; ")
 }
 
-/// Returns the dotted keys of a definition with their values.
+/// Returns the values of a definition by dotted key, e.g. `designs.gap_over_t`.
 fn keys(definition: &str) -> BTreeMap<String, String> {
     let mut keys = BTreeMap::new();
     for entry in toml_source::parse(definition, "").unwrap_or_default() {

@@ -1,12 +1,15 @@
 //! Journals that are open for writing.
 //!
 //! Each line is written with one system call before its result counts as done, so a killed process
-//! loses only the designs in progress. The file is synchronised to the disk once a second and at
-//! the end, so a power failure costs about a second of work. A torn end is copied to a file, cut
-//! off and solved again. A damaged line before intact ones is an error, because lines after it may
-//! be missing.
+//! loses only the designs in progress. The journal is flushed to the disk once a second and at the
+//! end, so a power failure costs about a second of work.
 //!
-//! The file is locked before it is read and while it is written. The lock ends with its process.
+//! Damaged lines at the end of a journal come from a crash. They are copied to another file and cut
+//! off, and their designs are solved again. A damaged line before an intact line is an error,
+//! because more lines may be missing there.
+//!
+//! A writer locks the journal before reading and as long as the file is open. The system releases
+//! the lock when the process ends.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Write as _};
@@ -20,29 +23,31 @@ use crate::header::JournalHeader;
 use crate::reader::{Records, intact, require_file};
 use crate::tail;
 
-/// Interval between synchronisations to the disk.
+/// Time between two flushes of the journal to the disk.
 ///
-/// A power failure costs this much work; each synchronisation takes about ten milliseconds.
+/// A power failure costs this much work. A flush takes about ten milliseconds.
 const SYNC: Duration = Duration::from_secs(1);
 
-/// Maximum time to wait for a lock. Readers hold a lock only briefly.
+/// Maximum time to wait for a lock.
+///
+/// A process that only checks whether the journal is in use holds a lock for a moment.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Advice if an existing journal has another definition, subset of designs or program.
+/// Expectation, in the error message, if definition, subset or program of the journal differ.
 const ADVICE: &str = "no difference, or --fresh to discard the results";
 
-/// Treatment of existing results.
+/// States whether to continue, refuse or discard existing results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
-    /// Starts anew; refuses if there are results.
+    /// Starts a new journal. Existing results are an error.
     #[default]
     New,
-    /// Continues from existing results if definition, designs and program are the same.
+    /// Continues from existing results. Another definition, subset or program is an error.
     ///
-    /// Lines with a valid checksum are trusted. An incomplete last line is cut off, and its design
-    /// is solved again. A damaged line before intact lines is an error.
+    /// Lines with a valid checksum are trusted. Damaged lines at the end are cut off, and their
+    /// designs are solved again. A damaged line before an intact line is an error.
     Resume,
-    /// Discards existing results.
+    /// Discards existing results and starts a new journal.
     Fresh,
 }
 
@@ -52,19 +57,21 @@ pub struct Journal<R> {
     records: R,
     path: PathBuf,
     file: File,
-    /// Number of intact bytes.
+    /// Length of the intact lines, in bytes.
     length: u64,
+    /// Time of the last flush to the disk.
     synced: Instant,
     /// Messages about lines that were cut off or lost.
     notes: Vec<String>,
 }
 
 impl<R: Records> Journal<R> {
-    /// Creates or continues the journal at `path` for the work in `header`.
+    /// Creates or continues the journal at `path` with this `header`.
     ///
     /// # Errors
     ///
-    /// If the journal is in use, is damaged, has another header, or exists and `start` is `New`.
+    /// If the journal is in use, is damaged, or has another header, or if it contains results and
+    /// `start` is `New`.
     pub fn begin(
         path: &Path,
         header: JournalHeader<R::Designs>,
@@ -90,11 +97,11 @@ impl<R: Records> Journal<R> {
         }
     }
 
-    /// Continues the existing journal at `path` with any definition.
+    /// Continues the existing journal at `path`, whatever its header is.
     ///
     /// # Errors
     ///
-    /// If there is no journal, or it is in use or damaged.
+    /// If the journal is missing, in use or damaged.
     pub fn resume(path: &Path) -> Result<Self, JournalError> {
         let missing = || JournalError::Missing(folder(path));
         if !path.exists() {
@@ -105,14 +112,16 @@ impl<R: Records> Journal<R> {
         Self::at_end(records, length, path, file)
     }
 
-    /// Copies the bytes after `length` to a file, cuts them off and opens the journal.
+    /// Opens an existing journal, and cuts it off after `length` bytes.
+    ///
+    /// The bytes that are cut off are first copied to another file.
     fn at_end(records: R, length: u64, path: &Path, file: File) -> Result<Self, JournalError> {
         let notes = tail::keep(path, length)?.into_iter().collect();
         file.set_len(length).map_err(|error| OutputError::file(path, &error))?;
         Ok(Self { records, path: path.to_owned(), file, length, synced: Instant::now(), notes })
     }
 
-    /// Creates an empty journal with its first line.
+    /// Creates a journal that contains only the header.
     fn create(
         path: &Path,
         mut file: File,
@@ -137,17 +146,17 @@ impl<R: Records> Journal<R> {
         &self.notes
     }
 
-    /// Adds a note about the journal for the user.
+    /// Adds a message for the user to [`Self::notes`].
     pub fn note(&mut self, note: String) {
         self.notes.push(note);
     }
 
-    /// Returns the content so far.
+    /// Returns the content of all lines so far.
     pub fn records(&self) -> &R {
         &self.records
     }
 
-    /// Appends a line; its result then counts as done.
+    /// Appends a line. If this succeeds, the result in the line counts as done.
     ///
     /// # Errors
     ///
@@ -155,18 +164,18 @@ impl<R: Records> Journal<R> {
     pub fn append(&mut self, line: R::Line) -> Result<(), OutputError> {
         let bytes = self.records.header().seal().seal(&line);
         if let Err(error) = self.file.write_all(&bytes) {
-            // Removes a partial line at once; otherwise the next reader would cut it off.
+            // Remove a partly written line immediately, so that later lines do not follow it.
             let _ = self.file.set_len(self.length);
             return Err(OutputError::journal(&self.path, &error));
         }
         let begin = self.length;
         self.length += bytes.len() as u64;
-        // The line is in the file even if it is not accepted here; the next reader reports it.
+        // Ignore an invalid line: it is already in the file, and the next reader reports it.
         let _ = self.records.take(line, begin..self.length);
         if self.synced.elapsed() > SYNC { self.sync() } else { Ok(()) }
     }
 
-    /// Synchronises the file to the disk.
+    /// Flushes the file to the disk.
     ///
     /// # Errors
     ///
@@ -182,15 +191,16 @@ fn folder(path: &Path) -> PathBuf {
     path.parent().unwrap_or(path).to_owned()
 }
 
-/// Locks a file or folder until it is closed.
+/// Locks an open file or folder. The lock lasts until `file` is closed.
 ///
-/// Returns false if another process holds the lock.
+/// Waits for a lock of another process for at most `PATIENCE`. Returns false if the other process
+/// still holds its lock then.
 fn locked(file: &File) -> io::Result<bool> {
     let begun = Instant::now();
     loop {
         match file.try_lock() {
             Ok(()) => return Ok(true),
-            // The file system has no locks, so other processes cannot be detected.
+            // The file system does not support locks, so other processes cannot be detected.
             Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
                 return Ok(true);
             }
@@ -203,27 +213,27 @@ fn locked(file: &File) -> io::Result<bool> {
     }
 }
 
-/// Locks a folder while several related files are written.
+/// Locks a folder, so that one process can write several related files.
 ///
-/// Dropping the file releases the lock.
+/// The lock lasts until the returned file is dropped.
 ///
 /// # Errors
 ///
 /// If another process writes there, or the folder cannot be opened.
 pub fn lock_folder(folder: &Path) -> Result<File, OutputError> {
     let file = File::open(folder).map_err(|error| OutputError::folder(folder, &error))?;
-    // Some systems cannot lock folders. Each file is then complete, but files of two writers may
-    // mix.
+    // Ignore errors: some systems cannot lock folders. Then two processes may both write files to
+    // the folder, but each file is complete.
     if locked(&file).unwrap_or(true) { Ok(file) } else { Err(OutputError::in_use(folder)) }
 }
 
-/// Opens or creates the journal at `path`, and locks it until it is closed.
+/// Opens or creates the journal at `path`, and locks it until the returned file is dropped.
 ///
 /// # Errors
 ///
-/// If it is not a regular file, cannot be opened, or another process writes to it.
+/// If the journal is not a regular file, cannot be opened, or is locked by another process.
 pub fn lock_journal(path: &Path) -> Result<File, JournalError> {
-    // A link may point to a file that squama did not write.
+    // Refuse symbolic links: they may point to a file that squama did not write.
     if path.is_symlink() {
         return Err(JournalError::NoFile(path.to_owned()));
     }

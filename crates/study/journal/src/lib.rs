@@ -1,23 +1,24 @@
 //! Crash-safe files: append-only journals, and files that are written atomically.
 //!
-//! The results of runs, searches and sampling are stored in journals of this format. One process at
-//! a time appends lines.
+//! Runs, searches and tolerance analyses store their results in journals of this format. A journal
+//! is a file of JSON lines. Only one process at a time may append lines to a journal.
 //!
 //! ```text
 //! header ─► {"crc":"…","journal":{format, version, revision, definition}}     the first line
 //! line   ─► {"crc":"…", …}                                                    a result
 //! ```
 //!
-//! The checksum of a line includes the header, so lines of another journal count as damaged.
+//! The checksum of a result line also covers definition and program in the header. A line copied
+//! from the journal of another definition or program is therefore detected as damaged.
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Journal`] | a journal open for writing: locked, and synchronised once a second |
-//! | [`Records`], [`read`] | content of the lines, and reading without a lock |
+//! | [`Journal`] | a journal open for writing: locked, and flushed to disk once a second |
+//! | [`Records`], [`read`] | content of the lines, and a function that reads it without a lock |
 //! | [`JournalHeader`], [`Designs`], [`Program`] | definition, designs and program of a journal |
-//! | [`Start`] | treatment of an existing journal |
+//! | [`Start`] | states whether to continue, refuse or discard an existing journal |
 //! | [`Seal`], [`Windows`] | checksum of a line, and random access to lines |
-//! | [`JournalError`], [`OutputError`] | unusable journals and unwritable files |
+//! | [`JournalError`], [`OutputError`] | errors: unusable journals and unwritable files |
 //! | [`AtomicFile`], [`write_text`] | files that appear only when complete, with their SHA-256 |
 
 mod atomic_file;

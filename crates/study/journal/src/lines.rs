@@ -1,13 +1,13 @@
-//! Splits a journal into lines, with a limit on the memory of each.
+//! Splits a journal into lines of limited length.
 
 use std::io::{self, BufRead, Read as _};
 
-/// Maximum length of a line.
+/// Maximum length of a line in bytes.
 ///
-/// A definition with a million values takes a third of it.
+/// The header of a definition with a million values has a third of this length.
 const LONGEST: u64 = 1 << 26;
 
-/// The lines of a source, including their line ends.
+/// Reader that returns the lines of a source one after the other, including their line ends.
 pub(crate) struct Lines<R> {
     source: R,
     bytes: Vec<u8>,
@@ -26,13 +26,15 @@ impl<R: BufRead> Lines<R> {
         self.number
     }
 
-    /// Returns true if the source begins with `bytes`, or ends within them.
+    /// Returns true if the source begins with `bytes`, or is shorter and a prefix of `bytes`.
     pub fn begin_with(&mut self, bytes: &[u8]) -> io::Result<bool> {
         let head = self.source.fill_buf()?;
         Ok(head.starts_with(bytes) || bytes.starts_with(head))
     }
 
-    /// Reads the next line. A line that is too long is returned without its end.
+    /// Reads the next line; returns `None` at the end of the source.
+    ///
+    /// For a line longer than `LONGEST` an empty slice is returned.
     pub fn next(&mut self) -> io::Result<Option<&mut [u8]>> {
         self.bytes.clear();
         let read = self.piece()?;
@@ -43,7 +45,7 @@ impl<R: BufRead> Lines<R> {
         Ok((read > 0).then_some(self.bytes.as_mut_slice()))
     }
 
-    /// Skips the rest of a line that is too long.
+    /// Skips the rest of a line that is too long, and clears the buffer.
     fn pass_over(&mut self) -> io::Result<()> {
         loop {
             self.bytes.clear();
@@ -54,6 +56,9 @@ impl<R: BufRead> Lines<R> {
         }
     }
 
+    /// Appends bytes to the buffer up to the next line end, at most `LONGEST`.
+    ///
+    /// Returns the number of bytes read.
     fn piece(&mut self) -> io::Result<usize> {
         (&mut self.source).take(LONGEST).read_until(b'\n', &mut self.bytes)
     }

@@ -1,9 +1,9 @@
-//! Partial files: the temporary form of an atomic file.
+//! Partial files: the temporary form of atomic files.
 //!
 //! A partial file has a unique name, `.NAME.squama-PROCESS-COUNT.partial`, and must not exist
-//! before, so neither a file of another process nor the target of a link is overwritten. It is
-//! locked while its process lives, which distinguishes it from files that killed processes left. A
-//! process that is ended by a signal removes its own partial files.
+//! before. So no file of another process is overwritten, and no target of a link. A partial file is
+//! locked as long as its process runs, so an unlocked partial file was left by a killed process. A
+//! process that is stopped by a signal removes its own partial files.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -12,21 +12,24 @@ use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Maximum number of names that are tried.
+/// Maximum number of names for one partial file.
+///
+/// The next name is used if a file of a name exists.
 const ATTEMPTS: usize = 100;
 
 /// Number of partial files that this process has created.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-/// Existing partial files of this process.
+/// Paths of the existing partial files of this process.
 static PRESENT: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
+/// Locks and returns the paths of the existing partial files of this process.
 fn present() -> MutexGuard<'static, Vec<PathBuf>> {
     // A panic cannot leave a list of paths inconsistent.
     PRESENT.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file that is removed unless it is renamed to its final path.
+/// Temporary file that is removed when dropped, unless it was renamed to its final path.
 #[derive(Debug)]
 pub(crate) struct PartialFile {
     path: PathBuf,
@@ -34,7 +37,7 @@ pub(crate) struct PartialFile {
 }
 
 impl PartialFile {
-    /// Creates a partial file for the file `name` in `folder`.
+    /// Creates an empty partial file for the file `name` in `folder`.
     pub fn create(folder: &Path, name: &str) -> io::Result<Self> {
         let mut present = present();
         for _ in 0..ATTEMPTS {
@@ -42,9 +45,9 @@ impl PartialFile {
             let path = folder.join(format!(".{name}.squama-{}-{count}.partial", process::id()));
             match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Ok(file) => {
-                    // Some file systems have no locks.
+                    // Ignore errors: some file systems do not support locks.
                     let _ = file.lock();
-                    // Another process may have removed it as abandoned before it was locked.
+                    // Before the lock, another process may have removed the file as abandoned.
                     if path.exists() {
                         present.push(path.clone());
                         return Ok(Self { path, file });
@@ -62,7 +65,7 @@ impl PartialFile {
         &mut self.file
     }
 
-    /// Synchronises the file to the disk and renames it to `path`.
+    /// Flushes the file to the disk and renames it to `path`.
     pub fn move_to(self, path: &Path) -> io::Result<()> {
         self.file.sync_all()?;
         fs::rename(&self.path, path)
@@ -72,7 +75,7 @@ impl PartialFile {
 impl Drop for PartialFile {
     fn drop(&mut self) {
         let mut present = present();
-        // Fails if the file was renamed.
+        // Ignore errors: the file no longer exists if it was renamed.
         let _ = fs::remove_file(&self.path);
         present.retain(|path| *path != self.path);
     }
@@ -84,7 +87,7 @@ pub fn exit_without_partial_files(code: i32) -> ! {
     for path in present.iter() {
         let _ = fs::remove_file(path);
     }
-    // The list stays locked, so that no other thread can create a partial file.
+    // Keep the list locked, so that no other thread can create a partial file.
     process::exit(code)
 }
 
@@ -97,6 +100,7 @@ pub fn remove_abandoned_files(folder: &Path) {
     paths.filter(|path| is_partial(path)).for_each(|path| remove_abandoned(&path));
 }
 
+/// Removes the partial file at `path` unless a running process has locked it.
 fn remove_abandoned(path: &Path) {
     let is_file = fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_file());
     let Some(file) = is_file.then(|| File::open(path).ok()).flatten() else { return };
@@ -105,7 +109,7 @@ fn remove_abandoned(path: &Path) {
     }
 }
 
-/// Returns true if the name of `path` has the form of [`PartialFile::create`].
+/// Returns true if the file at `path` has a name as created by [`PartialFile::create`].
 fn is_partial(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let parts = name.strip_prefix('.').and_then(|name| name.strip_suffix(".partial"));
@@ -137,7 +141,7 @@ mod tests {
         let ours = PartialFile::create(folder.path(), "x.csv").expect("writable");
         assert_eq!(names().len(), 5);
         remove_abandoned_files(folder.path());
-        assert_eq!(names().len(), 4, "one was abandoned");
+        assert_eq!(names().len(), 4, "only the unlocked partial file is removed");
         drop(ours);
         assert_eq!(names(), strangers);
     }
@@ -148,7 +152,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let target = folder.path().join("target");
         fs::write(&target, "a stranger's").expect("writable");
-        // The names of the next partial files of this process.
+        // Create links with the names of the next partial files of this process.
         let next = COUNT.load(Ordering::Relaxed);
         for count in next..next + 50 {
             let name = format!(".x.squama-{}-{count}.partial", process::id());

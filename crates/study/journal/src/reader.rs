@@ -1,4 +1,4 @@
-//! Reads journals.
+//! Reads journals, and detects damaged lines.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
@@ -14,35 +14,36 @@ use crate::header::{Designs, JournalHeader};
 use crate::lines::Lines;
 use crate::seal::BEFORE;
 
-/// The content of a journal, built line by line.
+/// Content of a journal. Each kind of journal implements this trait.
 pub trait Records: Sized {
-    /// The content of a line after the first.
+    /// Content of a line after the header.
     type Line: Serialize + DeserializeOwned;
 
-    /// Type of the subset of designs that the header states.
+    /// Type of the subset of the designs in the header.
     type Designs: Designs;
 
-    /// Key of the header in the first line.
+    /// Key of the header in the JSON object of the first line.
     const KEY: &'static str;
 
-    /// Creates empty records for a header.
+    /// Creates the records of a journal that contains only this `header`.
     ///
-    /// The header takes the first `length` bytes of the file at `path`.
+    /// The header occupies the first `length` bytes of the file at `path`.
     ///
     /// # Errors
     ///
-    /// If the header is not valid, with the problem.
+    /// If the header is not valid. The error describes the problem.
     fn begin(
         header: JournalHeader<Self::Designs>,
         length: u64,
         path: &Path,
     ) -> Result<Self, String>;
 
-    /// Adds the line at these bytes of the file.
+    /// Adds a line, which occupies the byte range `bytes` of the file.
     ///
     /// # Errors
     ///
-    /// If the line does not belong there, with the problem; it then counts as damaged.
+    /// If the line does not fit the lines before it. The error describes the problem, and the line
+    /// counts as damaged.
     fn take(&mut self, line: Self::Line, bytes: Range<u64>) -> Result<(), String>;
 
     /// Returns the header.
@@ -52,7 +53,7 @@ pub trait Records: Sized {
     fn is_empty(&self) -> bool;
 }
 
-/// Reads the journal at `path` without locking it, so its writer may continue.
+/// Reads the journal at `path` without a lock, so another process may write to it.
 ///
 /// Returns `None` if the first line is incomplete.
 ///
@@ -76,13 +77,15 @@ pub fn read_from<R: Records>(source: impl BufRead, path: &Path) -> Result<Option
 
 /// Reads the journal at `path`.
 ///
-/// Returns its records and the number of intact bytes, or `None` if the first line is incomplete.
+/// Returns the records and the length of the intact lines in bytes. Returns `None` if the first
+/// line is incomplete.
 pub(crate) fn intact<R: Records>(path: &Path) -> Result<Option<(R, u64)>, JournalError> {
     require_file(path)?;
     let file = File::open(path).map_err(|error| unreadable(path, &error))?;
     intact_from(BufReader::with_capacity(1 << 16, file), path)
 }
 
+/// Reads a journal from `source`, like [`intact`]; `path` is used in messages.
 fn intact_from<R: Records>(
     source: impl BufRead,
     path: &Path,
@@ -94,7 +97,7 @@ fn intact_from<R: Records>(
         return Err(JournalError::NoHeader { path: path.to_owned(), problem });
     }
     let first = lines.next().map_err(io)?;
-    // A writer that was killed while writing the first line left no results.
+    // An incomplete first line is no error: its writer was killed before it had any results.
     let Some(first) = first.filter(|bytes| bytes.ends_with(b"\n")) else { return Ok(None) };
     let mut length = first.len() as u64;
     let header = JournalHeader::read(first, R::KEY, path)?;
@@ -107,9 +110,10 @@ fn intact_from<R: Records>(
         let taken = seal.read(bytes).and_then(|line| records.take(line, length..end));
         match (taken, damage.take()) {
             (Ok(()), None) => length = end,
-            // Lines may be missing after a damaged one.
+            // An intact line follows a damaged line, so more lines may be missing between them.
             (Ok(()), Some(damage)) => return Err(damage),
-            // Damaged lines at the end were torn by a crash; the next writer cuts them off.
+            // Damaged lines at the end of the file come from a crash; the next writer cuts them
+            // off.
             (Err(_), Some(first)) => damage = Some(first),
             (Err(problem), None) => {
                 let (path, line) = (path.to_owned(), lines.number());
@@ -125,7 +129,7 @@ fn unreadable(path: &Path, error: &io::Error) -> JournalError {
     JournalError::Unreadable { path: path.to_owned(), reason: reason(error) }
 }
 
-/// Refuses pipes, devices and folders, because opening one may never return.
+/// Refuses pipes, devices and folders, because opening a pipe may block forever.
 pub(crate) fn require_file(path: &Path) -> Result<(), JournalError> {
     match path.metadata() {
         Ok(metadata) if !metadata.is_file() => Err(JournalError::NoFile(path.to_owned())),

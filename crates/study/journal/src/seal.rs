@@ -1,27 +1,27 @@
-//! Lines with a checksum.
+//! Lines of a journal, each with a checksum.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use text::one_line;
 
-/// Bytes before the checksum of a line.
+/// Bytes before the checksum, at the start of each line.
 pub(crate) const BEFORE: &[u8] = b"{\"crc\":\"";
 /// Bytes between the checksum and the content.
 const AFTER: &[u8] = b"\",";
-/// Number of digits of the checksum.
+/// Number of hexadecimal digits of the checksum.
 const DIGITS: usize = 8;
 
-/// Computes the checksums of the lines of one journal.
+/// Computes and verifies the checksums of the lines of one journal.
 ///
-/// The checksum of every line but the first also covers the first line, so a line of another
-/// journal counts as damaged.
+/// The checksum of each line after the header also covers definition and program in the header. A
+/// line copied from the journal of another definition or program is therefore detected as damaged.
 #[derive(Clone, Debug, Default)]
 pub struct Seal {
     hasher: crc32fast::Hasher,
 }
 
 impl Seal {
-    /// Creates the seal of a journal with these texts in its first line.
+    /// Creates a seal with checksums that also cover `texts` from the header of the journal.
     pub fn over(texts: &[&str]) -> Self {
         let mut hasher = crc32fast::Hasher::new();
         for text in texts {
@@ -30,15 +30,16 @@ impl Seal {
         Self { hasher }
     }
 
+    /// Returns the CRC-32 of the header texts and `content`, as hexadecimal digits.
     fn checksum(&self, content: &[u8]) -> String {
         let mut hasher = self.hasher.clone();
         hasher.update(content);
         format!("{:0DIGITS$x}", hasher.finalize())
     }
 
-    /// Serialises `content`, a struct or a map, as a line including its line end.
+    /// Serialises `content`, a struct or a map, as a line with checksum and line end.
     pub fn seal(&self, content: &impl Serialize) -> Vec<u8> {
-        // Texts, numbers and lists of them can always be serialised.
+        // Serialisation cannot fail: `content` consists of texts, numbers and lists.
         let object = serde_json::to_vec(content).unwrap_or_default();
         let content = object.get(1..).unwrap_or_default();
         [BEFORE, self.checksum(content).as_bytes(), AFTER, content, b"\n"].concat()
@@ -46,11 +47,12 @@ impl Seal {
 
     /// Verifies the checksum of a line and returns its JSON object.
     ///
-    /// CR LF is accepted as line end, because tools that synchronise files write it.
+    /// The line may end with CR LF, because some tools that synchronise files convert line ends.
+    /// The first bytes of the line are overwritten.
     ///
     /// # Errors
     ///
-    /// If the line has no end, or its checksum does not match.
+    /// If the line has no line end, or its checksum does not match.
     pub fn open<'b>(&self, bytes: &'b mut [u8]) -> Result<&'b [u8], String> {
         let [content @ .., b'\n'] = bytes else {
             return Err("it has no end".to_owned());
@@ -66,16 +68,16 @@ impl Seal {
         if !framed {
             return Err("its checksum does not match".to_owned());
         }
-        // Overwrite the end of the checksum with the brace that opens the object.
+        // The JSON object consists of `{` and `rest`. Write the brace over the byte before `rest`.
         content[start - 1] = b'{';
         Ok(&content[start - 1..])
     }
 
-    /// Verifies a line and deserialises its content.
+    /// Verifies the checksum of a line and deserialises its content.
     ///
     /// # Errors
     ///
-    /// See [`Self::open`]; also if the content is not a `T`.
+    /// If the line has no line end, its checksum does not match, or its content is not a `T`.
     pub fn read<T: DeserializeOwned>(&self, bytes: &mut [u8]) -> Result<T, String> {
         let content = serde_json::from_slice(self.open(bytes)?);
         content.map_err(|error| one_line(&error.to_string()))
@@ -97,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_json_and_reads_back() {
+    fn lines_are_json_and_can_be_read_again() {
         let mut bytes = Seal::default().seal(&line());
         let text = "{\"crc\":\"3966396f\",\"coverage\":0.30000000000000004,\"design\":417.0}\n";
         assert_eq!(String::from_utf8_lossy(&bytes), text);
@@ -112,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_of_another_journal_is_damaged() {
+    fn lines_of_another_journal_are_refused() {
         let (own, other) = (Seal::over(&["a"]), Seal::over(&["b"]));
         assert!(own.read::<Line>(&mut other.seal(&line())).is_err());
     }

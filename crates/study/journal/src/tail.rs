@@ -1,4 +1,4 @@
-//! Keeps a copy of the damaged end of a journal before it is cut off.
+//! Copies the damaged end of a journal to another file before it is cut off.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind, Seek as _, SeekFrom};
@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 
 use crate::atomic_file::OutputError;
 
-/// Copies the journal at `path` without its first `length` bytes to a file beside it.
+/// Copies all bytes of the journal at `path` after the first `length` to a new file.
 ///
-/// Returns a message about the copy, or `None` if the journal is no longer than that.
+/// The new file is in the folder of the journal. Returns a message for the user about the copy, or
+/// `None` if there are no such bytes.
 pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, OutputError> {
     let unkept = |error: io::Error| OutputError::file(path, &error);
     let mut journal = File::open(path).map_err(unkept)?;
@@ -27,7 +28,7 @@ pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, OutputErr
     )))
 }
 
-/// Creates a new file beside the journal at `path`.
+/// Creates a new file `NAME.cut-N` in the folder of the journal at `path`.
 fn create(path: &Path) -> io::Result<(File, PathBuf)> {
     let mut number = 1;
     loop {

@@ -1,7 +1,8 @@
-//! Cache of parts of a journal, to read lines from several positions in turn.
+//! Cache for reading the lines of a journal in any order.
 //!
-//! Designs are read in the order of their numbers, but their lines are in the order of completion:
-//! lines of several threads alternate, and reruns are far behind.
+//! Designs are read in the order of their numbers, but the journal contains their lines in the
+//! order of completion. So several parts of the file are read alternately: lines of parallel
+//! threads are mixed, and lines of rerun designs are at the end of the file.
 
 use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom};
@@ -12,7 +13,7 @@ const COUNT: usize = 4;
 /// Size of a window in bytes, unless a line is longer.
 const LENGTH: u64 = 1 << 16;
 
-/// Cached windows of one file.
+/// Cache of a few parts (windows) of one file.
 #[derive(Debug)]
 pub struct Windows {
     file: File,
@@ -20,15 +21,18 @@ pub struct Windows {
     windows: Vec<Window>,
 }
 
-/// A part of the file in memory.
+/// Contiguous part of the file, held in memory.
 #[derive(Debug)]
 struct Window {
+    /// Offset of the first byte in the file.
     start: u64,
     bytes: Vec<u8>,
 }
 
 impl Window {
-    /// Returns the line at `offset` if this window holds all of it.
+    /// Returns the line that starts at `offset` in the file, including its line end.
+    ///
+    /// `None` if this window does not contain the whole line.
     fn line(&self, offset: u64) -> Option<&[u8]> {
         let start = usize::try_from(offset.checked_sub(self.start)?).ok()?;
         let rest = self.bytes.get(start..)?;
@@ -43,7 +47,7 @@ impl Windows {
         Self { file, windows: Vec::new() }
     }
 
-    /// Reads the line at `offset`, including its line end if there is one.
+    /// Reads the line that starts at `offset`, including its line end if it has one.
     ///
     /// # Errors
     ///
@@ -59,9 +63,9 @@ impl Windows {
         Ok(line)
     }
 
-    /// Reads a window that starts at `offset` and contains a whole line.
+    /// Reads a window that starts at `offset` and contains at least one whole line.
     ///
-    /// A full cache loses its least recently used window.
+    /// If the cache is full, the least recently used window is removed.
     fn open(&mut self, offset: u64) -> io::Result<Window> {
         let mut bytes =
             if self.windows.len() < COUNT { Vec::new() } else { self.windows.remove(0).bytes };
@@ -96,7 +100,7 @@ mod tests {
         }
         let mut windows = Windows::new(file);
         for k in 0..3000 {
-            // Read from five positions in turn.
+            // Read from five parts of the file in turn, one more than the cache can hold.
             let (offset, text) = &lines[(k * 611) % 3000];
             assert_eq!(windows.line(*offset).expect("a line"), text.as_bytes());
         }

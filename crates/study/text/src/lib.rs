@@ -1,4 +1,4 @@
-//! Text helpers shared by the crates of a study.
+//! Formats and parses text for messages, tables and definitions.
 //!
 //! The crate depends on no other crate of the workspace.
 //!
@@ -6,9 +6,9 @@
 //! |---|---|
 //! | [`number`] | equality up to round-off; numbers as the shortest text, or rounded |
 //! | [`visible`], [`shortened`], [`one_line`], [`reason`] | prepare text for messages |
-//! | [`nearest`], [`has_part`] | suggest the name that a misspelled one may mean |
+//! | [`nearest`], [`has_part`] | suggest a known name for a misspelled or shortened name |
 //! | [`shell_word`], [`shell_quoted`] | quote words for a POSIX shell |
-//! | [`toml_source`] | parses TOML and keeps the line of each key |
+//! | [`toml_source`] | parses TOML and records the line of each key |
 
 mod message;
 mod nearest;

@@ -2,17 +2,17 @@
 
 use std::borrow::Cow;
 
-/// Maximum number of characters of a message.
+/// Number of characters of a message that [`shortened`] keeps.
 const LONGEST: usize = 600;
 
 /// Number of characters kept at the end of a shortened message.
 ///
-/// The end states the expected value.
+/// The end of an error message states the expected value.
 const END: usize = 250;
 
 /// Escapes the characters that a terminal or a browser would interpret.
 pub fn visible(text: &str) -> Cow<'_, str> {
-    // Avoid the copy: nearly no text has such characters.
+    // Most texts have no such characters, so they are not copied.
     if !text.contains(is_hidden) {
         return text.into();
     }
@@ -29,17 +29,17 @@ pub fn visible(text: &str) -> Cow<'_, str> {
 
 /// Returns true for invisible characters, except the newline.
 ///
-/// They are control characters, zero-width characters and the direction marks of Unicode's
-/// bidirectional algorithm (UAX 9).
+/// Invisible characters are control characters, zero-width characters, line and paragraph
+/// separators, and the direction marks of Unicode's bidirectional algorithm (UAX 9).
 fn is_hidden(c: char) -> bool {
     (c.is_control() && c != '\n')
         || matches!(c, '\u{61c}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{feff}')
         || matches!(c, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Replaces the middle of a long message by the number of omitted characters.
+/// Replaces the middle of a long message with the number of omitted characters.
 pub fn shortened(message: &str) -> Cow<'_, str> {
-    // Count characters: a byte offset within a character would panic.
+    // Count characters, not bytes: slicing at a byte offset within a character panics.
     let count = message.chars().count();
     if count <= LONGEST {
         return message.into();
@@ -49,12 +49,12 @@ pub fn shortened(message: &str) -> Cow<'_, str> {
     format!("{begin} … {} more characters … {end}", count - LONGEST).into()
 }
 
-/// Trims the lines of `message` and joins them by commas.
+/// Joins the lines of `message`, without surrounding spaces, with commas.
 pub fn one_line(message: &str) -> String {
     message.lines().map(str::trim).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the message of an operating system error without its error number.
+/// Returns the message of an operating system error without `(os error N)`.
 pub fn reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_owned()

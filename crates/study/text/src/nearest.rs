@@ -1,14 +1,16 @@
-//! Finds the name that a misspelled one may mean.
+//! Finds the known name that a misspelled or shortened name most likely means.
 
-/// Suffixes of names that denote units.
+/// Suffixes that denote the unit of a named quantity.
 const UNITS: [&str; 7] = ["_over_t", "_mm", "_deg", "_MPa", "_kg_m2", "_kg_m3", "_N"];
 
-/// Returns `name` without its unit.
+/// Returns `name` without the suffix of its unit.
 fn quantity(name: &str) -> &str {
     UNITS.iter().find_map(|unit| name.strip_suffix(unit)).unwrap_or(name)
 }
 
-/// Returns true if `part` is a word of `name`, or its last words.
+/// Returns true if `part` is a word of `name`, or a sequence of words at its end.
+///
+/// Words are separated by underscores.
 pub fn has_part(name: &str, part: &str) -> bool {
     name.split('_').any(|word| word == part)
         || name.strip_suffix(part).is_some_and(|rest| rest.ends_with('_'))
@@ -18,15 +20,16 @@ pub fn has_part(name: &str, part: &str) -> bool {
 ///
 /// `None` if no candidate is similar enough.
 pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
-    // Users omit the unit most often, so `gap` means `gap_over_t` rather than `gaps`.
+    // A missing unit is the most frequent mistake, so `gap` means `gap_over_t`, not `gaps`.
     if let Some(whole) = candidates.iter().find(|c| **c != key && quantity(c) == key) {
         return Some(whole);
     }
-    // A word that several names contain, such as `force`, does not point to any one of them.
+    // A word that several candidates contain, such as `force`, could mean any of them.
     if candidates.iter().filter(|c| has_part(c, key)).count() > 1 {
         return None;
     }
-    // A key with a unit means a quantity with a unit: `gap_mm` is neither `gaps` nor `gap_cv`.
+    // If `key` has a unit, keep only candidates with a unit: `gap_mm` means neither `gaps` nor
+    // `gap_cv`.
     let (has_unit, all) = (quantity(key) != key, candidates);
     let kept: Vec<&'c str> =
         all.iter().copied().filter(|c| !has_unit || quantity(c) != *c).collect();
@@ -38,7 +41,8 @@ pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
     if typos(typed) <= key.chars().count() / 3 {
         return Some(typed);
     }
-    // The edit distance rejects abbreviations such as `slant`, so compare common prefixes, too.
+    // The edit distance rejects abbreviations such as `slant`. The Jaro–Winkler similarity accepts
+    // them, because it favours common prefixes.
     let similarity = |candidate: &str| strsim::jaro_winkler(key, candidate);
     let alike = kept.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
     (similarity(alike) > 0.8).then_some(alike)

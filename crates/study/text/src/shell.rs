@@ -1,8 +1,8 @@
-//! Quotes words for a POSIX shell, for commands that users copy.
+//! Quotes words for a POSIX shell, in commands that users copy.
 
 /// Returns `text` as one word of a POSIX shell, quoted only if necessary.
 pub fn shell_word(text: &str) -> String {
-    // Without quotes, an empty text would disappear from the command.
+    // An empty text needs quotes: the shell would otherwise drop the argument.
     if !text.is_empty() && text.chars().all(is_plain) {
         text.to_owned()
     } else {
@@ -10,7 +10,7 @@ pub fn shell_word(text: &str) -> String {
     }
 }
 
-/// Returns true for characters that no shell interprets.
+/// Returns true for characters without a special meaning in a shell.
 fn is_plain(c: char) -> bool {
     c.is_ascii_alphanumeric() || "-_./:,+@%=".contains(c)
 }

@@ -1,4 +1,4 @@
-//! TOML as written: keys and values with their positions, not yet interpreted.
+//! Parses TOML into keys and values with their positions; numbers remain text.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,17 +7,17 @@ use toml::de::{DeTable, DeValue};
 
 use crate::message::one_line;
 
-/// Position of a key or a value.
+/// Source of a key or a value, which messages name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// In a file.
+    /// A line in a file.
     File {
         /// Name of the file as the user gave it.
         name: Arc<str>,
-        /// Line, from 1.
+        /// Number of the line, from 1; `None` if unknown.
         line: Option<usize>,
     },
-    /// On the command line.
+    /// A command-line option or another source; the text names it.
     Argument(Arc<str>),
 }
 
@@ -31,7 +31,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Maximum number of values of a document.
+/// Maximum number of commas in a document, which limits its number of values.
 ///
 /// The longest axis of a sweep has at most a million values.
 const MOST_VALUES: usize = 1_200_000;
@@ -39,31 +39,31 @@ const MOST_VALUES: usize = 1_200_000;
 /// A key with its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyValue {
-    /// Key within its table.
+    /// Key within its table, without the name of the table.
     pub key: String,
-    /// Value.
+    /// Value of the key.
     pub value: Value,
-    /// Position of the key.
+    /// Source of the key.
     pub place: Place,
 }
 
 /// Keys and values in the order of the document.
 pub type KeyValues = Vec<KeyValue>;
 
-/// A value as written.
+/// A TOML value.
 ///
-/// Numbers remain text, so that ranges are computed in decimal arithmetic.
+/// Numbers remain text, because ranges are computed in decimal arithmetic.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A number, including `nan` and `inf`.
+    /// A number as written, including `nan` and `inf`.
     Number(String),
-    /// A text.
+    /// A string without its quotes.
     Text(String),
     /// A list.
     List(Vec<Value>),
     /// A table.
     Table(KeyValues),
-    /// A boolean or a date.
+    /// A boolean, date or time as text.
     Other(String),
 }
 
@@ -88,16 +88,17 @@ impl fmt::Display for Value {
 
 /// Returns `text` as a TOML string on one line.
 pub fn quoted(text: &str) -> String {
-    // The `toml` crate writes text with line breaks on several lines, but messages have one line.
+    // The `toml` crate writes a string with line breaks on several lines, but messages have one
+    // line.
     toml::Value::from(text.replace(['\n', '\r'], " ")).to_string()
 }
 
-/// Text that is not valid TOML, with one line per mistake.
+/// Error for a text that is not valid TOML; its message has one line per mistake.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
 pub struct SyntaxError(Vec<SyntaxMistake>);
 
-/// A line that cannot be read.
+/// A line that is not valid TOML.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {line}: not valid TOML ({message}), expected key = value or [section]")]
 struct SyntaxMistake {
@@ -111,30 +112,31 @@ struct SyntaxMistake {
 ///
 /// # Errors
 ///
-/// If it is not valid TOML, with all invalid lines, or if it has too many values.
+/// Returns all invalid lines if `text` is not valid TOML, or the first value beyond the maximum
+/// number of values.
 pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
     let source = Document::new(text, name);
-    // Checked before parsing: a value takes some 200 bytes in memory, but only two or three in the
-    // file.
+    // Count commas before parsing: a parsed value takes about 200 bytes of memory, but only two or
+    // three bytes in the file.
     if let Some((offset, _)) = text.match_indices(',').nth(MOST_VALUES) {
         let message = format!("more than {MOST_VALUES} values");
         let (place, line) = (source.place(Some(offset)), source.line(offset));
         return Err(SyntaxError(vec![SyntaxMistake { place, line, message }]));
     }
     let (table, mut errors) = DeTable::parse_recoverable(text);
-    // Ordered by position, so that mistakes on one line are adjacent.
+    // Sort by position, because `dedup_by` below compares neighbours.
     errors.sort_by_key(|error| error.span().map(|span| span.start));
     let mut mistakes: Vec<_> = errors.iter().map(|error| source.mistake(error)).collect();
-    // Further mistakes on a line follow from the first one.
+    // Keep the first mistake on each line, because it usually causes the others.
     mistakes.dedup_by(|next, first| next.place == first.place);
     if mistakes.is_empty() { Ok(source.table(table.get_ref())) } else { Err(SyntaxError(mistakes)) }
 }
 
-/// A document with its name, to find the lines of keys.
+/// A TOML document, with the offsets needed to find the line of a key.
 struct Document<'a> {
     text: &'a str,
     name: Arc<str>,
-    /// Offsets of the line ends.
+    /// Byte offsets of the newline characters, in ascending order.
     ends: Vec<usize>,
 }
 
@@ -150,7 +152,7 @@ impl<'a> Document<'a> {
         SyntaxMistake { place, line, message: one_line(error.message()) }
     }
 
-    /// Returns the beginning of the line at `offset`, without control characters.
+    /// Returns the first 60 characters of the line at the byte `offset`, without control characters.
     fn line(&self, offset: usize) -> String {
         let start = self.text.get(..offset).and_then(|before| before.rfind('\n'));
         let line = self.text[start.map_or(0, |newline| newline + 1)..].lines().next();
@@ -160,7 +162,7 @@ impl<'a> Document<'a> {
     }
 
     fn place(&self, offset: Option<usize>) -> Place {
-        // A binary search. Counting lines for each key would take quadratic time.
+        // Binary search, because counting newlines for each key would take quadratic time.
         let line = offset.map(|offset| self.ends.partition_point(|end| *end < offset) + 1);
         Place::File { name: Arc::clone(&self.name), line }
     }
@@ -191,7 +193,7 @@ fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
             Value::Number(number.as_str().to_owned())
         }
         DeValue::Integer(number) => {
-            // Ranges only accept decimal numbers.
+            // Convert hexadecimal, octal and binary integers, because ranges need decimal numbers.
             let parsed = i128::from_str_radix(number.as_str(), number.radix());
             Value::Number(parsed.map_or_else(|_| number.to_string(), |n| n.to_string()))
         }
@@ -205,23 +207,24 @@ fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
     }
 }
 
-/// Parses a value on the command line, where quotes may be omitted.
+/// Parses a value given on the command line, where a string needs no quotes.
 ///
 /// # Errors
 ///
-/// If it opens a string, list or table and is not valid TOML.
+/// Returns an error if `text` is empty, or if it begins like a list, table or quoted string but is
+/// not valid TOML.
 pub fn parse_argument(text: &str, place: &Place) -> Result<Value, String> {
     let text = text.trim();
     let error = match DeValue::parse(text) {
         Ok(value) => return Ok(value_of(value.get_ref(), &|_| place.clone())),
         Err(error) => error,
     };
-    // TOML does not accept numbers such as `.5` and `5.`, which users write.
+    // Users write numbers such as `.5` and `5.`, which are not valid TOML.
     let number = || text.parse::<f64>().ok().filter(|number| number.is_finite());
     if let Some(number) = text.contains('.').then(number).flatten() {
         return Ok(Value::Number(number.to_string()));
     }
-    // An unclosed list or string is a mistake, not a word without quotes.
+    // A text that begins like a list, table or string is a mistake, not a string without quotes.
     if text.is_empty() || text.starts_with(['[', '{', '"', '\'']) {
         return Err(one_line(error.message()));
     }

@@ -22,44 +22,46 @@ use crate::yields::{RequirementYield, yields};
 pub struct Analysis<'a> {
     /// Sweep, with its deviations.
     pub sweep: &'a Sweep,
-    /// Requirements that determine the yield.
+    /// Requirements on columns; their yields are reported.
     pub requirements: &'a [Requirement],
     /// Number of samples per design; 0 for a prediction from derivatives only.
     pub samples: usize,
-    /// Set to stop the analysis.
+    /// Flag that another thread sets to `true` to stop the analysis.
     pub stop: &'a AtomicBool,
     differentiating: Evaluator,
     sampler: Sampler,
     program: Program,
 }
 
-/// A solved nominal design, without deviations.
+/// Nominal design, solved without deviations.
 struct Nominal {
     index: u64,
-    /// Case with the imperfection of the definition, which its samples have too.
+    /// Case of the design, including the imperfection of the definition.
+    ///
+    /// Samples are drawn from this case.
     case: Case,
     row: DesignRow,
     measured: MeasuredColumns,
-    /// Indices of the columns of the requirements in `measured`.
+    /// For each requirement, the index of its column in `measured`.
     required: Vec<usize>,
 }
 
-/// Tolerances of a design.
+/// Effect of the deviations on one design: spreads, yields and samples.
 #[derive(Clone, Debug)]
 pub struct DesignTolerance {
     /// Nominal design.
     pub nominal: DesignRow,
     /// Spread of each measure of the design.
     pub measures: Vec<MeasureTolerance>,
-    /// Yield of every requirement, then of all together.
+    /// Yield of each requirement, then the yield of all requirements together.
     pub yields: Vec<RequirementYield>,
-    /// Names of the values of a sample: the deviations, then the columns.
+    /// Names of the values of a sample: first the deviations, then the measured columns.
     pub columns: Vec<String>,
     /// Solved samples.
     pub samples: Vec<SolvedSample>,
 }
 
-/// Spread of a measure.
+/// Predicted and sampled spread of one measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasureTolerance {
     /// Column name.
@@ -68,23 +70,26 @@ pub struct MeasureTolerance {
     pub unit: &'static str,
     /// Value of the nominal design.
     pub value: Option<f64>,
-    /// Spread predicted by derivatives.
+    /// Spread predicted by derivatives; `None` if a derivative is missing.
     pub linear: Option<LinearSpread>,
-    /// Spread over solved samples.
+    /// Spread of the solved samples; `None` if fewer than two have a value.
     pub sampled: Option<SampledSpread>,
     /// Number of samples without a value.
     pub failed: usize,
 }
 
 impl MeasureTolerance {
-    /// Returns the relative error of the linear prediction, compared to the samples.
+    /// Returns the relative error of the predicted spread: predicted / sampled − 1.
+    ///
+    /// `None` without a predicted spread, or if the sampled spread is missing or 0.
     pub fn discrepancy(&self) -> Option<f64> {
-        // Undefined if the samples have no spread.
         let sampled = self.sampled.as_ref().filter(|sampled| sampled.spread > 0.0)?;
         Some(self.linear.as_ref()?.spread / sampled.spread - 1.0)
     }
 
-    /// Returns true if the prediction is off by more than two standard errors.
+    /// Returns true if the predicted spread differs significantly from the sampled spread.
+    ///
+    /// The limit is two standard errors of the sampled spread.
     pub fn is_off(&self) -> bool {
         let sampled = self.sampled.as_ref();
         let error = sampled.map(|sampled| 2.0 * sampled.spread_error / sampled.spread);
@@ -110,12 +115,11 @@ impl<'a> Analysis<'a> {
 
     /// Analyses design `index`, counted from 0.
     ///
-    /// Reads the samples found in `store`, and stores newly solved ones there.
+    /// Samples that `store` already contains are read; missing samples are solved and stored.
     ///
     /// # Errors
     ///
-    /// After `stop`, if a requirement names an unknown column, or if files cannot be read or
-    /// written.
+    /// If `stop` is set, a requirement names an unknown column, or files cannot be read or written.
     pub fn design(
         &self,
         index: u64,
@@ -129,10 +133,10 @@ impl<'a> Analysis<'a> {
         Ok(DesignTolerance { nominal: nominal.row, measures, yields, columns, samples })
     }
 
-    /// Solves the design without deviations, and finds the required columns.
+    /// Solves the design without deviations, and finds the columns of the requirements.
     fn nominal(&self, index: u64, store: &SampleStore) -> Result<Nominal, AnalysisError> {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
-        // Imperfections only matter for samples; the nominal design is solved without them.
+        // Only samples have imperfections.
         let straight = Case { imperfection: Imperfection::default(), ..case };
         let row = uninterrupted(|| {
             let name = format!("design {number}");
@@ -146,14 +150,14 @@ impl<'a> Analysis<'a> {
         Ok(Nominal { index, case, row, measured, required })
     }
 
-    /// Returns the names of the values of a sample.
+    /// Returns the names of the values of a sample: deviations, then measured columns.
     fn columns(&self, measured: &MeasuredColumns) -> Vec<String> {
         let deviations = self.sweep.deviations().iter();
         let keys = deviations.map(|deviation| format!("{}_deviation", deviation.key()));
         keys.chain(measured.iter().map(|column| column.name.to_string())).collect()
     }
 
-    /// Returns the samples of a design, and solves those that are not stored.
+    /// Returns the samples of a design. Samples missing in `store` are solved first.
     fn samples(
         &self,
         nominal: &Nominal,
@@ -162,29 +166,32 @@ impl<'a> Analysis<'a> {
     ) -> Result<Vec<SolvedSample>, AnalysisError> {
         let (design, case) = (nominal.row.number, &nominal.case);
         let number = nominal.row.number.to_string();
-        // The header contains this design only, so other designs of the sweep may change.
+        // The header contains this design only. Stored samples therefore stay valid when a user
+        // changes other designs of the sweep.
         let header = header(self.program, &self.sweep.only(nominal.index));
         store.samples((&number, header), columns, self.samples, self.stop, |sample| {
             match self.sampler.solve(design, case, sample) {
                 Some(skin) => [skin.deviations, nominal.measured.values(&skin.row)].concat(),
-                // A sample without valid deviations is a failed sample, without values.
+                // No deviations within the bounds of the parameters: a failed sample.
                 None => vec![None; columns.len()],
             }
         })
     }
 
-    /// Returns the error of an analysis that is interrupted outside its samples.
+    /// Returns the error for an interruption while no samples are being solved.
     fn stopped(&self) -> AnalysisError {
         AnalysisError::Stopped { done: 0, of: self.samples }
     }
 
-    /// Returns the values of a column in all samples. Deviations precede the columns.
+    /// Returns the values of the measured column with index `column` in all samples.
+    ///
+    /// The values of a sample start with the deviations, followed by the measured columns.
     fn values(&self, column: usize, samples: &[SolvedSample]) -> Vec<Option<f64>> {
         let place = self.sweep.deviations().len() + column;
         samples.iter().map(|sample| sample.values.get(place).copied().flatten()).collect()
     }
 
-    /// Returns the spread of every measure that has derivatives or a requirement.
+    /// Returns the spread of each column that has derivatives or a requirement.
     fn measures(
         &self,
         nominal: &Nominal,
@@ -193,8 +200,8 @@ impl<'a> Analysis<'a> {
         let deviations = self.sweep.deviations();
         let mut scattered = DesignRow { case: nominal.case, ..nominal.row.clone() };
         draw::scatter(&mut scattered.case, deviations);
-        // Derivatives with respect to single scales cost a solution for each kind of scale. Skip
-        // them if there is no scatter.
+        // Derivatives with respect to single scales are expensive, because rows with one perturbed
+        // scale must be solved. Skip these derivatives if gaps and slants do not scatter.
         let scatters = !scattered.case.imperfection.is_none();
         let single = if scatters {
             uninterrupted(|| self.differentiating.scatter(&nominal.case))
@@ -206,12 +213,12 @@ impl<'a> Analysis<'a> {
         let mut measures = Vec::new();
         for (place, column) in nominal.measured.iter().enumerate() {
             let has_derivatives = has_derivatives(&column.name, &nominal.row);
-            // Columns of parameters and counts are only reported if a requirement names them.
+            // Report columns of parameters and counts only if a requirement names them.
             if !has_derivatives && !nominal.required.contains(&place) {
                 continue;
             }
             let value = column.cell(&nominal.row).number();
-            // Parameters, in any unit, follow from the deviations directly.
+            // The spread of a parameter, in any unit, follows directly from the deviations.
             let is_known = has_derivatives || parameter_of(&column.name).is_some();
             let is_predicted = is_known && value.is_some();
             let values = self.values(place, samples);
@@ -228,7 +235,7 @@ impl<'a> Analysis<'a> {
         Ok(measures)
     }
 
-    /// Returns the yield of every requirement, then of all together.
+    /// Returns the yield of each requirement, then the yield of all requirements together.
     fn yields(
         &self,
         nominal: &Nominal,
@@ -245,16 +252,17 @@ impl<'a> Analysis<'a> {
     }
 }
 
-/// Returns true for the columns of a measure with derivatives, and for the mass.
+/// Returns true if derivatives predict the spread of the column `name`.
 ///
-/// The mass has none, but is a function of the parameters.
+/// This holds for the columns of measures with derivatives in `nominal`, and for the areal mass,
+/// which is a function of the parameters.
 fn has_derivatives(name: &str, nominal: &DesignRow) -> bool {
     let measure = measure_name(name);
     let mut derivatives = nominal.result.sensitivity.iter();
     measure == name::AREAL_MASS || derivatives.any(|d| d.measure == measure)
 }
 
-/// Creates the journal header for the samples of a sweep.
+/// Returns the journal header for samples of `sweep` solved by `program`.
 pub(crate) fn header(program: Program, sweep: &Sweep) -> JournalHeader {
     JournalHeader::new(sweep.to_toml(), Subset::default(), &program)
 }

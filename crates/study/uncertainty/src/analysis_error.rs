@@ -1,14 +1,14 @@
-//! Error of an analysis.
+//! Error of a tolerance or global sensitivity analysis.
 
 use results::OutputError;
 use run::JournalError;
 
 use crate::measured_columns::NoSuchColumn;
 
-/// Error of an analysis.
+/// Error of a tolerance or global sensitivity analysis.
 #[derive(Debug, thiserror::Error)]
 pub enum AnalysisError {
-    /// The analysis was stopped. Solved samples are stored.
+    /// The analysis was stopped. Samples solved so far are stored.
     #[error("interrupted after {done} of {of} samples")]
     Stopped {
         /// Number of solved samples.
@@ -19,10 +19,10 @@ pub enum AnalysisError {
     /// A requirement names an unknown column.
     #[error(transparent)]
     NoSuchColumn(#[from] NoSuchColumn),
-    /// Stored samples cannot be used.
+    /// The journal of samples cannot be used.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// Samples cannot be written.
+    /// A file of samples cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
 }

@@ -6,16 +6,21 @@ use rand_distr::{Distribution as _, StandardNormal, StandardUniform};
 use sha2::{Digest as _, Sha256};
 use sweep::{BatchDeviation, Case, Deviation};
 
-/// Maximum number of draws to find a deviation within the bounds of its parameter.
+/// Maximum number of draws for one deviation.
+///
+/// A draw is repeated if the parameter would leave its bounds.
 const DRAWS: usize = 1000;
 
-/// Draws sample `number` of a design. Returns its case and its batch deviations.
+/// Draws sample `number`, counted from 1, of the design `case`.
 ///
-/// The scatter from scale to scale becomes the imperfection of the case. `None` if no deviation
-/// within the bounds of its parameter is found.
+/// Returns the case of the sample, and for each of the `deviations` the drawn batch deviation
+/// (`None` for a parameter that varies only from scale to scale). The standard deviations from
+/// scale to scale become the imperfection of the returned case.
 ///
-/// A deviation depends only on the seed of the case, the number of the sample and the key of the
-/// parameter. Adding a deviation, or choosing another design, changes no other deviation.
+/// Returns `None` if a parameter leaves its bounds in every draw.
+///
+/// A batch deviation depends only on the seed of the case, the number of the sample and the key of
+/// the parameter. It stays the same if the user adds another deviation or changes the design.
 pub(crate) fn sample(
     case: &Case,
     deviations: &[Deviation],
@@ -28,9 +33,9 @@ pub(crate) fn sample(
             continue;
         };
         let mut random = random(case, number, deviation.parameter().key);
-        // Drawing again at a bound truncates the distribution there.
-        // Apply each deviation to the case with the earlier ones, because they determine whether a
-        // load position is valid.
+        // Repeating draws out of bounds truncates the distribution at the bound. `applied` checks
+        // the load position too, which depends on several parameters. So each deviation is applied
+        // to the case that already includes the earlier deviations.
         let (moved, by) = (0..DRAWS).find_map(|_| {
             let by = draw(batch, &mut random);
             Some((deviation.applied(&made, by)?, by))
@@ -42,25 +47,27 @@ pub(crate) fn sample(
     Some((made, drawn))
 }
 
-/// Replaces the scatter of gaps and slants with the deviations of single scales.
+/// Sets the imperfection of `case` to the standard deviations from scale to scale.
 pub(crate) fn scatter(case: &mut Case, deviations: &[Deviation]) {
     for deviation in deviations {
         let Some(sd) = deviation.scale_sd(case) else { continue };
         match deviation.parameter().key {
-            // Relative to the gap of this sample, so that the scatter in mm is the same in every
-            // batch.
+            // `gap_cv` is relative to the gap. Divide by the gap of this sample, so that the
+            // scatter in mm is the same in each sample.
             "gap_over_t" => case.imperfection.gap_cv = sd / case.design.gap,
             _ => case.imperfection.slant_sd_deg = sd,
         }
     }
 }
 
-/// Draws a number from 0 to 1. It is the same for all cases with equal seeds.
+/// Draws a uniformly distributed number from 0 to 1.
+///
+/// The number depends only on the seed of the case, the sample `number` and `key`.
 pub(crate) fn uniform(case: &Case, number: u64, key: &str) -> f64 {
     StandardUniform.sample(&mut random(case, number, key))
 }
 
-/// Returns the random numbers of a sample for one key.
+/// Creates the random number generator for sample `number` and `key`.
 fn random(case: &Case, number: u64, key: &str) -> ChaCha8Rng {
     let mut digest = Sha256::new();
     digest.update((case.samples.seed as u64).to_le_bytes());
@@ -106,13 +113,13 @@ mod tests {
         let both = drawn("length_over_t = { batch_sd = 0.1 }\ngap_over_t = { batch_sd = 0.01 }", 7);
         assert_eq!(one[0], both[1]);
         assert_ne!(one, drawn("gap_over_t = { batch_sd = 0.01 }", 8));
-        // The same normal number with twice the standard deviation.
+        // Twice the standard deviation scales the same random number.
         let twice = drawn("gap_over_t = { batch_sd = 0.02 }", 7);
         assert_eq!(twice[0], one[0].map(|by| 2.0 * by));
     }
 
     #[test]
-    fn deviations_have_their_moments_and_stay_within_bounds() {
+    fn deviations_have_the_requested_moments_and_stay_within_bounds() {
         let [(mean, sd, _), uniform] = ["batch_sd", "batch_within"].map(|level| {
             let text = format!("length_over_t = {{ {level} = 0.1 }}");
             let values: Vec<_> =
@@ -125,7 +132,7 @@ mod tests {
         let (mean, sd, largest) = uniform;
         assert!(mean.abs() < 0.003 && (sd - 0.1 / 3.0_f64.sqrt()).abs() < 0.002, "{mean} {sd}");
         assert!(largest <= 0.1);
-        // Half of the draws would make the slant negative.
+        // The slant is 1° ± 3°, so 37 % of all draws would make it negative.
         let sweep = sweep("slant_deg = { batch_sd = 3 }");
         for n in 1..=1000 {
             let made = sample(&sweep.grid().case(0), sweep.deviations(), n);
@@ -134,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn scatter_is_relative_to_the_gap_of_the_sample() {
+    fn gap_cv_is_relative_to_the_gap_of_the_sample() {
         let sweep = sweep("gap_over_t = { batch_sd = 0.01, scale_sd = 0.02 }");
         let (made, _) = sample(&sweep.grid().case(0), sweep.deviations(), 3).expect("a sample");
         assert_ne!(made.design.gap, 0.1);

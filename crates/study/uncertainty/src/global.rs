@@ -15,18 +15,18 @@ use crate::sample_store::{SampleStore, SolvedSample};
 use crate::sampled_spread::SampledSpread;
 use crate::sobol::{Evaluation, SobolIndices, sobol_indices};
 
-/// File label of the samples.
+/// First part of the file names of the samples.
 const LABEL: &str = "global";
 
 /// Global sensitivity analysis of the variables of a sweep.
 pub struct GlobalAnalysis<'a> {
     /// Sweep with one design and with variables.
     pub sweep: &'a Sweep,
-    /// Number of samples, each with two points more than the number of variables.
+    /// Number of samples. For `n` variables each sample has `n + 2` points.
     pub samples: usize,
-    /// Set to stop the analysis.
+    /// Flag that another thread sets to `true` to stop the analysis.
     pub stop: &'a AtomicBool,
-    /// Program that runs the analysis.
+    /// Version of the program, recorded in the journal of the samples.
     pub program: Program,
 }
 
@@ -35,9 +35,9 @@ pub struct GlobalAnalysis<'a> {
 pub struct GlobalSensitivity {
     /// Keys of the variables.
     pub variables: Vec<&'static str>,
-    /// Indices of each measure that varies.
+    /// Indices of each measure that varies over the box.
     pub measures: Vec<MeasureIndices>,
-    /// Column names of the measures that are constant.
+    /// Column names of the measures that are constant over the box.
     pub constant: Vec<String>,
 }
 
@@ -46,28 +46,28 @@ pub struct GlobalSensitivity {
 pub struct MeasureIndices {
     /// Column name.
     pub name: String,
-    /// Standard deviation over the box of variables.
+    /// Standard deviation of the measure over the box of variables.
     pub spread: f64,
-    /// Indices of each variable.
+    /// Indices of each variable, in the order of [`GlobalSensitivity::variables`].
     pub indices: Vec<SobolIndices>,
-    /// Number of samples with all values.
+    /// Number of samples with a value of the measure at every point.
     pub samples: usize,
-    /// Number of samples with a missing value, which are excluded.
+    /// Number of samples that lack a value at some point; they are excluded.
     pub failed: usize,
 }
 
 impl GlobalAnalysis<'_> {
     /// Computes the indices of all measures.
     ///
-    /// Reads the samples found in `store`, and stores newly solved ones there.
+    /// Samples that `store` already contains are read; missing samples are solved and stored.
     ///
     /// # Errors
     ///
-    /// After `stop`, or if samples cannot be read or written.
+    /// If `stop` is set, or samples cannot be read or written.
     pub fn solve(&self, store: &SampleStore) -> Result<GlobalSensitivity, AnalysisError> {
         let evaluator = Evaluator::new(self.sweep.measures());
         let (number, case) = (self.sweep.grid().number(0), self.sweep.grid().case(0));
-        // Only used to find columns with text.
+        // This row only serves to find the columns that contain text.
         let middle = uninterrupted(|| evaluator.row(number, &case));
         let middle = middle.ok_or(AnalysisError::Stopped { done: 0, of: self.samples })?;
         let measured = MeasuredColumns::of(self.sweep, &middle);
@@ -101,22 +101,24 @@ impl GlobalAnalysis<'_> {
         Ok(GlobalSensitivity { variables, measures: varied, constant })
     }
 
-    /// Returns the names of the points of a sample.
+    /// Returns the names of the points of a sample: `A`, `B`, and `A key` for each variable.
     ///
-    /// They are `A`, `B`, and `A` with the key of the variable taken from `B`.
+    /// Point `A key` is point `A` with the variable `key` taken from `B`.
     fn points(&self) -> Vec<String> {
         let mixed = self.sweep.variables().iter().map(|v| format!("A {}", v.parameter().key));
         ["A".to_owned(), "B".to_owned()].into_iter().chain(mixed).collect()
     }
 
-    /// Returns the case at a point of a sample.
+    /// Returns `base` with the variables at a point of sample number `sample`.
+    ///
+    /// `point` is one of the names that [`Self::points`] returns.
     fn case(&self, base: &Case, sample: u64, point: &str) -> Case {
         let mut case = *base;
         for variable in self.sweep.variables() {
             let key = variable.parameter().key;
             let from =
                 if point == "B" || point.strip_prefix("A ") == Some(key) { "B" } else { "A" };
-            // Seeded by point and key: adding a variable does not change the values of the others.
+            // The seed contains the key, so adding a variable does not change other variables.
             let share = draw::uniform(base, sample, &format!("{from} {key}"));
             variable.set(&mut case, variable.at(share));
         }
@@ -124,16 +126,19 @@ impl GlobalAnalysis<'_> {
     }
 }
 
-/// Returns true if column `k` has the same value at all points up to round-off.
+/// Returns true if all known values of column `k` agree up to round-off.
+///
+/// `samples` hold `columns` values for each point. The result is false if no value is known.
 fn is_constant(k: usize, columns: usize, samples: &[SolvedSample]) -> bool {
     let points = samples.iter().flat_map(|sample| sample.values.chunks(columns));
     let mut values = points.filter_map(|point| point[k]);
     values.next().is_some_and(|first| values.all(|value| number::same(value, first)))
 }
 
-/// Computes the indices of column `k`.
+/// Computes the Sobol' indices of column `k`, named `name`.
 ///
-/// `None` if it is constant or has too few values.
+/// `samples` hold `columns` values for each point. Returns `None` if the column is constant, or if
+/// fewer than two samples have all values.
 fn indices(
     name: String,
     k: usize,
@@ -143,7 +148,7 @@ fn indices(
     let evaluations = samples.iter().filter_map(|sample| {
         let values: Option<Vec<f64>> =
             sample.values.chunks(columns).map(|point| point[k]).collect();
-        // Exclude samples with a missing point: an index compares the points of a sample.
+        // An index compares the points of a sample, so exclude samples that lack a value.
         let values = values?;
         let [first, second, mixed @ ..] = values.as_slice() else { return None };
         Some(Evaluation { first: *first, second: *second, mixed: mixed.to_vec() })

@@ -1,10 +1,12 @@
 //! Effect of manufacturing tolerances: spread of every measure, and yield.
 //!
-//! A [`Deviation`](sweep::Deviation) is shared by all scales of a batch, or each scale has its own.
-//! The derivatives of a measure predict its spread: the variances caused by batch deviations `s`
-//! and by single scales `i` add up (T1). Random samples, once solved, also give the spread. The
-//! tables contain both and their discrepancy. The random numbers of a sample depend only on the
-//! seed, the number of the sample and the key of the parameter.
+//! All scales of a batch share a [`Deviation`](sweep::Deviation), or each scale has its own
+//! deviation. The spread of a measure is its standard deviation, which squama determines in two
+//! ways. First, the derivatives of the measure predict the spread: the variances caused by batch
+//! deviations `s` and by single scales `i` add up (T1). Second, random samples of the design are
+//! solved. The tables contain the predicted spread, the sampled spread and their discrepancy. The
+//! random numbers of a sample depend only on the seed, the number of the sample and the key of the
+//! parameter.
 //!
 //! ```text
 //! σ² = Σ_s σ_s² + Σ_i σ_i²
@@ -21,11 +23,11 @@
 //! | [`Analysis`], [`DesignTolerance`] | tolerance analysis of a design, and its result |
 //! | [`MeasureTolerance`] | spread of a measure, predicted and sampled |
 //! | [`LinearSpread`], [`SourceShare`] | predicted spread, and the contribution of each source |
-//! | [`DeviationLevel`] | whether all scales of a batch share a deviation |
-//! | [`SampledSpread`], [`SampledQuantile`] | spread and quantile over samples |
+//! | [`DeviationLevel`] | states whether all scales of a batch share a deviation |
+//! | [`SampledSpread`], [`SampledQuantile`] | spread and quantile of the values of samples |
 //! | [`RequirementYield`], [`Proportion`] | fraction of samples that meet a requirement |
 //! | [`Sampler`], [`Sample`] | draws and solves samples of designs |
-//! | [`SolvedSample`], [`SampleStore`] | solved samples, stored so that none is solved twice |
+//! | [`SolvedSample`], [`SampleStore`] | a solved sample, and the files that store samples |
 //! | [`GlobalAnalysis`], [`GlobalSensitivity`] | global sensitivity analysis, and its result |
 //! | [`MeasureIndices`] | Sobol' indices of a measure for every variable |
 //! | [`sobol_indices`], [`Evaluation`] | estimator of the indices for any function, and its input |
@@ -41,7 +43,7 @@
 //! use sweep::Sweep;
 //! use uncertainty::{Analysis, SampleStore};
 //!
-//! // Scales of 45° cover λ = 1 − d (Eq. G2), so coverage and gap have the same spread.
+//! // At 45° the coverage is λ = 1 − d (Eq. G2), so coverage and gap have the same spread.
 //! let text = "name = 'x'\nmeasures = 'coverage'\n\
 //!             [designs]\ngap_over_t = 0.5\nlength_over_t = 1\nslant_deg = 45\n\
 //!             [tolerance]\ngap_over_t = { batch_sd = 0.01 }";

@@ -6,15 +6,15 @@ use sweep::{BatchDeviation, Case, Deviation, Parameter};
 
 use crate::moments;
 
-/// Step of finite differences, in standard deviations.
+/// Step of finite differences, relative to a standard deviation or a value.
 const STEP: f64 = 1e-5;
 
-/// Scales that share a deviation.
+/// States which scales share a deviation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeviationLevel {
-    /// All scales of a batch.
+    /// All scales of a batch have the same deviation.
     Batch,
-    /// A single scale; each scale has its own deviation.
+    /// Each scale has its own, independent deviation.
     Scale,
 }
 
@@ -23,13 +23,13 @@ pub enum DeviationLevel {
 pub struct SourceShare {
     /// Key of the deviating parameter.
     pub source: String,
-    /// Scales that share a deviation.
+    /// States which scales share the deviation.
     pub level: DeviationLevel,
     /// Standard deviation of the source, in the unit of the source.
     pub deviation: f64,
     /// Standard deviation of the measure if this were the only source.
     pub spread: f64,
-    /// Fraction of the variance of the measure.
+    /// Fraction of the variance of the measure that this source causes, from 0 to 1.
     pub share: f64,
 }
 
@@ -42,9 +42,11 @@ pub struct LinearSpread {
     pub sources: Vec<SourceShare>,
 }
 
-/// Derivatives and deviations of a design.
+/// Inputs of the linear prediction: derivatives and deviations of a design.
 pub(crate) struct Gradients<'a> {
-    /// Nominal design, with its scatter and the derivatives of its measures.
+    /// Nominal design with the derivatives of its measures.
+    ///
+    /// The imperfection of its case is the scatter from scale to scale.
     pub(crate) design: &'a DesignRow,
     pub(crate) deviations: &'a [Deviation],
     /// Derivatives with respect to the gaps and slants of single scales.
@@ -52,13 +54,13 @@ pub(crate) struct Gradients<'a> {
 }
 
 impl Gradients<'_> {
-    /// Returns the spread of a column.
+    /// Predicts the spread of a column.
     ///
-    /// `None` if a one-sided derivative is missing at a kink.
+    /// `None` if the column has no value, or lacks a one-sided derivative at a kink.
     pub(crate) fn spread(&self, column: &Column<DesignRow>) -> Option<LinearSpread> {
         let mut sources = Vec::new();
         for deviation in self.deviations {
-            // Deviations that only vary from scale to scale are handled below.
+            // The next loop handles deviations that only vary from scale to scale.
             let Some(batch) = deviation.batch() else { continue };
             let variance = moments::variance(self.slopes(column, deviation, batch)?, batch);
             let (source, deviation) = (deviation.key(), batch.standard_deviation());
@@ -71,7 +73,7 @@ impl Gradients<'_> {
         Some(LinearSpread::of(sources))
     }
 
-    /// Returns the slopes of a column for negative and positive deviations.
+    /// Returns the slopes of a column for negative and for positive values of a deviation.
     fn slopes(
         &self,
         column: &Column<DesignRow>,
@@ -79,8 +81,8 @@ impl Gradients<'_> {
         batch: BatchDeviation,
     ) -> Option<[f64; 2]> {
         let case = &self.design.case;
-        // Values are extrapolated linearly from the design. The step may therefore be tiny, as long
-        // as it exceeds round-off.
+        // `value` extrapolates linearly from the design, so the step may be tiny. It only has to
+        // exceed round-off.
         let step = STEP * batch.standard_deviation();
         let value =
             |to: &Case| column.cell(&self.design.extrapolated(to, SlopeSide::Ahead)).number();
@@ -90,7 +92,7 @@ impl Gradients<'_> {
         Some([below?, above?])
     }
 
-    /// Returns the parameters with scatter, and their standard deviations.
+    /// Returns the parameters that scatter from scale to scale, with their standard deviations.
     fn scattered(&self) -> Vec<(&'static Parameter, f64)> {
         let (imperfection, gap) = (self.design.case.imperfection, self.design.case.design.gap);
         let all =
@@ -101,14 +103,17 @@ impl Gradients<'_> {
             .collect()
     }
 
-    /// Returns the variance of a column if all gaps, or slants, deviate independently.
+    /// Returns the variance of a column caused by scatter from scale to scale.
+    ///
+    /// The parameter `key` (gap or slant) of each scale deviates independently with the standard
+    /// deviation `sd`. `None` if a one-sided derivative is missing at a kink.
     fn scatter(&self, column: &Column<DesignRow>, key: &str, sd: f64) -> Option<f64> {
         let measure = measure_name(&column.name);
         let mut derivatives = self.design.result.sensitivity.iter();
-        // Parameters and the mass have no such derivatives, and scatter does not change them.
+        // Parameters and the areal mass have no derivatives. Scatter does not change them.
         let Some(known) = derivatives.find(|d| d.measure == measure) else { return Some(0.0) };
         let step = STEP * known.value.abs().max(f64::MIN_POSITIVE);
-        // Columns in physical units are functions of the measure, so take their slope numerically.
+        // A column in physical units is a function of the measure. `factor` is its slope.
         let [here, above] = [known.value, known.value + step]
             .map(|value| column.cell(&self.design.with_value(measure, value)?).number());
         let factor = (above? - here?) / step;
@@ -122,7 +127,9 @@ impl Gradients<'_> {
             .sum()
     }
 
-    /// Returns the key of the deviation of a parameter, which may be in mm.
+    /// Returns the key of the deviation of `parameter` in the definition.
+    ///
+    /// For the gap this is `gap_mm` if the definition states the deviation in mm.
     fn key(&self, parameter: &'static Parameter) -> String {
         let mut same = self.deviations.iter().filter(|d| d.parameter() == parameter);
         same.next().map_or_else(|| parameter.key.to_owned(), Deviation::key)
@@ -140,14 +147,14 @@ impl LinearSpread {
                 SourceShare { source, level, deviation, spread, share }
             })
             .collect();
-        // Stable sort, so that equal sources keep the order of the definition.
+        // The sort is stable: sources with equal fractions keep the order of the definition.
         sources.sort_by(|one, other| other.share.total_cmp(&one.share));
         Self { spread: sum.sqrt(), sources }
     }
 
-    /// Lists the main sources: "`gap_mm` 83 %, `slant_deg` from scale to scale 12 %".
+    /// Lists the main sources, e.g. "`gap_mm` 83 %, `slant_deg` from scale to scale 12 %".
     pub fn in_words(&self) -> String {
-        // Smaller fractions would appear as 0 %.
+        // Omit fractions that would be rounded to 0 %.
         let matters = self.sources.iter().filter(|source| source.share >= 0.005);
         matters
             .map(|source| {

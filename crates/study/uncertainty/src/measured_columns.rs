@@ -5,13 +5,13 @@ use results::{Cell, Column, DesignRow};
 use sweep::{Measure, Sweep};
 use text::nearest;
 
-/// A column that does not exist, or that has no numbers.
+/// Error: the required column does not exist, or contains no numbers.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no column {found} of numbers, {hint}")]
 pub struct NoSuchColumn {
-    /// Name of the column.
+    /// Column name in the requirement.
     pub found: String,
-    /// Suggested column.
+    /// Suggestion for the user: a similar column name, or the columns that exist.
     pub hint: String,
 }
 
@@ -19,7 +19,7 @@ pub struct NoSuchColumn {
 pub(crate) struct MeasuredColumns(Vec<Column<DesignRow>>);
 
 impl MeasuredColumns {
-    /// Returns the columns of `sweep` without text in `row`.
+    /// Returns the columns of `sweep`, except columns that contain text in `row`.
     pub(crate) fn of(sweep: &Sweep, row: &DesignRow) -> Self {
         let mut columns = design_columns(sweep);
         columns.retain(|column| !matches!(column.cell(row), Cell::Text(_)));
@@ -30,16 +30,19 @@ impl MeasuredColumns {
         self.0.iter()
     }
 
-    /// Returns the values of a row; `None` for empty cells.
+    /// Returns the value of each column in `row`; `None` for an empty cell.
     pub(crate) fn values(&self, row: &DesignRow) -> Vec<Option<f64>> {
         self.0.iter().map(|column| column.cell(row).number()).collect()
     }
 
-    /// Returns the index of the column `name` for a requirement.
+    /// Returns the index of the column `name`, which a requirement refers to.
+    ///
+    /// `row` is the nominal design, and `measures` are the requested measures.
     ///
     /// # Errors
     ///
-    /// If there is no such column, or if it is empty because its measure is not computed.
+    /// If no numeric column has this name, or if the column is empty because its measure is not
+    /// requested.
     pub(crate) fn required(
         &self,
         name: &str,
@@ -50,7 +53,7 @@ impl MeasuredColumns {
         let index = index.ok_or_else(|| self.no_such_column(name))?;
         let is_whole = Measure::USUAL.iter().all(|measure| measures.contains(measure));
         let has_value = self.0[index].cell(row).number().is_some();
-        // A failed design has no values, but the requirement is valid.
+        // The column may also be empty because the design failed. The requirement is valid then.
         if has_value || is_whole || row.result.failed() {
             return Ok(index);
         }

@@ -2,9 +2,10 @@
 
 use sweep::BatchDeviation;
 
-/// Returns the variance of a measure under a `deviation` of mean 0 (T2).
+/// Returns the variance of a measure caused by a `deviation` of mean 0 (T2).
 ///
-/// The slopes for negative and for positive deviations differ at a kink.
+/// `left` and `right` are the slopes of the measure for negative and for positive deviations. They
+/// differ if the nominal design is at a kink of the measure.
 pub(crate) fn variance([left, right]: [f64; 2], deviation: BatchDeviation) -> f64 {
     let squares = left.powi(2) + right.powi(2);
     let difference = right - left;
@@ -14,7 +15,7 @@ pub(crate) fn variance([left, right]: [f64; 2], deviation: BatchDeviation) -> f6
         }
         BatchDeviation::Uniform(most) => (most * difference / 4.0, most * most * squares / 6.0),
     };
-    // Round-off may make the variance of a constant slightly negative.
+    // Without this limit, round-off could make a vanishing variance negative.
     (mean_square - mean * mean).max(0.0)
 }
 
@@ -23,7 +24,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_spread_of_a_smooth_measure_is_slope_times_deviation() {
+    fn spread_of_a_smooth_measure_is_slope_times_standard_deviation() {
         let slopes = [-3.0, -3.0];
         for deviation in [BatchDeviation::Normal(0.2), BatchDeviation::Uniform(0.2)] {
             let expected = 9.0 * deviation.standard_deviation().powi(2);
@@ -32,10 +33,10 @@ mod tests {
     }
 
     #[test]
-    fn a_kink_has_the_moments_of_the_folded_distribution() {
+    fn variance_of_an_absolute_value_matches_the_closed_form() {
         let slopes = [-1.0, 1.0];
-        // Variances: 1 − 2/π of |z| for a standard normal z; w²/3 − w²/4 of |x| for x uniform in
-        // ±w.
+        // For a standard normal z the variance of |z| is 1 − 2/π. For an x that is uniformly
+        // distributed from −w to w the variance of |x| is w²/3 − w²/4 = w²/12.
         let normal = variance(slopes, BatchDeviation::Normal(1.0));
         assert!((normal - (1.0 - 2.0 / std::f64::consts::PI)).abs() < 1e-15);
         assert!((variance(slopes, BatchDeviation::Uniform(1.0)) - 1.0 / 12.0).abs() < 1e-15);

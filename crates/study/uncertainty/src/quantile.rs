@@ -1,27 +1,28 @@
-//! Quantile over samples, with its confidence interval.
+//! Quantile of the values of samples, and its confidence interval.
 
 use results::quantile;
 use statrs::distribution::{Binomial, DiscreteCDF as _};
 
-/// Quantile over samples.
+/// Quantile of the values of samples, and its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledQuantile {
     /// Quantile of the samples; `None` if it is not finite.
     pub value: Option<f64>,
     /// 95 % confidence interval of the true quantile.
     ///
-    /// An end is `None` if there are too few samples to bound it.
+    /// An end is `None` if there are too few samples to bound it, or if it is not finite.
     pub interval: [Option<f64>; 2],
 }
 
-/// Probability that the true value lies beyond one end of the interval.
+/// Maximum probability that the true value lies beyond one given end of the interval.
 const MISS: f64 = 0.025;
 
 impl SampledQuantile {
-    /// Computes the quantile at `probability`, and its confidence interval.
+    /// Computes the quantile of `values` at `probability`, and its confidence interval.
     ///
-    /// The interval assumes no distribution, because the number of values below the true quantile
-    /// is binomial (T8; David & Nagaraja 2003, *Order Statistics*, section 7.1).
+    /// The interval is valid for every distribution of the values, because the number of values
+    /// below the true quantile is binomial (T8; David & Nagaraja 2003, *Order Statistics*, section
+    /// 7.1). The value of a failed sample is the worst value, −∞ or ∞.
     pub fn of(mut values: Vec<f64>, probability: f64) -> Self {
         values.sort_by(f64::total_cmp);
         let value = quantile(&values, probability);
@@ -31,11 +32,15 @@ impl SampledQuantile {
     }
 }
 
-/// Returns the indices of the interval ends in the sorted values.
+/// Returns the indices, in the sorted values, of the ends of the confidence interval.
+///
+/// The interval belongs to the quantile at `probability` of `count` values. An index is `None` if
+/// there are too few values.
 fn interval_indices(count: usize, probability: f64) -> [Option<usize>; 2] {
     let Ok(below) = Binomial::new(probability, count as u64) else { return [None; 2] };
-    // Value `l`, from 1, is too high if fewer than `l` values lie below the quantile. Value `u` is
-    // too low if `u` or more do.
+    // Sorted values are counted from 1. The lower end, value `l`, is too high if fewer than `l`
+    // values lie below the true quantile. The upper end, value `u`, is too low if at least `u`
+    // values lie below the true quantile.
     let low = (1..=count).take_while(|&l| below.cdf(l as u64 - 1) <= MISS).last();
     let high = (1..=count).find(|&u| below.sf(u as u64 - 1) <= MISS);
     [low, high].map(|index| index.map(|from_one| from_one - 1))
@@ -56,14 +61,14 @@ mod tests {
                 interval_indices(count, probability).map(|index| index.expect("an end") as u64 + 1);
             let below = Binomial::new(probability, count as u64).expect("a probability");
             // The interval contains the quantile if at least `low` and fewer than `high` values lie
-            // below it.
+            // below the quantile.
             let covered: f64 = (low..high).map(|k| below.pmf(k)).sum();
             assert!((0.95..0.98).contains(&covered), "{count} {probability}: {covered}");
         }
         assert_eq!(
             interval_indices(20, 0.05)[0],
             None,
-            "all of 20 values lie above the 5 % quantile often"
+            "the probability that all 20 values lie above the 5 % quantile exceeds 2.5 %"
         );
     }
 

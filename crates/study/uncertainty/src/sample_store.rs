@@ -1,4 +1,4 @@
-//! Storage of solved samples, so that none is solved twice.
+//! Stores solved samples in files, so that no sample is solved twice.
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
@@ -16,10 +16,10 @@ use sweep::Subset;
 
 use crate::analysis_error::AnalysisError;
 
-/// Number of digits of the digest in a file name.
+/// Number of hexadecimal digits of the definition's digest in a file name.
 ///
-/// Among ten thousand definitions with one label, two share these digits with a probability of 1 %.
-/// The second is then refused.
+/// With ten thousand definitions of one label, the probability is 1 % that two of them have the
+/// same digits. The store refuses the second of these definitions.
 const DIGITS: usize = 8;
 
 /// A solved sample.
@@ -28,7 +28,7 @@ const DIGITS: usize = 8;
 pub struct SolvedSample {
     /// Number of the sample, from 1.
     pub number: u64,
-    /// Values; `None` for a failed measure.
+    /// Values of the columns; `None` for a failed measure.
     pub values: Vec<Option<f64>>,
 }
 
@@ -75,24 +75,27 @@ impl Records for KeptSamples {
 impl SampleStore {
     /// Creates a store in `folder`.
     ///
-    /// The folder is created when the first samples are solved.
+    /// The folder itself is created when the first samples are requested.
     pub fn new(folder: &Path) -> Self {
         Self { folder: ResultsFolder::new(folder), work: Arc::default() }
     }
 
-    /// Returns the progress in samples. Callers set the expected number first.
+    /// Returns the progress meter, which counts samples.
+    ///
+    /// The caller sets the expected number of samples before it requests them.
     pub fn work(&self) -> &Arc<WorkMeter> {
         &self.work
     }
 
-    /// Returns samples 1 to `count` of the definition in `header`, under a label.
+    /// Returns samples 1 to `count` of the definition in `header`.
     ///
-    /// Samples missing in the journal are solved in parallel and stored at once, until `stop` is
-    /// set.
+    /// `solve` computes the values of a sample from its number. It is called in parallel for
+    /// samples that the journal lacks; each result is stored immediately. File names start with
+    /// `label`; `names` are the column names of the values.
     ///
     /// # Errors
     ///
-    /// After `stop`, or if samples cannot be read or written.
+    /// If `stop` is set, samples cannot be read or written, or the journal was edited.
     pub(crate) fn samples(
         &self,
         (label, header): (&str, JournalHeader),
@@ -128,7 +131,9 @@ impl SampleStore {
         Ok(samples)
     }
 
-    /// Returns the samples that differ between the table `name` and the journal.
+    /// Returns the numbers of samples that differ between the table `name` and the journal.
+    ///
+    /// `kept` are the samples of the journal.
     fn differing(
         &self,
         name: &str,
@@ -146,7 +151,7 @@ impl SampleStore {
     }
 }
 
-/// The samples of one label and definition, shared by the threads that solve them.
+/// Samples of one label and definition, shared by the threads that solve samples.
 struct Samples<'a, S> {
     label: &'a str,
     journal: Mutex<Journal<KeptSamples>>,
@@ -160,10 +165,10 @@ impl<S: Fn(u64) -> Vec<Option<f64>> + Sync> Samples<'_, S> {
         self.journal.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Solves stored samples again; returns the first with other values than in the journal.
+    /// Returns the first of `numbers` with values in the journal that cannot be reproduced.
     ///
-    /// Samples are reproducible, so solving again shows whether the journal or the table was
-    /// edited. Checks no further samples after `stop`.
+    /// Each of these samples is solved again, until `stop` is set. Samples are reproducible, so a
+    /// difference proves that somebody edited the journal. Otherwise only the table was edited.
     fn first_edited(&self, numbers: Vec<u64>) -> Option<u64> {
         numbers.into_iter().take_while(|_| !self.stop.load(Ordering::Relaxed)).find(|&number| {
             let stored = self.lock().records().values[&number].clone();
@@ -171,14 +176,14 @@ impl<S: Fn(u64) -> Vec<Option<f64>> + Sync> Samples<'_, S> {
         })
     }
 
-    /// Solves the samples up to `count` that the journal lacks, until `stop` is set.
+    /// Solves samples up to number `count` that the journal lacks, until `stop` is set.
     fn solve_missing(&self, count: usize, work: &WorkMeter) -> Result<(), OutputError> {
         let mut missing: Vec<u64> = (1..=count as u64).collect();
         missing.retain(|number| !self.lock().records().values.contains_key(number));
         work.leave_out((count - missing.len()) as u64);
         missing.into_par_iter().try_for_each(|number| {
-            // Return no error here: completed samples are stored first, and missing ones counted
-            // by the caller.
+            // An interruption is no error here: samples in progress are still stored, and the
+            // caller reports how many samples are missing.
             if self.stop.load(Ordering::Relaxed) {
                 return Ok(());
             }
@@ -193,9 +198,9 @@ impl<S: Fn(u64) -> Vec<Option<f64>> + Sync> Samples<'_, S> {
         })
     }
 
-    /// Synchronises the journal and returns its samples up to `count`.
+    /// Flushes the journal to disk and returns its samples 1 to `count`.
     ///
-    /// Further samples belong to an earlier analysis with a larger count.
+    /// Samples with larger numbers come from an earlier analysis with more samples.
     fn stored(&self, count: usize) -> Result<Vec<SolvedSample>, OutputError> {
         let mut journal = self.lock();
         journal.sync()?;
@@ -206,7 +211,7 @@ impl<S: Fn(u64) -> Vec<Option<f64>> + Sync> Samples<'_, S> {
     }
 }
 
-/// Returns the columns of a table of samples.
+/// Returns the columns of a table of samples: the number, then the values called `names`.
 fn columns(names: &[String]) -> Vec<Column<SolvedSample>> {
     let number = Column::new("sample", "-", "number of the sample", |sample: &SolvedSample| {
         Cell::Count(sample.number as i64)

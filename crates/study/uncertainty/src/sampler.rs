@@ -8,7 +8,7 @@ use crate::draw;
 
 /// Draws and solves samples of designs.
 ///
-/// The random numbers of a sample are the same in every design.
+/// Sample `k` has the same random numbers in every design.
 #[derive(Debug)]
 pub struct Sampler {
     evaluator: Evaluator,
@@ -18,32 +18,34 @@ pub struct Sampler {
 /// A solved sample.
 #[derive(Clone, Debug)]
 pub struct Sample {
-    /// Row of the sample; its case includes the deviations.
+    /// Results of the sample; the case of this row includes the deviations.
     pub row: DesignRow,
-    /// Batch deviation of each source; `None` for a source without one.
+    /// Batch deviation of each parameter; `None` if the parameter has no batch deviation.
     pub deviations: Vec<Option<f64>>,
 }
 
 impl Sampler {
-    /// Creates a sampler of `measures` under these deviations.
+    /// Creates a sampler that computes `measures` for designs with these `deviations`.
     pub fn new(measures: &[Measure], deviations: &[Deviation]) -> Self {
         Self::with(Evaluator::new(measures), deviations)
     }
 
-    /// Creates a sampler that solves samples with `evaluator`.
+    /// Creates a sampler that solves designs with these `deviations` by `evaluator`.
     pub fn with(evaluator: Evaluator, deviations: &[Deviation]) -> Self {
         Self { evaluator, deviations: deviations.to_vec() }
     }
 
-    /// Solves sample `sample`, counted from 1, of the design `case`.
+    /// Solves sample `sample`, counted from 1, of the design `case` with this `number`.
     ///
     /// `None` if no deviations within the bounds of the parameters are found.
     pub fn solve(&self, number: DesignNumber, case: &Case, sample: u64) -> Option<Sample> {
         self.solve_near(number, case, sample, None)
     }
 
-    /// Solves a sample like [`Self::solve`], from the `end` of the puncture of the design if
-    /// possible.
+    /// Solves a sample like [`Self::solve`], if possible starting from a known path end.
+    ///
+    /// `end` is the end of the puncture path of the nominal design. A sample that cannot start
+    /// there is solved from rest.
     pub fn solve_near(
         &self,
         number: DesignNumber,
@@ -58,13 +60,13 @@ impl Sampler {
         Some(Sample { row, deviations })
     }
 
-    /// Returns the case of a sample without scatter from scale to scale.
+    /// Returns the case of sample `sample` without scatter from scale to scale.
     ///
     /// `None` if no deviations within the bounds of the parameters are found.
     pub fn even_case(&self, case: &Case, sample: u64) -> Option<Case> {
         let (made, _) = draw::sample(case, &self.deviations, sample)?;
-        // Keep the scatter of the nominal case: derivatives are computed for rows without scatter,
-        // which changes only the values.
+        // Replace the scatter of the sample by the imperfection of `case`: derivatives are computed
+        // for rows without scatter.
         Some(Case { imperfection: case.imperfection, ..made })
     }
 }

@@ -1,6 +1,6 @@
 //! Sobol' indices: contributions of variables to the variance of a function.
 
-/// Values of a function at two independent points and at combinations of them.
+/// Values of a function at two random points, and at combinations of these points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluation {
     /// Value at the first point, `A`.
@@ -11,7 +11,7 @@ pub struct Evaluation {
     pub mixed: Vec<f64>,
 }
 
-/// Contribution of a variable to the variance of a function.
+/// Sobol' indices of one variable: its contribution to the variance of a function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SobolIndices {
     /// First-order index: contribution of the variable alone.
@@ -20,12 +20,12 @@ pub struct SobolIndices {
     pub total: IndexEstimate,
 }
 
-/// An estimate and its standard error.
+/// An estimated index and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IndexEstimate {
-    /// Estimate.
+    /// Estimated value of the index.
     pub value: f64,
-    /// Standard error.
+    /// Standard error of the estimate.
     pub error: f64,
 }
 
@@ -33,17 +33,17 @@ pub struct IndexEstimate {
 const WITHIN: f64 = 1.959_964;
 
 impl IndexEstimate {
-    /// Returns the 95 % confidence interval.
+    /// Returns the lower and upper end of the 95 % confidence interval.
     pub fn interval(self) -> [f64; 2] {
         [-WITHIN, WITHIN].map(|errors| self.value + errors * self.error)
     }
 }
 
-/// Returns the first-order and total index of every variable.
+/// Estimates the first-order and total index of every variable.
 ///
-/// `None` if there are fewer than two evaluations or the function is constant. The evaluations must
-/// be independent. With the mean `f₀` and the variance `V` over all points `A` and `B`, and `A⁽ⁱ⁾`
-/// the point `A` with coordinate `i` of `B`,
+/// `None` if there are fewer than two evaluations, or if the function is constant. The evaluations
+/// must be independent. `f₀` and `V` are mean and variance over all points `A` and `B`. `A⁽ⁱ⁾` is
+/// the point `A` with coordinate `i` of `B`:
 ///
 /// ```text
 /// S_i = ⟨(f(B) − f₀)(f(A⁽ⁱ⁾) − f(A))⟩/V                                               (T6)
@@ -51,27 +51,28 @@ impl IndexEstimate {
 /// ```
 ///
 /// (Saltelli et al. 2010, doi 10.1016/j.cpc.2009.09.018; Jansen 1999, doi
-/// 10.1016/S0010-4655(98)00154-4). Both are ratios of means over independent evaluations. Their
-/// standard error is the standard error of the mean of `(u − S v)/V`, with the terms `u` in the
-/// brackets above and the terms `v` of the variance.
+/// 10.1016/S0010-4655(98)00154-4). Each index `S` is a ratio of two means over independent
+/// evaluations. Its standard error is the standard error of the mean of `(u − S v)/V`. Here `u` is
+/// the term in the brackets `⟨ ⟩` (halved for `T_i`), and `v` is the term of the variance.
 pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
     let n = evaluations.len() as f64;
     let mean = evaluations.iter().map(|e| e.first + e.second).sum::<f64>() / (2.0 * n);
-    // Subtract the mean: if it is large compared to the spread, it dominates the errors.
+    // Subtract the mean from the values. A mean much larger than the spread would otherwise
+    // dominate the errors of the indices.
     let squares: Vec<f64> = evaluations
         .iter()
         .map(|e| 0.5 * ((e.first - mean).powi(2) + (e.second - mean).powi(2)))
         .collect();
     let variance = squares.iter().sum::<f64>() / n;
-    // This form of the condition also refuses NaN.
+    // The negated comparison is also true for a variance of NaN.
     if evaluations.len() < 2 || !(variance > 0.0 && variance.is_finite()) {
         return None;
     }
     let ratio = |term: &dyn Fn(&Evaluation) -> f64| {
         let terms: Vec<f64> = evaluations.iter().map(term).collect();
         let value = terms.iter().sum::<f64>() / (n * variance);
-        // Numerator and variance use the same samples, so each sample changes the ratio through
-        // both.
+        // Each sample contributes to the numerator and to the variance, so its influence on the
+        // ratio has two terms.
         let influences =
             terms.iter().zip(&squares).map(|(u, v)| ((u - value * v) / variance).powi(2));
         IndexEstimate { value, error: (influences.sum::<f64>() / (n * (n - 1.0))).sqrt() }
@@ -93,14 +94,14 @@ mod tests {
 
     use super::*;
 
-    /// Returns the Ishigami–Homma function on (−π, π)³, with a = 7 and b = 0.1.
+    /// Returns the Ishigami–Homma function at `x`, with a = 7 and b = 0.1.
     ///
-    /// Ishigami & Homma 1990, doi 10.1109/ISUMA.1990.151285.
+    /// Each coordinate is between −π and π (Ishigami & Homma 1990, doi 10.1109/ISUMA.1990.151285).
     fn ishigami(x: [f64; 3]) -> f64 {
         x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin()
     }
 
-    /// Returns the exact first-order and total indices of `ishigami`.
+    /// Returns the exact indices of `ishigami`: first-order and total index of each variable.
     fn exact() -> [[f64; 2]; 3] {
         let (a, b) = (7.0, 0.1);
         let alone = 0.5 * (1.0 + b * PI.powi(4) / 5.0_f64).powi(2);
@@ -157,12 +158,12 @@ mod tests {
                 }
             }
         }
-        // Expected 570 of 600; three standard deviations are 16.
+        // 95 % of 600 intervals are 570. The standard deviation of this count is 5.3.
         assert!(held.iter().flatten().all(|held| (554..=590).contains(held)), "{held:?}");
     }
 
     #[test]
-    fn a_constant_has_no_indices() {
+    fn constant_functions_have_no_indices() {
         let evaluation = Evaluation { first: 1.0, second: 1.0, mixed: vec![1.0] };
         assert_eq!(sobol_indices(&vec![evaluation; 3]), None);
         assert_eq!(sobol_indices(&[]), None);

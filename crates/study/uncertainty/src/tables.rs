@@ -1,4 +1,4 @@
-//! Columns and rows of the tables of an analysis.
+//! Columns and rows of the tables with spreads, yields and Sobol' indices.
 
 use results::{Column, columns};
 use sweep::DesignNumber;
@@ -12,13 +12,13 @@ use crate::sobol::SobolIndices;
 use crate::yields::RequirementYield;
 
 impl DesignTolerance {
-    /// Returns the rows of `tolerance.csv`: measures with their spread.
+    /// Returns the rows of `tolerance.csv`: one row for each measure.
     pub fn measure_rows(&self) -> impl Iterator<Item = (DesignNumber, MeasureTolerance)> {
         let design = self.nominal.number;
         self.measures.iter().cloned().map(move |measure| (design, measure))
     }
 
-    /// Returns the rows of `tolerance_sources.csv`: sources of each measure.
+    /// Returns the rows of `tolerance_sources.csv`: one for each source of each measure.
     pub fn source_rows(&self) -> impl Iterator<Item = (DesignNumber, String, SourceShare)> {
         let design = self.nominal.number;
         self.measures.iter().flat_map(move |measure| {
@@ -27,7 +27,7 @@ impl DesignTolerance {
         })
     }
 
-    /// Returns the rows of `yield.csv`: each requirement, then all together.
+    /// Returns the rows of `yield.csv`: one for each requirement, then one for all together.
     pub fn yield_rows(&self) -> impl Iterator<Item = (DesignNumber, RequirementYield)> {
         let design = self.nominal.number;
         self.yields.iter().cloned().map(move |of| (design, of))
@@ -35,7 +35,9 @@ impl DesignTolerance {
 }
 
 impl MeasureIndices {
-    /// Returns the rows of `sobol.csv`: indices of each variable, by its key.
+    /// Returns the rows of `sobol.csv`: one for each variable, with the key of the variable.
+    ///
+    /// `variables` are the keys in the order of the indices.
     pub fn rows(
         &self,
         variables: &[&'static str],
@@ -56,17 +58,17 @@ pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &col
     "unit", "-", |(_, m)| m.unit, "unit of the measure";
     "value", SAME, |(_, m)| m.value, "value of the nominal design";
     "linear_spread", SAME, |(_, m)| m.linear.as_ref().map(|linear| linear.spread),
-        "standard deviation that the derivatives predict, empty at a kink without one of its sides";
+        "standard deviation that the derivatives predict; empty if a one-sided derivative is missing at a kink";
     "sources", "-", |(_, m)| m.linear.as_ref().map(LinearSpread::in_words),
         "sources of the linear spread, the largest contribution first";
     "samples", "-", |(_, m)| m.sampled.as_ref().map(|sampled| sampled.count),
-        "solved samples that have a value";
+        "solved samples with a value";
     "failed", "-", |(_, m)| m.failed, "samples without a value";
     "spread", SAME, |(_, m)| sampled(m, |s| s.spread), "standard deviation over the solved samples";
     "spread_error", SAME, |(_, m)| sampled(m, |s| s.spread_error),
-        "standard error of that standard deviation";
+                "standard error of the spread";
     "discrepancy", "-", |(_, m)| m.discrepancy(),
-        "relative error of the linear spread against the spread of the samples";
+                "relative error of the linear spread: linear_spread/spread − 1";
     "mean", SAME, |(_, m)| sampled(m, |s| s.statistics.mean), "mean over the samples";
     "p05", SAME, |(_, m)| sampled(m, |s| s.statistics.quantiles[0]), "5 % quantile over the samples";
     "p50", SAME, |(_, m)| sampled(m, |s| s.statistics.quantiles[1]), "median over the samples";
@@ -84,10 +86,10 @@ pub static SOURCE_COLUMNS: &[Column<(DesignNumber, String, SourceShare)>] = &col
             DeviationLevel::Batch => "batch",
             DeviationLevel::Scale => "scale",
         },
-        "batch: all scales have the same deviation; scale: each its own";
+                "batch: all scales have the same deviation; scale: each scale has its own deviation";
     "deviation", "as the source", |(.., s)| s.deviation, "standard deviation of the source";
     "linear_spread", SAME, |(.., s)| s.spread,
-        "standard deviation of the measure, were this the only source";
+                "standard deviation of the measure if this were the only source";
     "share", "-", |(.., s)| s.share, "fraction of the variance of the measure";
 };
 
@@ -97,14 +99,14 @@ pub static YIELD_COLUMNS: &[Column<(DesignNumber, RequirementYield)>] = &columns
     "design", "-", |(design, _)| design.to_string(), DESIGN;
     "requirement", "-",
         |(_, of)| of.requirement.as_ref().map_or("all".to_owned(), ToString::to_string),
-        "the requirement, or all of them together";
+        "the requirement; all: all requirements together";
     "samples", "-", |(_, of)| of.proportion.map(|p| p.of), "solved samples";
     "failed", "-", |(_, of)| of.failed, "samples without a value, which count as not meeting the requirement";
     "met", "-", |(_, of)| of.proportion.map(|p| p.met), "samples that meet the requirement";
     "yield", "-", |(_, of)| of.proportion.map(Proportion::share), "fraction of the samples that meet the requirement";
     "yield_low", "-", |(_, of)| of.proportion.map(|p| p.interval()[0]),
         "lower end of the 95 % interval of the yield";
-    "yield_high", "-", |(_, of)| of.proportion.map(|p| p.interval()[1]), "upper end of that interval";
+    "yield_high", "-", |(_, of)| of.proportion.map(|p| p.interval()[1]), "upper end of the 95 % interval of the yield";
     "linear_yield", "-", |(_, of)| of.linear, "yield that the linear spread predicts";
 };
 
@@ -115,15 +117,15 @@ pub static INDEX_COLUMNS: &[Column<(MeasureIndices, &'static str, SobolIndices)>
     "variable", "-", |(_, key, _)| *key, "the variable, by its key";
     "first", "-", |(.., of)| of.first.value,
         "first-order index: fraction of the variance caused by the variable alone";
-    "first_low", "-", |(.., of)| of.first.interval()[0], "lower end of its 95 % interval";
-    "first_high", "-", |(.., of)| of.first.interval()[1], "upper end of that interval";
+    "first_low", "-", |(.., of)| of.first.interval()[0], "lower end of the 95 % interval of the first-order index";
+    "first_high", "-", |(.., of)| of.first.interval()[1], "upper end of the 95 % interval of the first-order index";
     "total", "-", |(.., of)| of.total.value,
         "total index: fraction of the variance caused by the variable, alone and in interactions";
-    "total_low", "-", |(.., of)| of.total.interval()[0], "lower end of its 95 % interval";
-    "total_high", "-", |(.., of)| of.total.interval()[1], "upper end of that interval";
+    "total_low", "-", |(.., of)| of.total.interval()[0], "lower end of the 95 % interval of the total index";
+    "total_high", "-", |(.., of)| of.total.interval()[1], "upper end of the 95 % interval of the total index";
     "spread", SAME, |(m, ..)| m.spread, "standard deviation of the measure over the box";
-    "samples", "-", |(m, ..)| m.samples, "samples that have all their values";
-    "failed", "-", |(m, ..)| m.failed, "samples that lack a value, which are left out";
+    "samples", "-", |(m, ..)| m.samples, "samples with a value at every point";
+    "failed", "-", |(m, ..)| m.failed, "samples without a value at some point, which are excluded";
 };
 
 fn sampled(measure: &MeasureTolerance, value: fn(&SampledSpread) -> f64) -> Option<f64> {

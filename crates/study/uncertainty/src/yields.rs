@@ -1,4 +1,4 @@
-//! Yield: fraction of samples that meet requirements.
+//! Computes the yield: the fraction of samples that meet requirements.
 
 use ranking::{Relation, Requirement};
 use statrs::distribution::{ContinuousCDF as _, Normal};
@@ -8,7 +8,7 @@ use crate::proportion::Proportion;
 /// Yield of a requirement, or of all requirements together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RequirementYield {
-    /// Requirement; `None` for all together.
+    /// Requirement; `None` for all requirements together.
     pub requirement: Option<Requirement>,
     /// Fraction of samples that meet the requirement; `None` without samples.
     ///
@@ -16,14 +16,14 @@ pub struct RequirementYield {
     pub proportion: Option<Proportion>,
     /// Number of samples without a value.
     pub failed: usize,
-    /// Yield predicted by the linear spread, for a single requirement.
+    /// Yield that the linear spread predicts; `None` for all requirements together.
     pub linear: Option<f64>,
 }
 
-/// Returns the yield of every requirement, then of all together.
+/// Returns the yield of each requirement, then the yield of all requirements together.
 ///
-/// Arguments are the values of each requirement in all samples, and its nominal value and linear
-/// spread if known.
+/// `values[k][n]` is the value of the column of requirement `k` in sample `n`. `nominal[k]` is the
+/// nominal value of this column and its linear spread, if known.
 pub(crate) fn yields(
     requirements: &[Requirement],
     values: &[Vec<Option<f64>>],
@@ -41,7 +41,7 @@ pub(crate) fn yields(
         requirement: None,
         proportion: of(&|n| every.clone().all(|k| meets(k, n))),
         failed: (0..count).filter(|&n| every.clone().any(|k| values[k][n].is_none())).count(),
-        // Columns of a sample are correlated, so single spreads do not predict this yield.
+        // The columns of a sample are correlated, so their spreads do not determine this yield.
         linear: None,
     };
     every
@@ -57,7 +57,9 @@ pub(crate) fn yields(
         .collect()
 }
 
-/// Returns the probability that a normally distributed value meets a requirement.
+/// Returns the probability that a normally distributed value meets the requirement.
+///
+/// `value` and `spread` are mean and standard deviation. `None` for an equality.
 fn predicted(requirement: &Requirement, value: f64, spread: f64) -> Option<f64> {
     let normal = Normal::new(value, spread).ok()?;
     match requirement.relation {

@@ -10,7 +10,7 @@ use text::toml_source::{KeyValue, KeyValues, Place, Value};
 use super::{InvalidFit, Source, TestCurve, Unknown, not_accepted, refused, table};
 use crate::measured_curve::{Branches, CurveEventKind, MeasuredCurve, Test};
 
-/// Keys of a `[[curve]]` besides parameters.
+/// Keys of a `[[curve]]` table, apart from the keys of parameters.
 const KEYS: [&str; 8] = ["file", "kind", "columns", "specimen", "branch", "from", "to", "offsets"];
 
 /// Returns the JSON schema of the tables `[[curve]]`.
@@ -21,15 +21,15 @@ pub fn curves_schema() -> Json {
     });
     let axes = ["displacement", "force", "curvature", "moment"];
     let ranges = axes.map(|axis| (axis.to_owned(), range.clone()));
-    // In the order of `KEYS`. A key without a schema does not compile.
+    // Schemas in the order of `KEYS`. The length of the array ensures one schema for each key.
     let about: [Json; KEYS.len()] = [
         json!({ "type": "string", "description": "CSV file, relative to the definition" }),
         json!({ "enum": [Test::Puncture.name(), Test::Bending.name()], "description": "kind of test" }),
         json!({ "type": "array", "items": { "type": "string" }, "description": "names of the columns" }),
         json!({ "type": ["string", "integer"], "description": "name or number of the specimen in the file" }),
         json!({ "enum": ["loading", "unloading", "both"], "description": "branches that are fitted" }),
-        number_schema("first value of the first column that is fitted"),
-        number_schema("last value of the first column that is fitted"),
+        number_schema("lower limit of the fitted range, in the unit of the first column"),
+        number_schema("upper limit of the fitted range, in the unit of the first column"),
         json!({
             "anyOf": [texts, {
                 "type": "object", "additionalProperties": false,
@@ -55,12 +55,12 @@ fn number_schema(about: &str) -> Json {
     json!({ "type": "number", "description": about })
 }
 
-/// Maximum number of points of a curve.
+/// Maximum number of fitted points of a curve.
 ///
-/// Longer curves are averaged over neighbouring points.
+/// In longer curves, neighbouring points are averaged.
 const MOST_POINTS: usize = 200;
 
-/// Returns the `[[curve]]` tables, at least one.
+/// Returns the `[[curve]]` tables of a definition. It must have at least one.
 pub(super) fn tables<'e>(
     entries: &'e KeyValues,
     name: &str,
@@ -86,7 +86,7 @@ pub(super) fn tables<'e>(
 pub(super) struct CurveTable<'e>(&'e [KeyValue]);
 
 impl CurveTable<'_> {
-    /// Returns the position of the first key.
+    /// Returns the location of the first key of this table, for messages.
     pub fn place(&self) -> &Place {
         &self.0[0].place
     }
@@ -95,7 +95,7 @@ impl CurveTable<'_> {
         self.0.iter().find(|entry| entry.key == key)
     }
 
-    /// Returns the error for a key with an unaccepted value, or without one.
+    /// Returns the error for a key that is missing or has a value of a wrong type.
     fn wrong(&self, key: &str, expected: &'static str) -> InvalidFit {
         let name = format!("curve.{key}");
         match self.entry(key) {
@@ -111,7 +111,7 @@ impl CurveTable<'_> {
         }
     }
 
-    /// Reads the value of an optional key.
+    /// Converts the value of an optional key with `read`.
     fn optional<T>(
         &self,
         key: &str,
@@ -130,7 +130,7 @@ impl CurveTable<'_> {
         })
     }
 
-    /// Returns the texts of an optional key.
+    /// Returns the list of texts of an optional key.
     fn texts(&self, key: &str) -> Result<Option<Vec<String>>, InvalidFit> {
         self.optional(key, "a list of names in quotes", |value| {
             let Value::List(items) = value else { return None };
@@ -142,20 +142,20 @@ impl CurveTable<'_> {
         })
     }
 
-    /// Returns the error for a key of this table with a value that is not accepted.
+    /// Returns the error that the value `found` of a key of this table is not accepted.
     pub fn not_accepted(&self, key: &str, found: impl Display, expected: &str) -> InvalidFit {
         let place = self.entry(key).map_or(self.place(), |entry| &entry.place);
         not_accepted(place, &format!("curve.{key}"), found, expected)
     }
 
-    /// Returns the path of the file, without links and `./` if it exists.
+    /// Returns the path of the measured file, in canonical form if the file exists.
     pub fn path(&self, folder: &Path) -> PathBuf {
         let file = self.text("file", "").unwrap_or_default();
         let path = folder.join(file);
         path.canonicalize().unwrap_or(path)
     }
 
-    /// Reads the measured curves of the chosen specimens.
+    /// Reads the curves of the specimen in this table, by default of all specimens in the file.
     pub fn measured(&self, folder: &Path) -> Result<Vec<MeasuredCurve>, InvalidFit> {
         let file = self.text("file", "the name of a CSV file")?;
         let kind = self.text("kind", "\"puncture\" or \"bending\"")?;
@@ -179,7 +179,7 @@ impl CurveTable<'_> {
         Ok(curves)
     }
 
-    /// Returns the index of the specimen with the name or the number in `entry`.
+    /// Returns the index of the specimen with the name or the number (from 1) in `entry`.
     fn specimen(&self, entry: &KeyValue, curves: &[MeasuredCurve]) -> Result<usize, InvalidFit> {
         let chosen = match &entry.value {
             Value::Text(text) | Value::Number(text) => text.as_str(),
@@ -190,14 +190,14 @@ impl CurveTable<'_> {
         let named = names.iter().position(|name| *name == chosen);
         named.or_else(|| number.map(|number| number - 1)).ok_or_else(|| {
             let expected = match names.as_slice() {
-                [] => "no specimen: the file holds one".to_owned(),
+                [] => "no key specimen: the file has a single specimen".to_owned(),
                 names => format!("a number from 1 to {}, or {}", names.len(), names.join(", ")),
             };
             self.not_accepted("specimen", &entry.value, &expected)
         })
     }
 
-    /// Returns true for each branch that is fitted: loading and unloading.
+    /// Returns whether the loading branch and whether the unloading branch is fitted.
     fn fitted_branches(&self, test: Test, case: &Case) -> Result<[bool; 2], InvalidFit> {
         let Some(entry) = self.entry("branch") else {
             let unloads = match test {
@@ -218,7 +218,9 @@ impl CurveTable<'_> {
         fitted.ok_or_else(|| self.wrong("branch", "\"loading\", \"unloading\" or \"both\""))
     }
 
-    /// Selects the fitted branches of a curve from `from` to `to`, averaged if they are long.
+    /// Selects the fitted points: the chosen branches between the keys `from` and `to`.
+    ///
+    /// Neighbouring points of long curves are averaged.
     pub fn branches(
         &self,
         mut curve: MeasuredCurve,
@@ -241,7 +243,7 @@ impl CurveTable<'_> {
         }
         let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
         let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;
-        // Select the range before averaging, so that no mean includes points outside of it.
+        // Select the range before averaging, so that no mean includes points outside of the range.
         for branch in [&mut loading, &mut unloading] {
             branch.retain(|index| (from..=to).contains(&curve.points[*index][0]));
         }
@@ -251,7 +253,7 @@ impl CurveTable<'_> {
             let key = if self.entry("from").is_some() { "from" } else { "to" };
             return Err(self.wrong(key, "a range with points of the file in it"));
         }
-        // Machines record thousands of points, and the noise of neighbouring points is correlated.
+        // Average neighbouring points: machines record thousands, with correlated noise.
         let part = count.div_ceil(MOST_POINTS);
         let [loading, unloading] = [loading, unloading].map(|branch| {
             let means = branch.chunks(part).map(|indices| mean_point(&curve.points, indices));
@@ -284,7 +286,7 @@ impl CurveTable<'_> {
         Err(self.not_accepted("file", &curve.file, &expected))
     }
 
-    /// Returns the parameters that this specimen sets itself, with their values.
+    /// Returns the parameters that this table sets for its specimen, with their values.
     pub fn own_values(&self) -> Result<Vec<(&'static Parameter, Setting)>, InvalidFit> {
         self.0
             .iter()
@@ -305,9 +307,9 @@ impl CurveTable<'_> {
             .collect()
     }
 
-    /// Returns the offsets of this curve that are fitted.
+    /// Returns the unknown offsets of the curve with index `curve`.
     ///
-    /// `offsets` lists the axes, or gives a range for each: `{ displacement = [-0.1, 3] }`.
+    /// The key `offsets` lists axes, or has a range for each axis: `{ displacement = [-0.1, 3] }`.
     pub fn offsets(
         &self,
         measured: &MeasuredCurve,
@@ -343,7 +345,7 @@ impl CurveTable<'_> {
     }
 }
 
-/// Returns the increasing bounds in a list of two numbers.
+/// Returns the bounds in a list of two increasing numbers; `None` for other values.
 fn range(value: &Value) -> Option<[f64; 2]> {
     let Value::List(items) = value else { return None };
     let mut numbers = items.iter().map(|item| match item {

@@ -4,8 +4,8 @@ use super::Test;
 
 /// A known column: its name, its test, its axis (0 or 1) and its unit.
 ///
-/// The unit is in mm, N, 1/mm or N mm. `None` stands for the units of the model (`u*`, `F*`, `κ*`,
-/// `M*`), as in the tables of `squama design`.
+/// The unit is a factor to mm, N, 1/mm or N mm. `None` stands for the units of the model (`u*`,
+/// `F*`, `κ*`, `M*`), as in the tables of `squama design`.
 type Column = (&'static str, Test, usize, Option<f64>);
 
 static COLUMNS: [Column; 21] = [
@@ -32,7 +32,7 @@ static COLUMNS: [Column; 21] = [
     ("moment", Test::Bending, 1, None),
 ];
 
-/// Words by which testing machines name the displacement, in English, German and French.
+/// Words with which testing machines name the displacement, in English, German and French.
 const DISPLACEMENTS: [&str; 14] = [
     "displacement",
     "extension",
@@ -49,16 +49,16 @@ const DISPLACEMENTS: [&str; 14] = [
     "deplacement",
     "course",
 ];
-/// Words by which testing machines name the force.
+/// Words with which testing machines name the force, in English, German and French.
 const FORCES: [&str; 8] =
     ["force", "load", "last", "kraft", "standardkraft", "prüfkraft", "effort", "charge"];
-/// Other spellings of units. The µ of DOS code pages is an æ of Windows-1252.
+/// Other spellings of units. A µ of a DOS code page reads as æ in Windows-1252.
 const UNITS: [(&str, &str); 6] =
     [("inch", "in"), ("inches", "in"), ("lb", "lbf"), ("lbs", "lbf"), ("kp", "kgf"), ("æm", "um")];
-/// Words before the name of a quantity.
+/// Words that may precede the name of a quantity.
 const QUALIFIERS: [&str; 6] =
     ["tensile", "compressive", "compression", "axial", "standard", "machine"];
-/// Words of columns that hold another quantity.
+/// Words that exclude a column: it holds neither the displacement nor the force of a curve.
 const OTHERS: [&str; 11] = [
     "rate", "speed", "time", "max", "maximum", "peak", "break", "absolute", "absolue", "strain",
     "stress",
@@ -67,7 +67,7 @@ const OTHERS: [&str; 11] = [
 /// Normalises a column name.
 ///
 /// `Force [N]`, `force (N)` and `Force, N` become `force_N`; `Curvature (1/m)` becomes
-/// `curvature_per_m`. Units in symbols become words.
+/// `curvature_per_m`. The symbols µ, %, ″ and 1/ become `u`, `percent`, `in` and `per`.
 pub(super) fn spelled(name: &str) -> String {
     let name = name.replace("1/", "per ").replace(['µ', 'μ'], "u").replace('%', " percent ");
     let name = name.replace("(\")", " in ").replace("[\"]", " in ").replace('″', " in ");
@@ -79,7 +79,7 @@ pub(super) fn spelled(name: &str) -> String {
 /// Translates the name that a testing machine gives to a force or displacement with a unit.
 ///
 /// `extension_mm` and `traversenweg_mm` become `displacement_mm`, `standardkraft_N` becomes
-/// `force_N`. Other names stay.
+/// `force_N`. Other names are returned unchanged.
 fn translated(name: &str) -> String {
     let words: Vec<_> = name.split('_').collect();
     let (Some((unit, words)), false) = (words.split_last(), words.len() < 2) else {
@@ -94,7 +94,7 @@ fn translated(name: &str) -> String {
         .unwrap_or_else(|| name.to_owned())
 }
 
-/// Returns the quantity that the words of a name state.
+/// Returns the quantity that the words of a column name state, e.g. `force` for `axial load`.
 fn quantity(words: &[String]) -> Option<&'static str> {
     if words.iter().any(|word| OTHERS.contains(&word.as_str())) {
         return None;
@@ -108,14 +108,14 @@ fn quantity(words: &[String]) -> Option<&'static str> {
     }
 }
 
-/// Returns the quantity that a name states, with or without a unit.
+/// Returns the quantity that a normalised column name states, with or without a unit.
 fn quantity_of(name: &str) -> Option<&'static str> {
     quantity(&name.split('_').map(str::to_lowercase).collect::<Vec<_>>())
 }
 
-/// Counts the quantities of a test among names.
+/// Counts the different quantities that column names state.
 ///
-/// The row with the largest count is taken as the header.
+/// Among unknown rows of text, the row with the largest count counts as the header.
 pub(super) fn quantities(names: &[String]) -> usize {
     let mut quantities: Vec<_> = names.iter().filter_map(|name| quantity_of(name)).collect();
     quantities.sort_unstable();
@@ -129,22 +129,22 @@ fn unnumbered(name: &str) -> String {
     words.collect::<Vec<_>>().join("_")
 }
 
-/// Columns of one curve, by index, with the units in which they are written.
+/// The two columns of a curve in a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CurveColumns {
     pub(super) indices: [usize; 2],
     pub(super) test: Test,
-    /// `None` for the units of the model.
+    /// Factors to mm and N, or to 1/mm and N mm; `None` for the units of the model.
     pub(super) units: Option<[f64; 2]>,
 }
 
 /// Finds the columns of the curves in a table, one pair for each specimen side by side.
 ///
-/// Names of squama come first, then names of testing machines.
+/// Column names that squama writes take precedence over names of testing machines.
 ///
 /// # Errors
 ///
-/// If no two columns belong to one test, or several could be the displacement or the force.
+/// If no two columns belong to one test, or several columns could be the displacement or the force.
 pub(super) fn curves(names: &[String]) -> Result<Vec<CurveColumns>, String> {
     let unnumbered: Vec<_> = names.iter().map(|name| unnumbered(name)).collect();
     if let Ok(Some(curves)) = pairs(&unnumbered)
@@ -176,12 +176,12 @@ pub(super) fn curves(names: &[String]) -> Result<Vec<CurveColumns>, String> {
     pairs(&translations)?.ok_or_else(|| missing(names))
 }
 
-/// Advice for files with other names.
+/// Advice for files with unknown column names, as the end of an error message.
 const OTHERWISE: &str = "name the columns with columns = [...] in [[curve]], or --measured-columns";
 
-/// Returns the column that a name in the file states, if its unit contradicts a given name.
+/// Returns the known column that `in_file` states, if its unit contradicts the name `given`.
 ///
-/// The name in the file may be a unit alone.
+/// `given` comes from the definition; `in_file` is the name or only the unit in the file.
 pub(super) fn contradiction(given: &str, in_file: &str) -> Option<&'static str> {
     let quantity = given.split('_').next().unwrap_or_default();
     let (words, unit) =
@@ -199,13 +199,13 @@ pub(super) fn contradiction(given: &str, in_file: &str) -> Option<&'static str> 
     stated.filter(|name| *name != given)
 }
 
-/// Returns the known column with a name, as a testing machine may write it.
+/// Returns the known column for a name that squama or a testing machine writes.
 fn known(name: &str) -> Option<&'static Column> {
     let name = translated(name);
     COLUMNS.iter().find(|column| column.0 == name)
 }
 
-/// Lists the columns of a quantity: the first name, and the units of the others.
+/// Lists the columns of a quantity for a message, e.g. `force_N (_mN _cN)`.
 fn units_of(quantity: &str) -> String {
     let of = COLUMNS.iter().filter_map(|column| column.0.strip_prefix(quantity)?.strip_prefix('_'));
     let mut units = of.map(|unit| format!("_{unit}"));
@@ -213,7 +213,7 @@ fn units_of(quantity: &str) -> String {
     format!("{quantity}{first} ({})", units.collect::<Vec<_>>().join(" "))
 }
 
-/// Describes the columns that a header lacks.
+/// Returns the error message for names without two columns of one test.
 pub(super) fn missing(names: &[String]) -> String {
     let mut units = names.iter().filter_map(|name| known(name)).map(|column| column.3);
     let has_units = units.any(|unit| unit.is_some());
@@ -243,11 +243,14 @@ pub(super) fn missing(names: &[String]) -> String {
     let [x, y, curvature, moment] = ["displacement", "force", "curvature", "moment"].map(units_of);
     format!("{shown}; expected {x} and {y}, or {curvature} and {moment}; otherwise {OTHERWISE}")
 }
+
 /// Returns the first two columns of one test in one system of units, for each specimen.
+///
+/// Specimens side by side repeat both names. `None` if no two columns belong to one test.
 ///
 /// # Errors
 ///
-/// If one of the names occurs more often than the other.
+/// If one of the two names occurs more often than the other.
 fn pairs(names: &[String]) -> Result<Option<Vec<CurveColumns>>, String> {
     let known = names.iter().filter_map(|name| COLUMNS.iter().find(|column| column.0 == name));
     let (xs, ys): (Vec<&Column>, Vec<_>) = known.partition(|column| column.2 == 0);
@@ -260,7 +263,7 @@ fn pairs(names: &[String]) -> Result<Option<Vec<CurveColumns>>, String> {
         alike.map(|(index, _)| index).collect::<Vec<_>>()
     });
     if xs.len() != ys.len() {
-        // Taking the first of several columns might be wrong.
+        // The first of several columns with one name might be the wrong one.
         let column = if xs.len() > ys.len() { x } else { y };
         return Err(format!("has several columns {0}, expected one: {OTHERWISE}", column.0));
     }

@@ -1,4 +1,4 @@
-//! Column names above a table of numbers.
+//! Header of a table of numbers: column names and units in the rows above the numbers.
 
 use std::ops::Range;
 
@@ -11,22 +11,21 @@ const LONGEST_PREAMBLE: usize = 100;
 /// Column names above a table.
 pub(super) struct Header {
     pub names: Vec<String>,
-    /// Names in the file above the columns, if the definition names them.
+    /// Names of the columns in the file, if `names` come from the definition.
     in_file: Vec<String>,
-    /// True if the names come from the definition. It may name only the first columns.
+    /// True if `names` come from the definition, which may name only the first columns.
     pub is_given: bool,
-    /// True if the names and units of a test were found in the file.
+    /// True if `names` are given, or include names and units of a test that the file states.
     is_known: bool,
     /// Rows of the names and their units in the file.
     rows: Range<usize>,
 }
 
 impl Header {
-    /// Finds the header of the table below `above`.
+    /// Finds the header of the table below the rows `above`.
     ///
-    /// The header is the given names, or the nearest row of names.
-    ///
-    /// Units in the row below are appended to the names.
+    /// Its names are `given`, otherwise the nearest row with the names of two columns of a test.
+    /// Units from the row below the names are appended to them.
     pub fn find(rows: &Rows, above: Range<usize>, given: Option<&[String]>) -> Self {
         let start = above.start.max(above.end.saturating_sub(LONGEST_PREAMBLE));
         if let Some(names) = given {
@@ -34,7 +33,8 @@ impl Header {
             return Self { names: names.to_vec(), in_file, is_given: true, is_known: true, rows };
         }
         let known = (start..above.end).rev().find_map(|row| Self::known(rows, row));
-        // The error message shows the row that has most of the words of a header.
+        // No row is a known header. For the error message, choose the row that names the most
+        // quantities.
         known.unwrap_or_else(|| {
             let mut best = Self::nearest(rows, start..above.end);
             for row in (start..above.end).filter(|row| rows.is_text(*row)) {
@@ -48,7 +48,9 @@ impl Header {
         })
     }
 
-    /// Returns the rows of text just above the numbers, one or two of equal width.
+    /// Returns the header in the last row of text above the numbers.
+    ///
+    /// If the row above it is text with the same number of cells, the two rows are names and units.
     fn nearest(rows: &Rows, above: Range<usize>) -> Self {
         let last = above.end.checked_sub(1).filter(|row| above.contains(row) && rows.is_text(*row));
         let Some(last) = last else {
@@ -65,18 +67,18 @@ impl Header {
         Self::at(rows, if same_width { last - 1 } else { last }, usize::from(same_width))
     }
 
-    /// Returns the header in a row if it names two columns of a test.
+    /// Returns the header in `row` if this row names two columns of a test.
     pub fn known(rows: &Rows, row: usize) -> Option<Self> {
         if !rows.is_text(row) {
             return None;
         }
         let below = (row + 1..rows.all.len()).take(2).take_while(|row| rows.is_text(*row)).count();
-        // Units are in the row below, or below a row of remarks.
+        // Units are in the next row, or in the row after it, below a row of remarks.
         let with_units = (1..=below).map(|units| Self::at(rows, row, units));
         let header = with_units.into_iter().find(|header| curves(&header.names).is_ok());
         let header = header.or_else(|| {
-            // A row of text below `force_N` is a remark. Below `force` it holds units, which must
-            // not be ignored.
+            // Accept names without a row of units. A row of text below `force_N` is then a remark.
+            // Below `force`, a row of text holds unknown units, which must not be ignored.
             let header = Self::at(rows, row, 0);
             let curves = curves(&header.names).ok()?;
             (below == 0 || curves[0].units.is_some()).then_some(header)
@@ -84,7 +86,7 @@ impl Header {
         header.map(|header| Self { is_known: true, ..header })
     }
 
-    /// Returns the header in a row, with units from `units` rows below it.
+    /// Returns the header with names in `row`, and with units `units` rows below.
     ///
     /// `units` is 0 if the header has no row of units.
     fn at(rows: &Rows, row: usize, units: usize) -> Self {
@@ -97,6 +99,7 @@ impl Header {
         Self { names, in_file: Vec::new(), is_given: false, is_known: false, rows }
     }
 
+    /// Returns the columns of each specimen. An error is a description of the problem.
     pub fn curves(&self) -> Result<Vec<CurveColumns>, String> {
         let curves = curves(&self.names)?;
         for column in curves.iter().flat_map(|curve| curve.indices) {
@@ -105,7 +108,7 @@ impl Header {
             if let Some(stated) = in_file.and_then(|name| contradiction(given, name)) {
                 let column = column + 1;
                 return Err(format!(
-                    "column {column} is {stated} according to its unit in the file, but columns states {given}; expected the same unit"
+                    "column {column} is {stated} according to its unit in the file, but is named {given}; expected the same unit"
                 ));
             }
         }
@@ -117,15 +120,15 @@ impl Header {
         (!self.rows.is_empty()).then(|| rows.all[self.rows.start].line)
     }
 
-    /// Returns the row above the header that may name specimens.
+    /// Returns the row of text above the header, which may name the specimens.
     pub fn named(&self, rows: &Rows) -> Option<usize> {
         let above = self.rows.start.checked_sub(1).filter(|_| !self.rows.is_empty());
         above.filter(|row| rows.is_text(*row))
     }
 
-    /// Returns the name of a specimen from the row above its columns.
+    /// Returns the name of a specimen from the row above the header, otherwise an empty text.
     ///
-    /// Empty if there is none.
+    /// `columns` are the columns of this specimen.
     pub fn specimen(&self, rows: &Rows, columns: Range<usize>) -> String {
         let mut cells =
             columns.map(|column| self.named(rows).map(|row| rows.all[row].cell(column)));
@@ -133,7 +136,9 @@ impl Header {
         name.flatten().unwrap_or_default().to_owned()
     }
 
-    /// Lists the lines around a table that belong neither to it nor to its header.
+    /// Lists the lines around a table that belong neither to the table nor to its header.
+    ///
+    /// `name` is the row that names the specimens; it belongs to the header.
     pub fn left_out(&self, rows: &Rows, table: &NumberTable, name: Option<usize>) -> Vec<u64> {
         let above = table.above.clone();
         let above = above.filter(|row| !self.rows.contains(row) && Some(*row) != name);

@@ -2,32 +2,35 @@
 
 use std::ops::Range;
 
-/// Fraction of the range of the displacement by which it turns back at the end of a branch.
+/// Reversal of the displacement that ends a branch, as a fraction of the displacement range.
 const TURNED_BACK: f64 = 0.05;
-/// Fraction of the largest force that remains after a specimen has failed.
+/// Fraction of the largest force below which the force stays after a specimen has failed.
 const LOST: f64 = 0.2;
-/// Fraction of the largest force from which a failure drops in one step.
+/// Fraction of the largest force that the last point before a failure exceeds.
 const BEFORE_LOSS: f64 = 0.5;
-/// Fraction of the largest force by which a drop reduces the mean of neighbouring points.
+/// Least drop of the force that is reported, as a fraction of the largest force.
+///
+/// The drop between two points and the drop between the means of their neighbours must exceed it.
 const DROP: f64 = 0.25;
-/// Number of neighbouring points in these means.
+/// Number of points before and after a drop in these means.
 const NEIGHBOURS: usize = 3;
-/// Fraction of the range within which a displacement is held.
+/// Largest change of the displacement during a hold, as a fraction of the displacement range.
 const HELD: f64 = 1e-3;
-/// Least number of points of a hold, and least fraction of all points.
+/// Least number of points of a hold: absolute, and as a fraction of all points.
 const LEAST_HELD: (usize, f64) = (5, 0.05);
 
-/// Fraction of the largest force below which contact begins.
+/// Fraction of the largest force up to which a curve is searched for the first contact.
 const CONTACT: f64 = 0.3;
-/// Least fraction of the range, and least number of points, of an approach before contact.
+/// Least length of an approach before contact: fraction of the displacement range, and points.
 const LEAST_APPROACH: (f64, usize) = (0.1, 5);
-/// Rise of the force during an approach, as a fraction of the largest force.
+/// Largest rise of the force during an approach, as a fraction of the largest force.
 const FLAT: f64 = 0.02;
-/// Least F statistic of a contact point, in comparison with a straight line.
+/// Least F statistic of a line with a bend at first contact, compared with a straight line.
 ///
-/// It is the largest of many positions, so it exceeds usual quantiles.
+/// The statistic is the largest for many positions of the bend, so the limit exceeds the usual
+/// quantiles.
 const SIGNIFICANT: f64 = 20.0;
-/// Number of contact points that are compared.
+/// Maximum number of positions of first contact that are compared.
 const CONTACTS: usize = 100;
 
 /// Kind of an event of a measured curve.
@@ -39,9 +42,9 @@ pub enum CurveEventKind {
     TurnsBack,
     /// After unloading, the displacement or curvature grows again.
     TurnsAgain,
-    /// The force or moment drops and does not recover.
+    /// The force or moment drops to a fraction and does not recover.
     Fails,
-    /// The force or moment drops, and the curve goes on.
+    /// The force or moment drops in one step, but the specimen still carries load.
     Drops,
     /// The displacement or curvature is held, and the force relaxes.
     Held,
@@ -50,9 +53,9 @@ pub enum CurveEventKind {
 /// Event of a measured curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveEvent {
-    /// Kind.
+    /// Kind of the event.
     pub kind: CurveEventKind,
-    /// Line of the last point before the event.
+    /// Line number of the last point before the event.
     pub line: u64,
     /// Displacement or curvature at the event.
     pub at: f64,
@@ -71,13 +74,16 @@ pub(crate) struct Branches {
     pub(crate) events: Vec<CurveEvent>,
 }
 
-/// Detects axes with reversed signs.
+/// Detects reversed signs of the displacement and of the force.
 ///
-/// Some machines count compression as negative.
+/// Some machines count compression as negative. The displacement is reversed in two cases:
 ///
-/// The displacement is reversed if it decreases from the start, and is negative or the force grows
-/// meanwhile, as for the position of a crosshead that moves down. The force is reversed if it
-/// decreases while the displacement grows, and is negative where it is largest.
+/// - its value of largest size is negative and below its first value;
+/// - it never rises above its first value, and the size of the force grows meanwhile, e.g. the
+///   position of a crosshead that moves down.
+///
+/// The force is reversed if its value of largest size is negative, and its size grows with the
+/// displacement.
 pub(super) fn reversed_signs(points: &[[f64; 2]]) -> [bool; 2] {
     let [largest_x, largest_y] = [0, 1].map(|axis| {
         let values = points.iter().map(|point| point[axis]);
@@ -95,7 +101,7 @@ pub(super) fn reversed_signs(points: &[[f64; 2]]) -> [bool; 2] {
     [is_reversed, largest_y < 0.0 && covariance > 0.0]
 }
 
-/// Divides a curve into its branches.
+/// Divides a curve into its loading and unloading branches, and detects events.
 pub(super) fn branches(points: &[[f64; 2]], lines: &[u64]) -> Branches {
     // Kind, index of the point, and number of points left out.
     let mut events: Vec<(CurveEventKind, usize, usize)> = Vec::new();
@@ -137,7 +143,9 @@ pub(super) fn branches(points: &[[f64; 2]], lines: &[u64]) -> Branches {
     Branches { loading: kept, unloading, events }
 }
 
-/// Finds the farthest point in a direction from which the displacement turns back.
+/// Returns the index of the point at which the displacement reverses, if it does.
+///
+/// `direction` is 1 for increasing and −1 for decreasing displacements before this point.
 fn turn(points: &[[f64; 2]], direction: f64) -> Option<usize> {
     let range = range(points);
     let mut farthest = 0;
@@ -152,7 +160,7 @@ fn turn(points: &[[f64; 2]], direction: f64) -> Option<usize> {
     None
 }
 
-/// Returns the range of the displacement.
+/// Returns the difference of the largest and smallest displacement.
 pub(super) fn range(points: &[[f64; 2]]) -> f64 {
     let ends = points
         .iter()
@@ -160,7 +168,7 @@ pub(super) fn range(points: &[[f64; 2]]) -> f64 {
     ends[1] - ends[0]
 }
 
-/// Lists the runs of points at one displacement.
+/// Lists the runs of points, by index, at which the displacement is held.
 fn holds(points: &[[f64; 2]]) -> Vec<Range<usize>> {
     let tolerance = HELD * range(points);
     let least = LEAST_HELD.0.max((LEAST_HELD.1 * points.len() as f64) as usize);
@@ -180,10 +188,10 @@ fn holds(points: &[[f64; 2]]) -> Vec<Range<usize>> {
     holds
 }
 
-/// Returns the last point of an approach without force.
+/// Returns the index of the last point of an approach without force.
 ///
-/// The force is constant there, and rises from there in a straight line. This fits significantly
-/// better than a straight line through all points of the first contact.
+/// Before this point the force is constant, and after it the force rises in a straight line. Such
+/// a bent line must fit the beginning of the curve significantly better than one straight line.
 fn last_before_contact(points: &[[f64; 2]]) -> Option<usize> {
     let largest = largest_force(points);
     let end = points.iter().position(|point| point[1] > CONTACT * largest)? + 1;
@@ -231,7 +239,7 @@ fn line(points: impl Iterator<Item = [f64; 2]> + Clone) -> (f64, f64) {
     (slope, (yy - slope * xy).max(0.0))
 }
 
-/// Returns the last point before the force drops in one step and does not recover.
+/// Returns the index of the last point before the force drops and does not recover.
 fn last_before_drop(points: &[[f64; 2]]) -> Option<usize> {
     let largest = largest_force(points);
     let kept = points.iter().rposition(|point| point[1] >= LOST * largest)?;
@@ -242,7 +250,7 @@ fn largest_force(points: &[[f64; 2]]) -> f64 {
     points.iter().map(|point| point[1]).fold(0.0, f64::max)
 }
 
-/// Lists the last points before steep drops of the force.
+/// Lists the indices of the last points before steep drops of the force.
 fn drops(points: &[[f64; 2]]) -> Vec<usize> {
     let least = DROP * largest_force(points);
     let mut drops = Vec::new();
@@ -250,8 +258,8 @@ fn drops(points: &[[f64; 2]]) -> Vec<usize> {
     while next + NEIGHBOURS <= points.len() {
         let lost = mean_force(&points[next - NEIGHBOURS..next])
             - mean_force(&points[next..next + NEIGHBOURS]);
-        // Require a single steep step near this point: a gradual loss of force is a property of the
-        // skin, not a failure.
+        // Require a steep drop between two points near `next`: a gradual loss of force is a
+        // property of the skin, not a failure.
         let near = next - NEIGHBOURS..next + NEIGHBOURS - 1;
         let falls = near.map(|last| (points[last][1] - points[last + 1][1], last));
         let (fall, last) = falls.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
@@ -292,12 +300,12 @@ mod tests {
         assert_eq!(reversed_signs(&[[0.0, 0.0], [1.0, -2.0], [2.0, -5.0]]), [false, true]);
         assert_eq!(reversed_signs(&[[3.0, 0.0], [2.0, 2.0], [1.0, 5.0]]), [true, false]);
         assert_eq!(reversed_signs(&[[3.0, 0.0], [2.0, -2.0], [1.0, -5.0]]), [true, true]);
-        // Unloading.
+        // A curve that contains only the unloading branch keeps its signs.
         assert_eq!(reversed_signs(&[[3.0, 5.0], [2.0, 2.0], [1.0, 0.0]]), [false, false]);
         assert_eq!(reversed_signs(&[[-9.0, -5.0], [-8.0, -4.0], [-7.0, -2.0]]), [false, false]);
     }
 
-    /// Returns a force of up to 1 that rises after an approach, with noise.
+    /// Returns a curve with slope 1 after an approach of `length` without force, with noise.
     fn approach(length: f64, noise: f64) -> Vec<[f64; 2]> {
         let mut points = Vec::new();
         for k in 0..40_u32 {
@@ -315,9 +323,10 @@ mod tests {
             let found = events(&approach(1.0, noise));
             let [(CurveEventKind::Touches, line, 0)] = found[..] else { panic!("{found:?}") };
             assert!((19..=23).contains(&line), "{noise}: {line}");
-            // A straight line, and a curve that becomes steeper, have no approach.
+            // A straight line has no approach.
             assert_eq!(events(&approach(0.0, noise)), [], "{noise}");
         }
+        // A curve that becomes steeper, and a short approach, do not count as an approach.
         let steeper: Vec<_> = approach(0.0, 0.0).iter().map(|[x, y]| [*x, y * y]).collect();
         assert_eq!(events(&steeper), []);
         assert_eq!(events(&approach(0.1, 0.0)), []);
@@ -348,7 +357,7 @@ mod tests {
         points.splice(11..11, relaxed);
         assert_eq!(events(&points), [(CurveEventKind::Held, 11, 8)]);
         assert_eq!(found(&points).loading.len(), 20);
-        // Also where loading turns back.
+        // A hold at the largest displacement precedes the reversal.
         let points = ramp((0..20).chain([19; 6]).chain((0..19).rev()));
         let held = (CurveEventKind::Held, 20, 6);
         assert_eq!(events(&points), [held, (CurveEventKind::TurnsBack, 20, 0)]);

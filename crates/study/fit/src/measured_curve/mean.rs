@@ -1,4 +1,4 @@
-//! Mean curve of several specimens.
+//! Mean curve of several specimens of one design.
 
 /// Number of points of a mean curve.
 const POINTS: usize = 60;
@@ -8,14 +8,15 @@ const POINTS: usize = 60;
 pub struct MeanCurve {
     /// Names of the curves.
     pub files: Vec<String>,
-    /// Displacement or curvature, mean, and standard deviation over the specimens.
+    /// Displacement or curvature; mean and standard deviation of the force or moment.
     pub points: Vec<[f64; 3]>,
 }
 
 impl MeanCurve {
-    /// Averages named loading branches over their common range.
+    /// Averages loading branches over their common range of displacement or curvature.
     ///
-    /// `None` for fewer than two curves, or without a common range.
+    /// `curves` has the name and the points of each branch. `None` for fewer than two curves, or
+    /// without a common range.
     pub fn new(curves: &[(&str, Vec<[f64; 2]>)]) -> Option<Self> {
         let lines: Vec<_> = curves.iter().map(|(_, points)| increasing(points)).collect();
         let first = lines.iter().map(|line| line.first().map_or(f64::NAN, |point| point[0]));
@@ -46,7 +47,7 @@ fn increasing(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     line
 }
 
-/// Interpolates linearly in a line of increasing positions.
+/// Interpolates linearly at position `at` between points of increasing position.
 fn interpolated(line: &[[f64; 2]], at: f64) -> f64 {
     let after = line.partition_point(|point| point[0] < at).clamp(1, line.len() - 1);
     let [[x, y], [next_x, next_y]] = [line[after - 1], line[after]];
@@ -62,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn mean_curves_have_the_spread_of_the_specimens() {
+    fn a_mean_curve_has_the_standard_deviation_of_its_specimens() {
         let curves = [("a", line(1.0)), ("b", line(2.0)), ("c", line(3.0))];
         let mean = MeanCurve::new(&curves).expect("a mean");
         assert_eq!((mean.files.len(), mean.points.len()), (3, POINTS));

@@ -1,14 +1,14 @@
 //! Tables of numbers in text files of testing machines.
 //!
 //! Machines write preambles, rows of units, empty lines and footers around their readings. The
-//! table is the longest run of rows of equal width that are numbers.
+//! table is the longest run of rows of numbers with the same number of cells.
 
 use std::ops::Range;
 
-/// Separators of cells, in the order of preference. Adjacent blanks count as one.
+/// Separators of cells, in the order of preference. Adjacent blanks count as one separator.
 const SEPARATORS: [char; 4] = [';', '\t', ',', ' '];
 
-/// Part of a text from which its separator is detected, in bytes.
+/// Number of bytes at the beginning of a text from which its separator is detected.
 const SAMPLE: usize = 1 << 20;
 
 /// A line of a file, split into cells.
@@ -51,7 +51,7 @@ impl Rows {
         for separator in SEPARATORS {
             let rows = Self::split(sample, separator)?;
             let longest = longest(&rows.runs(2));
-            // With a wrong separator, cells such as `20;2` remain.
+            // A wrong separator leaves cells such as `20;2`, so count rows of numbers only.
             let pure = longest.clone().filter(|row| rows.has_numbers_only(*row)).count();
             if (pure, longest.len()) > best.0 {
                 best = ((pure, longest.len()), separator);
@@ -65,24 +65,24 @@ impl Rows {
             ' ' => split_at_blanks(text),
             separator => split_at(text, separator)?,
         };
-        // In quotes, a comma between digits is a decimal comma.
+        // If commas separate cells, only a cell in quotes can contain a decimal comma.
         let is_comma =
             separator != ',' || all.iter().flat_map(|row| row.cells.iter()).any(has_decimal_comma);
-        // An open quote takes the rest of the file into one cell.
+        // An open quote makes the rest of the file a single cell, with line breaks in it.
         let last = all.last().filter(|row| row.cells.iter().any(|cell| cell.contains('\n')));
         let is_open = text.matches('"').count() % 2 == 1;
         let open_quote = last.filter(|_| is_open).map(|row| row.line);
         Ok(Self { all, decimal: if is_comma { ',' } else { '.' }, open_quote })
     }
 
-    /// Returns the number in a cell.
+    /// Returns the finite number in a cell; `None` for other cells.
     pub(super) fn number(&self, cell: &str) -> Option<f64> {
         // Word processors write a minus sign or a dash instead of a hyphen.
         if let Some(digits) = cell.strip_prefix(['\u{2212}', '\u{2013}']) {
             return self.number(digits).map(|number| -number);
         }
         let number = match [',', '.'].map(|sign| cell.find(sign)) {
-            // The last sign is the decimal one, the others separate thousands.
+            // The rightmost of comma and point is the decimal sign; the other separates thousands.
             [Some(comma), Some(point)] => {
                 let (group, decimal) = if comma < point { (',', '.') } else { ('.', ',') };
                 ungrouped(cell, group, decimal)?.parse()
@@ -99,12 +99,12 @@ impl Rows {
         cells.all(|cell| cell.is_empty() || self.number(cell).is_some())
     }
 
-    /// Returns true if both cells of a row are numbers.
+    /// Returns true if the cells of a row in both columns are numbers.
     pub(super) fn are_numbers(&self, row: usize, columns: [usize; 2]) -> bool {
         columns.iter().all(|column| self.number(self.all[row].cell(*column)).is_some())
     }
 
-    /// Returns true if a row has no text in the columns that are numbers in the row `like`.
+    /// Returns true if a row has no text in columns in which the row `like` has a number.
     pub(super) fn is_like(&self, row: usize, like: usize) -> bool {
         let mut cells = self.all[row].cells.iter().zip(&self.all[like].cells);
         cells.all(|(cell, other)| {
@@ -121,13 +121,13 @@ impl Rows {
         self.count_numbers(row) == 0
     }
 
-    /// Returns true if `row` has the width of the row above, without an empty line between them.
+    /// Returns true if `row` follows the row above without an empty line, with as many cells.
     fn continues(&self, row: usize) -> bool {
         let (before, row) = (&self.all[row - 1], &self.all[row]);
         !row.is_after_blank && row.cells.len() == before.cells.len()
     }
 
-    /// Lists the runs of rows of equal width, each row with at least `least` numbers.
+    /// Lists the runs of rows with the same number of cells, of which at least `least` are numbers.
     ///
     /// Rows of empty cells are gaps in a recording and do not end a run.
     fn runs(&self, least: usize) -> Vec<Range<usize>> {
@@ -147,14 +147,16 @@ impl Rows {
 
     /// Lists the tables of the file, each with its rows of numbers.
     ///
-    /// The longest run of rows is a table. Runs of the same width continue it if only empty lines
-    /// and remarks lie between them. Further tables begin at a row for which `is_header` holds. All
-    /// other runs, such as sizes or results, are left out, like single rows of numbers.
+    /// The longest run of rows is a table. Runs with the same number of cells continue a table if
+    /// only empty lines and remarks lie between. Further tables begin at a row for which
+    /// `is_header` returns true. Other runs, such as sizes or results, and single rows of numbers
+    /// are left out.
     pub(super) fn tables(&self, is_header: impl Fn(usize) -> bool) -> Vec<NumberTable> {
         let mut runs = self.runs(2);
         let mut longest = longest(&runs);
         if longest.is_empty() {
-            // Rows with a single number contain a mistake, which is reported with its line.
+            // No row has two numbers. Use rows with one number, so that the caller can report the
+            // mistake in the other cell with its line.
             runs = self.runs(1);
             longest = runs.first().cloned().unwrap_or(0..0);
         }
@@ -167,12 +169,12 @@ impl Rows {
         let mut tables: Vec<NumberTable> = Vec::new();
         let mut end = 0;
         for run in runs {
-            // The mistaken rows of the run above contain this run.
+            // Skip a run that the previous run already contains after its rows with mistakes.
             if run.start < end {
                 continue;
             }
             let between = end..run.start;
-            // A row with one number continues the run: its other cells contain a mistake.
+            // A row with a single number continues the run: another of its cells has a mistake.
             let mistaken = (run.end..self.all.len())
                 .take_while(|row| self.continues(*row) && !self.is_text(*row));
             let is_longest = run.contains(&longest.start);
@@ -205,8 +207,8 @@ impl Rows {
 
     /// Returns true if a row of text between two runs separates their tables.
     ///
-    /// A header names several columns of the table. A title follows an empty line. Other rows are
-    /// remarks.
+    /// Such a row is a title, which follows an empty line, or a header, which has several names in
+    /// `width` cells. Other rows of text are remarks within a table.
     fn begins_another_table(&self, row: usize, width: usize) -> bool {
         let Row { cells, is_after_blank, .. } = &self.all[row];
         let names = cells.iter().filter(|cell| !cell.is_empty()).count();
@@ -214,9 +216,9 @@ impl Rows {
     }
 }
 
-/// Returns the longest table and those with a header.
+/// Keeps the longest table and the tables with a header.
 ///
-/// Rows of the other tables are added to the rows above the next table.
+/// Rows of a removed table are added to the rows above the next kept table.
 fn readings(tables: Vec<NumberTable>) -> Vec<NumberTable> {
     let mut readings: Vec<NumberTable> = Vec::new();
     for mut table in tables {
@@ -229,7 +231,7 @@ fn readings(tables: Vec<NumberTable>) -> Vec<NumberTable> {
     readings
 }
 
-/// Returns the first of the longest runs; empty if there is none.
+/// Returns the first of the longest runs, or an empty run if `runs` is empty.
 fn longest(runs: &[Range<usize>]) -> Range<usize> {
     runs.iter().rev().max_by_key(|run| run.len()).cloned().unwrap_or(0..0)
 }
@@ -237,11 +239,11 @@ fn longest(runs: &[Range<usize>]) -> Range<usize> {
 /// A table of numbers in a file.
 #[derive(Debug)]
 pub(super) struct NumberTable {
-    /// Rows between this table and the one above, or the beginning of the file.
+    /// Rows between this table and the table above, or the beginning of the file.
     pub(super) above: Range<usize>,
     /// Rows of numbers.
     pub(super) rows: Vec<usize>,
-    /// True if a header is above.
+    /// True if a header lies above the rows of numbers.
     has_header: bool,
     /// True if the table contains the longest run of numbers.
     pub(super) is_longest: bool,
@@ -284,7 +286,7 @@ fn split_at_blanks(text: &str) -> Vec<Row> {
     rows
 }
 
-/// Counts lines.
+/// Counts the lines of a text up to a byte.
 struct LineCounter<'a> {
     text: &'a str,
     byte: usize,
@@ -292,10 +294,10 @@ struct LineCounter<'a> {
 }
 
 impl LineCounter<'_> {
-    /// Returns the line of the record that the CSV reader began to read at `byte`.
+    /// Returns the line number of the record for which the CSV reader reports the start `byte`.
     ///
-    /// The reader skips empty lines and comments before a record. Also returns whether it skipped
-    /// an empty line.
+    /// This byte may precede empty lines and comments, which the reader skips before the record.
+    /// Also returns true if the reader skipped an empty line.
     fn advance(&mut self, byte: usize) -> (u64, bool) {
         while self.byte < byte {
             self.skip_line();
@@ -319,9 +321,10 @@ impl LineCounter<'_> {
     }
 }
 
-/// Removes the signs between groups of three digits, and makes the decimal sign a point.
+/// Removes the signs `group` between thousands, and replaces the sign `decimal` with a point.
 ///
-/// `None` unless all groups but the first have three digits, as in `1.047,60`.
+/// Example: `1.047,60` becomes `1047.60`. `None` if a group after the first does not have three
+/// digits.
 fn ungrouped(cell: &str, group: char, decimal: char) -> Option<String> {
     let (whole, fraction) = cell.split_once(decimal)?;
     let mut groups = whole.trim_start_matches(['-', '+']).split(group);
@@ -344,6 +347,7 @@ fn has_decimal_comma(cell: &str) -> bool {
 mod tests {
     use super::*;
 
+    /// Returns the line numbers of the rows and of the left-out lines of each table.
     fn lines(text: &str) -> Vec<(Vec<u64>, Vec<u64>)> {
         let rows = Rows::new(text).expect("rows");
         let tables = rows.tables(|row| rows.all[row].cells.iter().any(|cell| cell == "x"));
@@ -367,7 +371,7 @@ mod tests {
         assert_eq!(lines(text), [(vec![6, 7, 8], vec![10, 11, 12])]);
         let text = "x,y\n1,2\n3,4\n5,6\n\nResults\n1,5\n2,6\n";
         assert_eq!(lines(text), [(vec![2, 3, 4], vec![6, 7, 8])]);
-        // The first cell of readings is a number.
+        // Rows that begin with text are not readings: the first column of this table is numeric.
         let text = "x,y,z\n1,2,3\n3,4,5\n5,6,7\n\nMean,5,6\nSD,6,7\n";
         assert_eq!(lines(text), [(vec![2, 3, 4], vec![6, 7])]);
     }

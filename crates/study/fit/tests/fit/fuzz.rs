@@ -1,4 +1,4 @@
-//! Reading random files of measurements never panics.
+//! Random files of measurements are read or refused, and never cause a panic.
 //!
 //! `scripts/fuzz` runs these tests for any length of time.
 
@@ -8,7 +8,7 @@ use fit::MeasuredCurve;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// Parts of files of testing machines.
+/// Fragments of files of testing machines, from which random files are composed.
 const PARTS: [&str; 24] = [
     "\n",
     "\n",
@@ -36,7 +36,7 @@ const PARTS: [&str; 24] = [
     "µ",
 ];
 
-/// Reads the bytes as a file, and checks that the result is not larger than the file.
+/// Reads a file of `bytes`, and checks that the result is not larger than the file.
 fn read(bytes: &[u8]) {
     let place = tempfile::tempdir().expect("a folder");
     let path = place.path().join("a.csv");
@@ -66,9 +66,9 @@ proptest! {
     }
 }
 
-/// Rows with mistakes between rows of numbers do not multiply the points.
+/// The number of points does not grow faster than the number of rows with mistakes among them.
 #[test]
-fn alternating_mistakes_take_linear_memory() {
+fn rows_with_mistakes_take_linear_memory() {
     let mut text = "displacement_mm;force_N\n".to_owned();
     for k in 0..20_000 {
         writeln!(text, "{k};2\nx;3").expect("a text");
@@ -76,7 +76,7 @@ fn alternating_mistakes_take_linear_memory() {
     read(text.as_bytes());
 }
 
-/// Many specimens beside each other share the lines outside of their table.
+/// Only one of many specimens side by side lists the lines outside of their table.
 #[test]
 fn many_specimens_take_linear_memory() {
     let columns = 2_000;

@@ -1,4 +1,4 @@
-//! Fits of curves from known skins.
+//! Tests of fits: synthetic curves of known skins, invalid definitions and random files.
 
 mod fuzz;
 mod recovery;

@@ -12,11 +12,15 @@ use sweep::{Parameter, Sweep};
 
 use crate::synthetic_curves::{Place, SyntheticCurve};
 
-/// A skin, its definition with unknowns, and its curves with keys for their tables.
+/// A skin with known parameters, and a fit that should recover some of them.
 struct Trial {
+    /// Definition of the skin, with the true values.
     skin: String,
+    /// Definition of the fit, with `[variables]` instead of the true values.
     sought: String,
+    /// Synthetic curves, with further keys of their `[[curve]]` tables.
     curves: Vec<(SyntheticCurve<'static>, &'static str)>,
+    /// True values of the unknowns.
     truth: Vec<f64>,
 }
 
@@ -34,7 +38,7 @@ const PUNCTURE: SyntheticCurve<'_> = SyntheticCurve {
 const STRIP: SyntheticCurve<'_> =
     SyntheticCurve { file: "c.csv", bending: true, to: 0.03, points: 60, seed: 3, ..PUNCTURE };
 
-/// Returns a definition of printed scales on foam.
+/// Returns a definition of scales with a thickness of 2 mm.
 fn scales(gap: f64, length: f64, slant: f64) -> String {
     format!(
         "name = 'palm'\ndesigns.gap_over_t = {gap}\ndesigns.length_over_t = {length}\n\
@@ -42,7 +46,7 @@ fn scales(gap: f64, length: f64, slant: f64) -> String {
     )
 }
 
-/// Returns a definition of printed scales under a guided needle.
+/// Returns a definition of scales with a thickness of 2 mm under a guided needle.
 fn skin(gap: f64, length: f64, slant: f64) -> String {
     scales(gap, length, slant) + "puncture.needle = 'guided'\npuncture.load_inset_over_t = 0.05\n"
 }
@@ -53,7 +57,9 @@ type Sought = (&'static str, Range<f64>, [f64; 2]);
 const MODULUS: Sought = ("material.substrate_modulus_MPa", 0.2..1.0, [0.05, 2.0]);
 
 impl Trial {
-    /// Draws true values of the unknowns.
+    /// Creates a trial with random true values of the unknowns.
+    ///
+    /// The definitions of skin and fit both begin with `shared`.
     fn new(
         random: &mut ChaCha12Rng,
         shared: &str,
@@ -82,7 +88,7 @@ fn modulus_alone(random: &mut ChaCha12Rng) -> Trial {
     Trial::new(random, &shared, &[MODULUS], &[(PUNCTURE, "")])
 }
 
-/// Many of these gaps close only after the end of the curve.
+/// Creates a trial with an unknown gap. Many of these gaps do not close within the curve.
 fn modulus_and_gap(random: &mut ChaCha12Rng) -> Trial {
     let shared = skin(0.2, 0.8, 45.0) + "puncture.needle_friction = 0.3\n";
     let shared = shared.replace("designs.gap_over_t = 0.2\n", "");
@@ -107,7 +113,7 @@ fn modulus_and_tissue_thickness(random: &mut ChaCha12Rng) -> Trial {
     Trial::new(random, &shared, &[MODULUS, thickness], &[(PUNCTURE, "")])
 }
 
-/// Contact distinguishes the thickness of the membrane from its modulus.
+/// Creates a trial of bending in which only the moments after contact separate both unknowns.
 fn modulus_and_membrane_thickness(random: &mut ChaCha12Rng) -> Trial {
     let modulus = ("material.membrane_modulus_MPa", 2.0..8.0, [0.5, 20.0]);
     let thickness = ("flexure.membrane_thickness_over_t", 0.06..0.25, [0.03, 0.5]);
@@ -115,7 +121,9 @@ fn modulus_and_membrane_thickness(random: &mut ChaCha12Rng) -> Trial {
     Trial::new(random, &scales(0.2, 1.0, 60.0), &[modulus, thickness], &[(strip, "")])
 }
 
-/// Fits both moduli and a displacement offset to two punctures and a bending test.
+/// Creates a trial with two unknown moduli and a displacement offset.
+///
+/// The curves are two punctures of different gaps and a bending test.
 fn both_moduli_and_an_offset(random: &mut ChaCha12Rng) -> Trial {
     let shared = skin(0.2, 1.0, 45.0) + "puncture.needle_friction = 0.3\n";
     let membrane = ("material.membrane_modulus_MPa", 2.0..8.0, [0.5, 20.0]);
@@ -134,7 +142,7 @@ fn modulus_and_load_position(random: &mut ChaCha12Rng) -> Trial {
     Trial::new(random, &scales(0.3, 0.6, 30.0), &[MODULUS, position], &[(PUNCTURE, "")])
 }
 
-/// Fits gap, friction between scales and a force offset to a free puncture load.
+/// Creates a trial with unknown gap, scale friction and force offset, under a free needle.
 fn gap_and_friction(random: &mut ChaCha12Rng) -> Trial {
     let offset = random.random_range(-0.02..0.02);
     let shared = "name = 'free'\ndesigns.length_over_t = 1\ndesigns.slant_deg = 60\n\
@@ -149,7 +157,7 @@ fn gap_and_friction(random: &mut ChaCha12Rng) -> Trial {
     trial
 }
 
-/// Returns the skin with the gap in the keys of a curve, if they contain one.
+/// Returns the definition of a skin with the gap that the keys of a curve set, if any.
 fn specimen(skin: &str, keys: &str) -> String {
     let Some(own) = keys.lines().find(|line| line.starts_with("gap_over_t")) else {
         return skin.to_owned();
@@ -164,15 +172,20 @@ fn specimen(skin: &str, keys: &str) -> String {
     lines.collect()
 }
 
-/// Result of a fit, with its misfit.
+/// Result of a fit, and how it compares with the true values.
 struct Outcome {
     fitted: Fitted,
-    /// Difference of `2 ln L` between the true and the fitted values.
+    /// `2 ln L` of the true values minus `2 ln L` of the fitted values.
+    ///
+    /// A positive value shows that the fit missed the best minimum.
     excess: f64,
 }
 
 impl Trial {
-    /// Computes the curves with noise, a fraction of the largest value, and fits them.
+    /// Fits synthetic curves with random noise; `number` is its seed.
+    ///
+    /// `noise` is the standard deviation divided by the largest value of the curve, `correlation`
+    /// the correlation of neighbouring points.
     fn outcome(&self, number: u64, [noise, correlation]: [f64; 2]) -> Outcome {
         let place = Place::new();
         let mut text = self.sought.clone();
@@ -198,7 +211,7 @@ impl Trial {
     }
 }
 
-/// Draws a trial.
+/// Function that creates a random trial.
 type Draw = fn(&mut ChaCha12Rng) -> Trial;
 
 const KINDS: [(&str, Draw); 9] = [
@@ -220,8 +233,9 @@ fn trial(kind: usize, number: u64) -> Trial {
 /// Counts over the trials of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Counts {
-    /// Intervals that contain the true value, with an end at both sides, at one, or at none.
+    /// Intervals that contain the true value: two-sided, one-sided and undetermined ones.
     hold: [usize; 3],
+    /// Intervals that do not contain the true value.
     miss: usize,
     /// Trials in which the true values are better by more than 3.84 in `2 ln L`.
     false_minima: usize,
@@ -271,7 +285,8 @@ fn counted(kind: usize, number: u64, noise: [f64; 2]) -> Counts {
 
 #[test]
 fn exact_curves_recover_the_parameters() {
-    // A separate test covers the tissue, which is slow.
+    // Kind 4, the tissue thickness, is slow. The test
+    // `two_specimens_determine_thickness_and_modulus_of_tissue` covers the tissue.
     let step = if campaign()[0] == 0 { 2 } else { 1 };
     let kinds = KINDS.iter().enumerate().filter(|(kind, _)| *kind != 4);
     for (kind, (name, _)) in kinds.step_by(step) {
@@ -301,7 +316,7 @@ fn campaign() -> [u64; 3] {
 /// Kinds of trials that take more than 10 s each; only campaigns run them.
 const SLOW_KINDS: [usize; 2] = [4, 8];
 
-/// Checks the coverage of the intervals in trials with independent noise.
+/// Checks that 95 % intervals contain the true values in trials with independent noise.
 fn check_coverage(kind: usize) {
     let (name, _) = KINDS[kind];
     if SLOW_KINDS.contains(&kind) && campaign()[0] == 0 {
@@ -315,8 +330,8 @@ fn check_coverage(kind: usize) {
         let Counts { hold, miss, false_minima, .. } = counts;
         let intervals = hold.iter().sum::<usize>() + miss;
         println!("{noise} {name}: {counts:?}");
-        // Three standard deviations of a binomial distribution around 5 %. Intervals of the first
-        // trial contain the truth.
+        // Expect 5 % of misses, and allow three standard deviations of a binomial distribution. A
+        // single trial must have no misses.
         let expected = 0.05 * intervals as f64;
         let allowed = if trials > 1 { expected + 3.0 * expected.sqrt() + 1.0 } else { 0.0 };
         assert!(miss as f64 <= allowed, "{name}: {miss}");
@@ -369,9 +384,9 @@ fn intervals_cover_a_gap_a_friction_and_an_offset() {
     check_coverage(8);
 }
 
-/// Correlated noise counts as fewer independent points.
+/// Correlated points must count as fewer independent points.
 ///
-/// Ten trials are too few to notice the misses at a correlation of 0.5, which campaigns run.
+/// Only campaigns test a correlation of 0.5, because ten trials are too few to detect its misses.
 #[test]
 fn intervals_cover_the_truth_under_correlated_noise() {
     let trials = 10 + campaign()[1] / 2;
@@ -386,7 +401,7 @@ fn intervals_cover_the_truth_under_correlated_noise() {
     }
 }
 
-/// The curve is the same for all gaps that do not close.
+/// The curve is the same for all gaps that do not close, so no upper end can be determined.
 #[test]
 fn a_gap_that_never_closes_has_a_one_sided_interval() {
     let trial = modulus_and_gap(&mut ChaCha12Rng::seed_from_u64(2));
@@ -416,7 +431,7 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
     );
     let fitted = place.fit(&sought).expect("an answer");
     assert_eq!(fitted.undetermined, [vec![0, 1]]);
-    // The range of the modulus limits the thickness.
+    // The interval of the thickness ends where the modulus reaches its bounds.
     assert_eq!(fitted.estimates[0].interval, [None; 2]);
     assert_eq!(fitted.estimates[1].rests_on, [0]);
     let [thinnest, thickest] = fitted.estimates[1].interval.map(|end| end.expect("an end"));
@@ -426,7 +441,7 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
     // The curve determines the product E h³.
     let [modulus, thickness] = [0, 1].map(|j| fitted.estimates[j].value);
     assert!((modulus * thickness.powi(3) / (4.0 * 0.1_f64.powi(3)) - 1.0).abs() < 0.02);
-    // If one of the two is known, the other is determined.
+    // If the thickness is known, the curve determines the modulus.
     let one = sought.replace(
         "membrane_thickness_over_t = { from = 0.05, to = 0.3 }\n",
         "[flexure]\nmembrane_thickness_over_t = 0.1\n",
@@ -436,7 +451,7 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
     assert!(fitted.undetermined.is_empty() && low > 3.9 && high < 4.1, "{low} {high}");
 }
 
-/// An unknown without influence on any curve is undetermined on its own.
+/// The membrane modulus does not influence a puncture curve, so it is undetermined on its own.
 #[test]
 fn unknowns_without_influence_are_undetermined() {
     let Trial { skin, curves, .. } = trial(3, 0);
@@ -446,7 +461,7 @@ fn unknowns_without_influence_are_undetermined() {
     assert!(trial.fitted(0, 0.01).undetermined.contains(&vec![0]));
 }
 
-/// A narrow and a wide gap determine thickness and modulus of tissue on bone.
+/// Two specimens, with a narrow and a wide gap, determine thickness and modulus of their tissue.
 #[test]
 fn two_specimens_determine_thickness_and_modulus_of_tissue() {
     let shared = skin(0.3, 0.6, 30.0) + "puncture.needle_friction = 0.3\n";
@@ -469,9 +484,7 @@ fn two_specimens_determine_thickness_and_modulus_of_tissue() {
     assert!((values[0] - 0.5).abs() < 1e-4 && (values[1] - 2.0).abs() < 1e-3, "{values:?}");
 }
 
-/// Strips with friction have no derivatives while a contact sticks.
-///
-/// Differences replace them.
+/// In bending with friction, the path has no derivatives while a contact sticks.
 #[test]
 fn differences_replace_derivatives_while_a_contact_sticks() {
     let shared = "name = 'rubs'\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 1\ndesigns.slant_deg = 75\n\
@@ -487,7 +500,7 @@ fn differences_replace_derivatives_while_a_contact_sticks() {
     assert!(fitted.curves[0].differenced > 0);
 }
 
-/// Friction between scales makes a loop of the curve.
+/// With friction between scales, the unloading force is smaller than the loading force.
 #[test]
 fn loading_and_unloading_branches_are_fitted() {
     let place = Place::new();
@@ -527,7 +540,7 @@ fn loading_and_unloading_branches_are_fitted() {
     }
 }
 
-/// Each specimen has its own modulus; the friction of the needle is common.
+/// Each specimen has its own modulus; the friction of the needle is the same for all specimens.
 #[test]
 fn a_parameter_may_differ_from_specimen_to_specimen() {
     let place = Place::new();

@@ -1,4 +1,4 @@
-//! Errors in a definition name the line, the key and the expected value.
+//! Errors in a definition of a fit name the line, the key and the expected value.
 
 use std::sync::atomic::AtomicBool;
 
@@ -18,7 +18,7 @@ fn refused(text: &str) -> String {
 }
 
 #[test]
-fn keys_of_curves_are_checked() {
+fn invalid_keys_of_curves_are_refused() {
     let curve = "material.thickness_mm = 1\nmaterial.substrate_modulus_MPa = 1\n[[curve]]\n";
     let wrong = |keys: &str| refused(&format!("{curve}{keys}"));
     insta::assert_snapshot!(refused(""), @"test.toml: curve: missing, expected at least one [[curve]] with a file and its kind");
@@ -32,7 +32,7 @@ fn keys_of_curves_are_checked() {
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\nbranch = 'up'\n"), @r#"test.toml:10: curve.branch: "up" is not accepted, expected "loading", "unloading" or "both""#);
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\nbranch = 'both'\n"), @r#"test.toml:10: curve.branch: "both" is not accepted, expected "loading": the curve does not turn back"#);
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\noffsets = ['moment']\n"), @r#"test.toml:10: curve.offsets: ["moment"] is not accepted, expected "displacement", "force" or both"#);
-    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\nspecimen = 2\n"), @"test.toml:10: curve.specimen: 2 is not accepted, expected no specimen: the file holds one");
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\nspecimen = 2\n"), @"test.toml:10: curve.specimen: 2 is not accepted, expected no key specimen: the file has a single specimen");
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\noffsets = { displacement = [1, 0] }\n"), @"test.toml:10: curve.offsets: { displacement = [1, 0] } is not accepted, expected ranges, e.g. { displacement = [-0.1, 3] }");
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"), @"test.toml:11: curve.file: a.csv is not accepted, expected each measured curve once");
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\n[[curve]]\nfile = './a.csv'\nkind = 'puncture'\n"), @"test.toml:11: curve.file: ./a.csv is not accepted, expected each measured curve once");
@@ -41,7 +41,8 @@ fn keys_of_curves_are_checked() {
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap_over_t = [0.1, 0.2]\n"), @"test.toml: designs.gap_over_t: [0.1, 0.2] is not accepted, expected one value, or gap_over_t among [variables]");
 }
 
-/// A dead load cell determines nothing, but zeros are fitted exactly by many parameters.
+/// Constant forces come from a dead load cell. They determine no parameter, but a fit to zeros
+/// would succeed, because many parameters fit zeros exactly.
 #[test]
 fn constant_loads_are_refused() {
     let place = Place::new();
@@ -70,12 +71,12 @@ fn a_stopped_fit_returns_an_error() {
 }
 
 #[test]
-fn unknowns_are_checked() {
+fn invalid_unknowns_are_refused() {
     let curve = "[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n";
     let wrong = |keys: &str| refused(&format!("{keys}{curve}"));
-    insta::assert_snapshot!(wrong("[variables]\nthickness_mm = { from = 1, to = 2 }\n"), @"test.toml:8: curve.file: a.csv is not accepted, expected material.thickness_mm and material.substrate_modulus_MPa beside a file in mm and N");
-    insta::assert_snapshot!(wrong("[variables]\nwidth_over_t = [1, 2]\n"), @"test.toml:6: variables.width_over_t: [1, 2] is not accepted, expected bounds of a number that the curve follows, e.g. { from = 0.1, to = 1 }");
-    insta::assert_snapshot!(wrong("[variables]\nfirst_step = { from = 0.1, to = 0.2 }\n"), @"test.toml:6: variables.first_step: { from = 0.1, to = 0.2 } is not accepted, expected bounds of a number that the curve follows, e.g. { from = 0.1, to = 1 }");
+    insta::assert_snapshot!(wrong("[variables]\nthickness_mm = { from = 1, to = 2 }\n"), @"test.toml:8: curve.file: a.csv is not accepted, expected material.thickness_mm and material.substrate_modulus_MPa for a file in physical units");
+    insta::assert_snapshot!(wrong("[variables]\nwidth_over_t = [1, 2]\n"), @"test.toml:6: variables.width_over_t: [1, 2] is not accepted, expected bounds of a continuous parameter of the skin, e.g. { from = 0.1, to = 1 }");
+    insta::assert_snapshot!(wrong("[variables]\nfirst_step = { from = 0.1, to = 0.2 }\n"), @"test.toml:6: variables.first_step: { from = 0.1, to = 0.2 } is not accepted, expected bounds of a continuous parameter of the skin, e.g. { from = 0.1, to = 1 }");
     insta::assert_snapshot!(wrong("designs.width_over_t = [1, 2]\n"), @"test.toml: designs.width_over_t: [1, 2] is not accepted, expected one value, or width_over_t among [variables]");
     let place = Place::new();
     place.write("a.csv", "displacement,force\n0.1,1\n");
@@ -94,8 +95,8 @@ fn refused_specimens(value: &str) -> String {
 }
 
 #[test]
-fn parameters_per_specimen_are_checked() {
+fn invalid_parameters_per_specimen_are_refused() {
     insta::assert_snapshot!(refused_specimens("3"), @r#"test.toml:6: per_specimen: 3 is not accepted, expected a list of [variables], e.g. ["substrate_modulus_MPa"]"#);
     insta::assert_snapshot!(refused_specimens("['friction']"), @r#"test.toml:6: per_specimen: ["friction"] is not accepted, expected names of [variables]"#);
-    insta::assert_snapshot!(refused_specimens("['substrate_modulus_MPa']"), @r#"test.toml:6: per_specimen: ["substrate_modulus_MPa"] is not accepted, expected at least two curves without a value of their own"#);
+    insta::assert_snapshot!(refused_specimens("['substrate_modulus_MPa']"), @r#"test.toml:6: per_specimen: ["substrate_modulus_MPa"] is not accepted, expected at least two [[curve]] that do not set this parameter"#);
 }

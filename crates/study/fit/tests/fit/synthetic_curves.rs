@@ -1,4 +1,4 @@
-//! Synthetic curves: solutions of known skins, with noise.
+//! Synthetic test curves: computed curves of known skins, with added noise.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -23,15 +23,16 @@ pub struct Place {
 pub struct SyntheticCurve<'a> {
     pub file: &'a str,
     pub bending: bool,
-    /// Last displacement in mm or curvature in 1/mm, and the number of points.
+    /// Last displacement in mm, or last curvature in 1/mm.
     pub to: f64,
+    /// Number of points, equally spaced up to `to`.
     pub points: usize,
     /// Standard deviation of the noise, as a fraction of the largest value.
     pub noise: f64,
     /// Correlation of the noise of neighbouring points.
     pub correlation: f64,
     pub seed: u64,
-    /// Offsets added to both columns.
+    /// Offset added to each column.
     pub offsets: [f64; 2],
 }
 
@@ -48,7 +49,7 @@ impl Place {
         fs::write(self.path(file), text).expect("writable");
     }
 
-    /// Computes the curve of a skin and writes it. Returns the sum of the squares of the noise.
+    /// Writes the curve of a skin, with noise, to a file. Returns the sum of the squared noise.
     pub fn make(&self, skin: &str, curve: &SyntheticCurve) -> f64 {
         let case = Sweep::parse(skin, "skin.toml", &[]).expect("a skin").grid().case(0);
         let values = exact(&case, curve);
@@ -63,7 +64,8 @@ impl Place {
         .to_owned();
         let (mut squares, mut error) = (0.0, 0.0);
         for (k, value) in values.iter().enumerate() {
-            // Autoregressive noise of the same standard deviation.
+            // Autoregressive noise. The factor `share` makes its standard deviation independent of
+            // the correlation.
             let share = if k == 0 { 1.0 } else { (1.0 - curve.correlation.powi(2)).sqrt() };
             error = curve.correlation * error + share * noise.sample(&mut random);
             squares += error * error;
@@ -79,7 +81,8 @@ impl Place {
         let definition = FitDefinition::read(&self.path("test.toml"), &[]);
         let work = WorkMeter::default();
         let fitted = definition.expect("a definition").fit(&AtomicBool::new(false), &work);
-        // Progress may end below 1, because the noise of several curves may converge early.
+        // Progress may end below 1, because the noise of several curves may converge faster than
+        // predicted.
         assert!(fitted.is_err() || work.share() > 0.5, "{}", work.share());
         fitted
     }
@@ -109,7 +112,7 @@ fn exact(case: &Case, curve: &SyntheticCurve) -> Vec<f64> {
         let places: Vec<_> = places.map(|place| place / unit(Length)).collect();
         (evaluator.force_curve(case, &[], &places), unit(Force))
     };
-    // The curve ends with the path, as on a testing machine.
+    // Write no points beyond the end of the path.
     let reached = points.expect("a curve").into_iter().map_while(|point| point);
     let values: Vec<_> = reached.map(|point| unit * point.value).collect();
     assert!(values.len() > 8, "too short: {case:?}");

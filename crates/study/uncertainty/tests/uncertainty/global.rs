@@ -1,4 +1,4 @@
-//! Global sensitivity of a measure with a closed form.
+//! Compares the Sobol' indices of the coverage with their closed form.
 
 use std::sync::atomic::AtomicBool;
 
@@ -7,9 +7,9 @@ use uncertainty::{GlobalAnalysis, SampleStore};
 
 use crate::PROGRAM;
 
-/// If a vertical line crosses one neighbour at most, `λ = 1 − d cot α` (G2).
+/// Tests `λ = 1 − d cot α`, the coverage (G2) if a vertical line crosses at most one neighbour.
 ///
-/// This is a product of two independent factors.
+/// The term `d cot α` is a product of two independent variables, so its indices are known.
 #[test]
 fn indices_of_coverage_match_the_closed_form() {
     let text = "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 0.5 }\n\

@@ -1,8 +1,9 @@
-//! The guide to the results explains every column.
+//! Checks that `results/README.md` explains every column of the tables.
 
 use results::Column;
 use uncertainty::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};
 
+/// Returns the Markdown table that explains `columns`.
 fn table<R>(columns: &[Column<R>]) -> String {
     let lines: Vec<_> = columns
         .iter()
@@ -12,7 +13,7 @@ fn table<R>(columns: &[Column<R>]) -> String {
 }
 
 #[test]
-fn every_column_is_explained() {
+fn guide_to_results_explains_every_column() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../results/README.md");
     let guide = std::fs::read_to_string(path).expect("the guide");
     for table in [

@@ -17,7 +17,7 @@ fn an_interrupted_analysis_resumes_from_stored_samples() {
         "[tolerance]\ngap_over_t = { batch_sd = 0.01, scale_sd = 0.01 }",
     );
     let at_once = analysed(&sweep, &[], 250, &whole, false).expect("tolerances");
-    // Stop before the first sample, then after 150, then run to the end.
+    // Interrupt the analysis before the first sample and after 150 samples. Then complete it.
     let stopped = analysed(&sweep, &[], 250, &parts, true).expect_err("stopped");
     assert!(matches!(stopped, AnalysisError::Stopped { done: 0, of: 250 }));
     analysed(&sweep, &[], 150, &parts, false).expect("tolerances");
@@ -29,13 +29,13 @@ fn an_interrupted_analysis_resumes_from_stored_samples() {
     let file =
         |folder: &Path| fs::read(folder.join(table.file_name().expect("a name"))).expect("a table");
     assert_eq!(file(&whole), file(&parts));
-    // An edited table is replaced, because the journal differs from it.
+    // An edited table is replaced: its samples are solved again and agree with the journal.
     let damaged = String::from_utf8(file(&parts)).expect("text").replacen("0.2", "0.3", 1);
     fs::write(&table, damaged).expect("written");
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!(again.samples, at_once.samples);
     assert_eq!(file(&whole), file(&parts));
-    // A damaged line before intact lines is an error, and the journal remains unchanged.
+    // A damaged line followed by intact lines is an error, and the journal remains unchanged.
     let [journal] = files(&parts, "jsonl").try_into().expect("one journal");
     let sound = fs::read_to_string(&journal).expect("text");
     let third = sound.lines().nth(2).expect("a line");
@@ -44,13 +44,13 @@ fn an_interrupted_analysis_resumes_from_stored_samples() {
     let refused = analysed(&sweep, &[], 250, &parts, false).expect_err("damaged").to_string();
     assert!(refused.contains(".jsonl:3: damaged line"), "{refused}");
     assert_eq!(fs::read_to_string(&journal).expect("text"), damaged);
-    // A torn line at the end is solved again.
+    // If the last line is incomplete, its sample is solved again.
     fs::write(&journal, &sound[..sound.len() - 20]).expect("written");
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!(again.samples, at_once.samples);
 }
 
-/// Returns the files in a folder with an extension.
+/// Returns the files in `folder` with this extension.
 fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder");
     let paths = entries.map(|entry| entry.expect("an entry").path());
@@ -74,5 +74,5 @@ fn each_definition_has_its_own_samples() {
     let before = kept();
     assert_eq!(before.len(), 2);
     assert_eq!(first, sampled("0.01"));
-    assert_eq!(before, kept(), "nothing is solved again");
+    assert_eq!(before, kept(), "no sample is solved again");
 }

@@ -1,4 +1,4 @@
-//! Predicted and sampled spreads, closed forms, and interruptions.
+//! Tests of predicted and sampled spreads, Sobol' indices, and interrupted analyses.
 
 mod global;
 mod guide;
@@ -17,13 +17,17 @@ const QUICK: &str = "'coverage', 'puncture'";
 
 const PROGRAM: Program = Program { version: "1.0", revision: "none" };
 
-/// Returns a sweep of one design with these measures and deviations.
+/// Returns a sweep of one design with these measures.
+///
+/// `design` are the lines of the section `[designs]`, `lines` further sections of the definition.
 fn sweep(measures: &str, design: &str, lines: &str) -> Sweep {
     let text = format!("name = 'x'\nmeasures = [{measures}]\n[designs]\n{design}\n{lines}");
     Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep")
 }
 
 /// Analyses the first design of `sweep`, and stores its samples in `folder`.
+///
+/// `require` are the requirements. If `stop` is true, no samples are solved.
 fn analysed(
     sweep: &Sweep,
     require: &[&str],

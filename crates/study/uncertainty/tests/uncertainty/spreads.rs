@@ -1,9 +1,10 @@
-//! Linear and sampled spreads.
+//! Compares spreads and yields predicted by derivatives with solved samples.
 
 use uncertainty::{DesignTolerance, MeasureTolerance};
 
 use crate::{sweep, tolerance};
 
+/// Measures with derivatives.
 const ALL: &str = "'coverage', 'puncture', 'flexure'";
 
 const DESIGN: &str = "gap_over_t = 0.23\nlength_over_t = 0.7\nslant_deg = 52";
@@ -12,7 +13,7 @@ fn measure<'d>(design: &'d DesignTolerance, name: &str) -> &'d MeasureTolerance 
     design.measures.iter().find(|measure| measure.name == name).expect("a measure")
 }
 
-/// Asserts agreement within four standard errors plus one per cent.
+/// Asserts that predicted and sampled spread agree within four standard errors plus 1 %.
 fn assert_agree(measure: &MeasureTolerance) {
     let sampled = measure.sampled.as_ref().expect("samples");
     let allowed = 0.01 + 4.0 * sampled.spread_error / sampled.spread;
@@ -30,7 +31,7 @@ fn batch_spreads_agree_with_the_linear_prediction() {
                  scale_density_kg_m3 = { batch_sd = 1 }\nc1 = { batch_sd = 1e-3 }";
     let design = tolerance(&sweep(ALL, DESIGN, lines), &[], 300);
     let compared: Vec<_> = design.measures.iter().filter(|m| m.discrepancy().is_some()).collect();
-    // Dimensionless columns, columns in mm and N, and the mass.
+    // These are dimensionless columns, columns in mm and N, and the areal mass.
     assert!(compared.len() > 25, "{}", compared.len());
     for measure in compared {
         assert_agree(measure);
@@ -39,7 +40,7 @@ fn batch_spreads_agree_with_the_linear_prediction() {
     assert_eq!(force.sources.len(), 8);
     let shares: f64 = force.sources.iter().map(|source| source.share).sum();
     assert!((shares - 1.0).abs() < 1e-12);
-    // Slant and contact law do not change the mass.
+    // Slant and contact law do not change the areal mass.
     let mass = measure(&design, "areal_mass_kg_m2").linear.as_ref().expect("a spread");
     let [slant, law, density] = ["slant_deg", "c1", "scale_density_kg_m3"]
         .map(|key| mass.sources.iter().find(|s| s.source == key).expect("a source").share);
@@ -71,18 +72,18 @@ fn independent_deviations_of_gaps_partly_cancel() {
         let design = tolerance(&sweep(ALL, DESIGN, &lines), &[], 0);
         measure(&design, "initial_compliance").linear.as_ref().expect("a spread").spread
     });
-    // The strip has 107 gaps: length 100 t, pitch 0.93 t.
+    // The strip has the length 100 t and the pitch 0.93 t, so 107.5 gaps, rounded to 108.
     let ratio = together / single;
     assert!((ratio - 108.0_f64.sqrt()).abs() < 0.06, "{ratio}");
 }
 
 #[test]
-fn yields_count_the_samples_that_meet() {
+fn yield_is_the_fraction_of_samples_that_meet_the_requirement() {
     let sweep = sweep("'coverage'", DESIGN, "[tolerance]\ngap_over_t = { batch_sd = 0.02 }");
     let design = tolerance(&sweep, &["coverage >= 0.62", "gap_over_t <= 0.23"], 400);
     let [coverage, gap, all] = design.yields.as_slice() else { panic!("three yields") };
     let shares = [coverage, gap, all].map(|of| of.proportion.expect("samples").share());
-    // Half of the gaps are narrower than nominal. Coverage decreases with the gap.
+    // The limit of the gap is its nominal value, which half of the samples do not exceed.
     let [low, high] = gap.proportion.expect("samples").interval();
     assert!(low < 0.5 && 0.5 < high, "{low} {high}");
     assert!(shares[2] <= shares[0].min(shares[1]) && shares[2] > 0.2, "{shares:?}");
