@@ -12,18 +12,19 @@ use crate::restarts::{Agreement, restarted};
 /// Answer to a goal.
 #[derive(Clone, Debug)]
 pub enum Answer {
-    /// Best design, for one objective.
+    /// Best design for one objective.
     Optimum(Box<BestDesign>),
-    /// Non-dominated designs, for several objectives.
+    /// Non-dominated designs for several objectives.
     Front(Front),
-    /// No feasible design.
+    /// No design meets all requirements.
     ///
-    /// Holds the index in the history of the nearest design, if any has a valid judgement.
+    /// Holds the index, in the history, of the design with the smallest shortfall. `None` if no
+    /// design has a valid judgement.
     Infeasible(Option<usize>),
 }
 
 impl Answer {
-    /// Returns the best designs.
+    /// Returns the best designs: the optimum, or all points of the front.
     pub(crate) fn best_mut(&mut self) -> &mut [BestDesign] {
         match self {
             Self::Optimum(best) => std::slice::from_mut(best),
@@ -33,9 +34,9 @@ impl Answer {
     }
 }
 
-/// Searches for the answer to a goal from the known designs.
+/// Searches for the answer to a goal, starting from the designs in `history`.
 ///
-/// A front gets `points` points.
+/// Evaluated designs are added to `history`. A front has `points` points.
 pub(crate) fn answer(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -53,7 +54,8 @@ pub(crate) fn answer(
         history.extend(evaluated);
         history.extend(restarted(search, history, target, &mut ends, plan.restarts)?);
         agreement = Agreement::of(&ends);
-        // Without lower bounds all targets have the same feasible set, so one search decides.
+        // Targets without lower bounds have the same feasible designs. If the search for one
+        // objective finds no feasible design, further searches are useless.
         if !history.iter().any(|c| matches!(search.merit(c, target), Merit::Met(_))) {
             let merits = history.iter().map(|candidate| search.merit(candidate, target));
             return Ok(Answer::Infeasible(best(merits)));

@@ -1,4 +1,4 @@
-//! Selects the best design, and start points that are apart from each other.
+//! Selects the best design, and starts of local searches in different regions.
 
 use results::DesignRow;
 use sweep::Measure;
@@ -12,37 +12,39 @@ use crate::price::{Binding, bindings};
 use crate::restarts::Agreement;
 use crate::sampled::confirmation::Confirmation;
 
-/// Minimum distance between two starts, as a fraction of the intervals.
+/// Minimum distance of two starts in one region, as a fraction of the intervals.
 const APART: f64 = 0.12;
 
 /// Relative shortfall up to which a start counts as feasible.
 ///
-/// A gradient search ends about 1e-8 beyond its limits if two of them leave almost no feasible
-/// interior, as `coverage >= 0.6` and `compliance >= 0.4` do.
+/// If two limits leave almost no feasible space (e.g. `coverage >= 0.6` and `compliance >= 0.4`), a
+/// gradient search ends with a shortfall of about 1e-8.
 const NEARLY: f64 = 1e-6;
 
-/// A best design.
+/// A best design: the optimum, or a point of a front.
 #[derive(Clone, Debug)]
 pub struct BestDesign {
-    /// The design.
+    /// Evaluated design, as the search found it.
     pub candidate: Candidate,
-    /// The design as a row of tables.
+    /// Design with all measures, as a row of a table.
     pub row: DesignRow,
     /// Target of the search that found the design.
     pub target: Target,
     /// Binding limits with their multipliers.
     pub bindings: Vec<Binding>,
-    /// Why this design is best, in one sentence; `None` for a point of a front.
+    /// Sentence that states why this design is best; `None` for a point of a front.
     pub reason: Option<String>,
-    /// Check with independent samples, if the goal is about samples.
+    /// Check with independent samples; `None` if the goal contains no statistics over samples.
     pub confirmation: Option<Confirmation>,
-    /// Agreement of the searches for this design; `None` for a point of a front.
+    /// Number of local searches that found this design; `None` for a point of a front.
     pub agreement: Option<Agreement>,
     /// Checks with finer models; empty for a point of a front.
     pub checks: DesignChecks,
 }
 
-/// Returns the best design in `history`, with its binding limits.
+/// Returns the best design in `history` for `target`, with its binding limits.
+///
+/// Reason, confirmation, agreement and checks are added later.
 pub(crate) fn best_design(
     search: &Search<'_>,
     history: &[Candidate],
@@ -72,7 +74,7 @@ fn best_at_all_positions(
     let mut solved_at_all: Vec<Candidate> = Vec::new();
     loop {
         let others = history.iter().filter(|c| solved_at_all.iter().all(|s| s.point != c.point));
-        // Callers have checked that some design has a valid judgement.
+        // The fallback is never used: callers check that some design has a valid judgement.
         let best = search.best(others.chain(&solved_at_all), target).unwrap_or(&history[0]);
         if search.evaluations.compared_positions(&best.point) == Positions::All
             || solved_at_all.iter().any(|solved| solved.point == best.point)
@@ -88,12 +90,15 @@ fn best_at_all_positions(
     }
 }
 
-/// Region of the space that a local search does not leave.
+/// Region of the space that a local search cannot leave.
 ///
-/// It consists of the choices, the coverage peak, and contact or no contact in bending.
+/// It is given by the indices of the choices, the number of the coverage peak, and whether scales
+/// are in contact in bending.
 pub(crate) type Region = (Vec<usize>, Option<u32>, Option<bool>);
 
-/// Returns the region of a design, as far as regions matter for the goal.
+/// Returns the region of a design.
+///
+/// Coverage peak and contact are `None` if the goal does not depend on coverage or bending.
 pub(crate) fn region(search: &Search<'_>, candidate: &Candidate) -> Region {
     let teeth =
         search.judge.is_about(Measure::Coverage).then(|| search.space.case(&candidate.point));
@@ -103,9 +108,10 @@ pub(crate) fn region(search: &Search<'_>, candidate: &Candidate) -> Region {
     (candidate.point.chosen.clone(), peak, contact)
 }
 
-/// Selects starts of local searches.
+/// Selects at most `count` starts of local searches from `history`.
 ///
-/// They are the best designs of each region, then other designs at a distance.
+/// First the best design of each region is selected, in the order of merit. Then other designs
+/// follow, with a distance of at least `APART` from all selected designs.
 pub(crate) fn starts<'c>(
     search: &Search<'_>,
     history: impl IntoIterator<Item = &'c Candidate>,
@@ -117,7 +123,7 @@ pub(crate) fn starts<'c>(
         judged.filter(|(merit, _)| *merit != Merit::None).collect();
     order.sort_by(|(a, _), (b, _)| b.compare(*a));
     let mut regions: Vec<Region> = Vec::new();
-    // Both parts stay sorted by merit, so the first design of a region is its best.
+    // `order` is sorted by merit, so the first design found in a region is its best.
     let (firsts, others): (Vec<_>, Vec<_>) = order.into_iter().partition(|(_, candidate)| {
         let region = region(search, candidate);
         let is_new = !regions.contains(&region);

@@ -1,4 +1,4 @@
-//! Describes binding limits and their multipliers in text.
+//! Describes binding limits and their multipliers in words.
 
 use ranking::{Criterion, Goal, Requirement};
 use results::columns::explain_value;
@@ -12,22 +12,22 @@ use crate::price::{Binding, Limit};
 use crate::space::Interval;
 use crate::statistic::Statistic;
 
-/// Gap width, over the width at rest, for which the price of a gap is stated.
+/// Gap width, divided by the width at rest, for which the price of a gap is stated.
 const OPEN: f64 = 0.1;
 
-/// Describes binding limits and their multipliers.
+/// Describes the binding limits of a goal and their multipliers in words.
 pub struct BindingText<'a> {
     goal: &'a DesignGoal,
     judge: Judge,
 }
 
 impl<'a> BindingText<'a> {
-    /// Creates the descriptions for a goal.
+    /// Creates an object that describes the limits of `goal`.
     pub fn new(goal: &'a DesignGoal) -> Self {
         Self { goal, judge: Judge::new(goal) }
     }
 
-    /// Returns the requirements, then the requirement of an unfolded surface, if any.
+    /// Returns the requirements of the goal, then the requirement of an unfolded surface, if any.
     pub fn requirements(&self) -> Vec<&Requirement> {
         self.judge.requirements().collect()
     }
@@ -39,7 +39,7 @@ impl<'a> BindingText<'a> {
                 if self.judge.is_soundness(k)
                     && self.judge.is_statistic(StatisticUse::Requirement(k)) =>
             {
-                "the surface of more samples is about to fold".to_owned()
+                "the surface of further samples is about to fold".to_owned()
             }
             Limit::Requirement(k) if self.judge.is_soundness(k) => {
                 "the surface is about to fold".to_owned()
@@ -64,9 +64,9 @@ impl<'a> BindingText<'a> {
         }
     }
 
-    /// Describes a multiplier, e.g. `0.01 more coverage costs 0.12 of critical_force`.
+    /// Describes the cost of a limit, e.g. `0.01 more coverage costs 0.12 of critical_force`.
     ///
-    /// `None` if the multiplier is unknown.
+    /// `None` if the multiplier of the limit is unknown.
     pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
         if binding.limit.is_yield(&self.judge) {
             return Some("no price: the fraction of samples changes in steps".to_owned());
@@ -89,16 +89,16 @@ impl<'a> BindingText<'a> {
             Limit::Lower(j) => self.wider(j, "less", price, objective),
             Limit::Upper(j) => self.wider(j, "more", price, objective),
             Limit::Touch => {
-                // The limit is logarithmic: 0.01 is 1 % of the end rotation.
+                // The limit is a logarithm (O2), so a change of 0.01 is 1 % of the end rotation.
                 let costs = amount_of(0.01 * price, objective);
-                format!("1 % more end rotation without contact {} {costs}", verb(objective))
+                format!("bending 1 % further without contact {} {costs}", verb(objective))
             }
         })
     }
 
-    /// Describes the gain by one step beyond an end of interval `j`.
+    /// Describes the gain of the objective if interval `j` ended one step farther.
     ///
-    /// `sense` is the word "more" or "less".
+    /// `sense` is "more" for the upper end and "less" for the lower end.
     fn wider(&self, j: usize, sense: &str, price: f64, objective: &Criterion) -> String {
         let interval = &self.goal.space.intervals()[j];
         let step = step(interval.length());
@@ -106,9 +106,9 @@ impl<'a> BindingText<'a> {
         format!("{} {sense} {key} would gain {gain}", number::text(step))
     }
 
-    /// Describes the multiplier of requirement `k` for an unfolded surface.
+    /// Describes the multiplier of requirement `k`, the requirement of an unfolded surface.
     ///
-    /// It is the cost of keeping gaps open wider.
+    /// The text states the cost of keeping gaps open by a part of their width.
     fn openness(&self, k: usize, price: f64, objective: &Criterion) -> String {
         let of = if self.judge.is_statistic(StatisticUse::Requirement(k)) {
             "the gaps of these samples"
@@ -136,9 +136,9 @@ impl<'a> BindingText<'a> {
     }
 }
 
-/// Describes the cost of one step by which the limit of a column becomes stricter.
+/// Describes the cost of tightening the limit of a column by one step.
 ///
-/// The limit is a lower bound if `direction` is positive.
+/// A positive `direction` means a lower limit, a negative `direction` an upper limit.
 fn stricter(limit: f64, direction: f64, column: &str, price: f64, objective: &Criterion) -> String {
     let step = step(limit);
     let sense = if direction > 0.0 { "more" } else { "less" };
@@ -146,25 +146,27 @@ fn stricter(limit: f64, direction: f64, column: &str, price: f64, objective: &Cr
     format!("{step_amount} {sense} {column} {costs} {}", amount_of(step * price, objective))
 }
 
-/// Returns the lower bound of an objective.
+/// Returns the lower bound that `target` sets on an objective, after the change of sign.
 fn floor_of(target: &Target, objective: usize) -> f64 {
     let floor = target.floors.iter().find(|(of, _)| *of == objective);
     floor.map_or(f64::NAN, |(_, floor)| *floor)
 }
 
-/// Returns the verb for the effect of a tighter limit on an objective.
+/// Returns the verb that describes the effect of a tighter limit on `objective`.
+///
+/// A tighter limit reduces an objective to be maximised, and increases one to be minimised.
 fn verb(objective: &Criterion) -> &'static str {
     if objective.goal == Goal::Maximize { "costs" } else { "adds" }
 }
 
-/// Returns a power of ten that is a small change of a value of this size.
+/// Returns the power of ten that is between 1 % and 10 % of `size`.
 fn step(size: f64) -> f64 {
     let size = if size == 0.0 { 1.0 } else { size.abs() };
-    // Small, because a multiplier is a derivative.
+    // The step must be small, because a multiplier is a derivative.
     10_f64.powi(size.log10().floor() as i32 - 1)
 }
 
-/// Formats an amount, with its unit if physical.
+/// Formats an amount of a column, with the unit of columns in N, mm or kg.
 fn amount(amount: f64, column: &str) -> String {
     let unit = explain_value(Statistic::base(column)).map_or("-", |(unit, _)| unit);
     let is_physical = ["N", "mm", "kg"].iter().any(|beginning| unit.starts_with(beginning));
@@ -172,11 +174,12 @@ fn amount(amount: f64, column: &str) -> String {
     if is_physical { format!("{amount} {unit}") } else { amount }
 }
 
+/// Formats an amount of an objective, e.g. `0.12 of critical_force`.
 fn amount_of(value: f64, objective: &Criterion) -> String {
     format!("{} of {}", amount(value, &objective.column), objective.column)
 }
 
-/// Formats a number with three digits.
+/// Formats a number with three significant digits.
 fn rounded(value: f64) -> String {
     number::rounded(value, 3)
 }

@@ -8,23 +8,23 @@ use results::DesignResult;
 use crate::judgement::Judgement;
 use crate::space::SpacePoint;
 
-/// Relative difference of merits that come from two solutions of the same design.
+/// Maximum relative difference of the merits of two solutions of one design.
 const SAME: f64 = 1e-6;
 
 /// Stage of a search in which a design was evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchStage {
-    /// Space-filling points.
+    /// Initial design, e.g. a space-filling point.
     Sample,
-    /// A step of the gradient search.
+    /// Step of the gradient search.
     Gradient,
-    /// A step of the ridge search, by derivatives on both sides of a kink.
+    /// Step of the ridge search (a bundle method), which follows kinks.
     Ridge,
-    /// A step of the derivative-free search.
+    /// Step of the derivative-free search.
     Polish,
-    /// First sampling of a nominal design.
+    /// First solution of the samples of a nominal design.
     Tolerance,
-    /// A design rounded to multiples of a step.
+    /// Design rounded to multiples of a step.
     Rounded,
 }
 
@@ -45,24 +45,25 @@ impl SearchStage {
 /// An evaluated design.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// Stage of the evaluation.
+    /// Stage of the search in which the design was evaluated.
     pub stage: SearchStage,
-    /// The point of the design.
+    /// Point of the design in the space of the variables.
     pub point: SpacePoint,
-    /// The result of the design.
+    /// Result of the nominal design.
     pub result: Arc<DesignResult>,
     /// Judgement by the goal.
     pub verdict: Judgement,
 }
 
-/// Target of a search: an objective to maximise, with bounds on the others.
+/// Target of a local search: one objective to maximise, with lower bounds on other objectives.
 ///
-/// This is the ε-constraint method. Objectives to be minimised change sign.
+/// Targets with bounds serve the ε-constraint method for fronts. Objectives to be minimised change
+/// sign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
-    /// Index of the objective.
+    /// Index of the objective to maximise.
     pub objective: usize,
-    /// Lower bounds of other objectives, after the change of sign.
+    /// Index and lower bound of other objectives, after the change of sign.
     pub floors: Vec<(usize, f64)>,
 }
 
@@ -71,24 +72,24 @@ pub struct Target {
 pub(crate) enum Merit {
     /// The design has no valid judgement.
     None,
-    /// The design is infeasible, with this largest shortfall.
+    /// The design is infeasible. Holds its largest shortfall relative to the limits.
     Short(f64),
-    /// The design is feasible, with this objective after the change of sign.
+    /// The design is feasible. Holds its objective, after the change of sign.
     Met(f64),
 }
 
 impl Merit {
-    /// Compares two merits; the greater is better.
+    /// Compares two merits; the better merit is the greater.
     pub fn compare(self, other: Self) -> Ordering {
         match (self, other) {
             (Self::Met(a), Self::Met(b)) => a.total_cmp(&b),
-            // Reversed, because the smaller shortfall is better.
+            // The order is reversed, because the smaller shortfall is better.
             (Self::Short(a), Self::Short(b)) => b.total_cmp(&a),
             (a, b) => a.class().cmp(&b.class()),
         }
     }
 
-    /// Returns true if two merits of the same design differ by the accuracy of its solution only.
+    /// Returns true if two merits of one design agree within the accuracy of the solver.
     pub fn agrees(self, other: Self) -> bool {
         match (self, other) {
             (Self::Met(a), Self::Met(b)) => (a - b).abs() <= SAME * a.abs(),
@@ -97,6 +98,7 @@ impl Merit {
         }
     }
 
+    /// Returns a number for the kind of merit; a better kind has a larger number.
     fn class(self) -> u8 {
         match self {
             Self::None => 0,
@@ -106,7 +108,9 @@ impl Merit {
     }
 }
 
-/// Returns the index of the best merit; the first of equal ones.
+/// Returns the index of the best merit, or the first index if several merits are equal.
+///
+/// `None` if no design has a valid judgement.
 pub(crate) fn best(merits: impl Iterator<Item = Merit>) -> Option<usize> {
     let judged = merits.enumerate().filter(|(_, merit)| *merit != Merit::None);
     judged

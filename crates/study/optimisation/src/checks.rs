@@ -1,6 +1,7 @@
 //! Checks of a best design with finer models.
 //!
-//! The checks are full substrate coupling, other load positions and new samples.
+//! The design is solved again with full substrate coupling, at other load positions and with new
+//! samples.
 
 use std::fmt;
 
@@ -12,12 +13,14 @@ use text::number;
 
 use crate::goal::DesignGoal;
 
-/// A best design solved with finer models.
+/// Results of a best design solved with finer models.
 #[derive(Clone, Debug, Default)]
 pub struct DesignChecks {
-    /// Columns of the goal with full substrate coupling; `None` if they do not change.
+    /// Change of the goal's columns with full substrate coupling.
+    ///
+    /// `None` if the coupling is already full, or if no column changes.
     pub coupling: Option<CouplingChange>,
-    /// Columns of the goal with gaps 10 % smaller and larger.
+    /// Change of the goal's columns with gaps 10 % smaller and larger.
     pub gaps: Option<GapChange>,
     /// Forces at other load positions, with full coupling.
     ///
@@ -25,21 +28,22 @@ pub struct DesignChecks {
     pub places: Vec<WeakestPlace>,
 }
 
-/// A check of a best design.
+/// Kind of check of a best design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Check {
-    /// Full substrate coupling.
+    /// Solution with full substrate coupling.
     Coupling,
-    /// Other load positions with full coupling.
+    /// Solutions at other load positions with full substrate coupling.
     ///
-    /// Holds the weakest position, or one where the path ended early, with its outcome.
+    /// Holds the weakest load position and the outcome of the path there. If a path ended early,
+    /// its position is held instead.
     Places(f64, Outcome),
-    /// New samples, and their number.
+    /// New samples; holds their number.
     Samples(usize),
 }
 
 impl DesignChecks {
-    /// Solves the case of the best design of `goal` with finer models.
+    /// Solves the case `best`, the best design of `goal`, with finer models.
     pub(crate) fn solve(goal: &DesignGoal, best: &Case) -> Self {
         let alone = goal.space.sweep().at(best);
         let number = alone.grid().number(0).to_string();

@@ -1,4 +1,4 @@
-//! Columns that a goal may name: the columns of `designs.csv`, and the fitness.
+//! Columns that a goal can refer to: the columns of `designs.csv`, and the fitness.
 
 use ranking::{CriterionEnds, FitnessGoal, RescaledCriterion};
 use results::columns::design_columns;
@@ -7,11 +7,11 @@ use sweep::{Parameter, Sweep};
 
 use crate::slopes::Slopes;
 
-/// A column of numbers.
+/// A column of numbers, computed from the row of a nominal design.
 pub(crate) enum NumberColumn {
     /// A column of `designs.csv`.
     Known(Column<DesignRow>),
-    /// Fitness, from the columns of its criteria (O3).
+    /// Fitness (O3), computed from the columns of its criteria.
     Fitness(Vec<(Column<DesignRow>, RescaledCriterion)>),
 }
 
@@ -19,20 +19,21 @@ impl NumberColumn {
     /// Name of the fitness column.
     pub const FITNESS: &'static str = "fitness";
 
-    /// Returns the column of `designs.csv` with this name.
+    /// Returns the column `name` of `designs.csv`; `None` if there is no such column.
     pub fn named(sweep: &Sweep, name: &str) -> Option<Self> {
         known(sweep, name).map(Self::Known)
     }
 
-    /// Creates the fitness with these ends.
+    /// Creates the fitness column for criteria that are rescaled between these `ends`.
     ///
-    /// It has no value if a weighted criterion has no ends.
+    /// The column is empty if a weighted criterion lacks ends.
     pub fn fitness(goal: &FitnessGoal, sweep: &Sweep, ends: &[CriterionEnds]) -> Self {
         let parts = goal.rescaled(ends);
         let parts = parts.filter_map(|(of, part)| Some((known(sweep, &of.column)?, part)));
         Self::Fitness(parts.collect())
     }
 
+    /// Returns the name of the column.
     pub fn name(&self) -> &str {
         match self {
             Self::Known(column) => &column.name,
@@ -40,6 +41,7 @@ impl NumberColumn {
         }
     }
 
+    /// Returns the value of the column in `row`; `None` for an empty cell.
     pub fn value(&self, row: &DesignRow) -> Option<f64> {
         match self {
             Self::Known(column) => column.cell(row).number(),
@@ -50,13 +52,13 @@ impl NumberColumn {
         }
     }
 
-    /// Returns the derivatives with respect to a parameter.
+    /// Returns the one-sided derivatives of the column with respect to `parameter`.
     pub fn slopes(&self, row: &DesignRow, parameter: &Parameter) -> Slopes {
         match self {
             Self::Known(column) => slopes(column, row, parameter),
             Self::Fitness(parts) => match self.value(row) {
                 None => Slopes::UNKNOWN,
-                // At or beyond the worst end of a criterion the fitness is locally 0.
+                // A criterion is at or beyond its worst end, so the fitness is 0 nearby, too.
                 Some(fitness) if fitness <= 0.0 => Slopes::FLAT,
                 Some(fitness) => {
                     let sum = parts
@@ -75,28 +77,30 @@ impl NumberColumn {
     }
 }
 
+/// Returns the column `name` of `designs.csv` of the sweep.
 fn known(sweep: &Sweep, name: &str) -> Option<Column<DesignRow>> {
     design_columns(sweep).into_iter().find(|column| column.name == name)
 }
 
-/// Differentiates a column numerically.
+/// Differentiates a column with respect to `parameter` by finite differences.
 ///
-/// The rows are extrapolated by the derivatives of measures.
+/// Neighbouring rows are not solved, but extrapolated by the known derivatives of the measures.
 fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) -> Slopes {
     Slopes::between(parameter.size(&row.case), |by, side| {
         column.cell(&row.extrapolated_by(parameter, by, side)?).number()
     })
 }
 
-/// Returns the ends of every criterion.
+/// Returns the ends of each criterion of the fitness.
 ///
-/// They are given by the goal, or are the worst and best value of the `rows` with coverage.
+/// The ends are given by the goal. Otherwise they are the worst and best value of the criterion in
+/// those `rows` that cover the substrate.
 pub(crate) fn ends_over(
     goal: &FitnessGoal,
     sweep: &Sweep,
     rows: &[DesignRow],
 ) -> Vec<CriterionEnds> {
-    // As in a ranking, which rescales over designs with coverage.
+    // A ranking also rescales over designs with coverage only.
     let ends = goal.criteria.iter().filter_map(|criterion| {
         let given = goal.ends.iter().find(|ends| ends.column == criterion.column);
         given.cloned().or_else(|| {

@@ -1,24 +1,25 @@
-//! Slack before contact of a strip in bending.
+//! Slack of a strip in bending before its scales touch (O2).
 
 use skin::flexure::{contact_curvature, gaps};
 use sweep::{Case, Parameter};
 
 use crate::slopes::Slopes;
 
-/// Slack of a strip without contact at any curvature.
+/// Slack of a strip that has no contact at any curvature, and maximum slack of other strips.
 const AMPLE: f64 = 1.0;
 
 /// Step of the finite differences, relative to the size of the parameter.
 const STEP: f64 = 1e-5;
 
-/// Returns the slack before contact.
+/// Returns the slack before contact, `ln(κ₁*/κ_e*)` (O2).
 ///
-/// It is the logarithm of the contact curvature over the final curvature. The contact curvature is
-/// in closed form (F5). A negative slack means contact in bending.
+/// `κ₁*` is the curvature of first contact in closed form (F5), and `κ_e*` is the curvature at the
+/// end of bending. If the slack is negative, scales touch in bending.
 pub(crate) fn contact_margin(case: &Case) -> f64 {
     finite_contact_margin(case).unwrap_or(AMPLE)
 }
 
+/// Returns the slack before contact; `None` for a strip without contact at any curvature.
 fn finite_contact_margin(case: &Case) -> Option<f64> {
     let touching = contact_curvature(&case.design, &case.flexure).ok()??;
     let row = case.design.row().ok()?;
@@ -27,7 +28,7 @@ fn finite_contact_margin(case: &Case) -> Option<f64> {
     Some((touching * length / whole).ln().min(AMPLE))
 }
 
-/// Returns the one-sided derivatives of the slack.
+/// Returns the one-sided derivatives of the slack with respect to `parameter`.
 pub(crate) fn contact_margin_slopes(case: &Case, parameter: &Parameter) -> Slopes {
     if finite_contact_margin(case).is_none_or(|margin| margin >= AMPLE) {
         return Slopes::FLAT;
@@ -38,7 +39,9 @@ pub(crate) fn contact_margin_slopes(case: &Case, parameter: &Parameter) -> Slope
     }
 }
 
-/// Returns a one-sided difference of second order, by steps relative to the parameter's size.
+/// Returns a one-sided derivative of the slack by finite differences of second order.
+///
+/// `relative_step` is relative to the size of the parameter; its sign selects the side.
 fn one_sided_slope(case: &Case, parameter: &Parameter, relative_step: f64) -> Option<f64> {
     let step = relative_step * parameter.size(case)?;
     let near = finite_contact_margin(&parameter.moved(case, step)?)?;

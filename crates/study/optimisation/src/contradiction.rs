@@ -1,8 +1,9 @@
 //! Requirements that the checks of a best design contradict.
 //!
-//! A check may contradict a requirement that the fast model of the search meets. With
-//! `confirm = true` the search then tightens the limit `l` of the requirement by the ratio of both
-//! values, and continues:
+//! A best design may meet a requirement in the fast model of the search, but miss the requirement
+//! in a check with a finer model. With `confirm = true` the search then tightens the limit `l` of
+//! the requirement by the ratio of the value of the search to the value of the check, and
+//! continues:
 //!
 //! ```text
 //! l ← l · v_search/v_check                                                               (O10)
@@ -20,21 +21,21 @@ use crate::checks::Check;
 use crate::column::NumberColumn;
 use crate::goal::DesignGoal;
 
-/// Factor by which a tightened limit exceeds the predicted limit.
+/// Safety factor on a tightened limit.
 ///
-/// The ratio of both models differs at the next best design.
+/// The ratio of the values of both models will be different at the next best design.
 const SAFETY: f64 = 1.005;
 
 /// A requirement that a check contradicts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contradiction {
-    /// The check.
+    /// Check that contradicts the requirement.
     pub check: Check,
-    /// The requirement.
+    /// Contradicted requirement.
     pub requirement: Requirement,
-    /// Value of the search.
+    /// Value of the required column in the model of the search.
     pub searched: Option<f64>,
-    /// Value of the check, if there is one.
+    /// Value of the required column in the check; `None` without a valid value.
     pub value: Option<f64>,
 }
 
@@ -45,7 +46,7 @@ impl BestDesign {
         for requirement in &goal.requirements {
             let column = NumberColumn::named(goal.space.sweep(), &requirement.column);
             let searched = column.and_then(|column| column.value(&self.row));
-            // Other load positions are solved with full coupling, too.
+            // Prefer the check at other load positions: it includes full substrate coupling.
             let checked = self.elsewhere(requirement).or_else(|| self.coupled(requirement));
             if let Some((check, value)) = checked
                 && !value.is_some_and(|value| requirement.is_met(value))
@@ -55,7 +56,7 @@ impl BestDesign {
             }
         }
         let Some(made) = &self.confirmation else { return all };
-        // Undecided cases are reported in the text.
+        // If the new samples cannot decide whether a requirement is met, only the text states so.
         let broken = made.broken.iter().filter(|requirement| !made.is_open(requirement));
         all.extend(broken.map(|requirement| {
             let estimate = made.estimate(&requirement.column);
@@ -69,16 +70,21 @@ impl BestDesign {
         all
     }
 
-    /// Returns the value of a required column with full substrate coupling.
+    /// Returns the check with full substrate coupling, and its value of the required column.
+    ///
+    /// `None` if this check did not compute the column. The value is `None` if it is not valid.
     fn coupled(&self, requirement: &Requirement) -> Option<(Check, Option<f64>)> {
         let change = self.checks.coupling.as_ref()?;
         let measure = change.measures.iter().find(|m| m.column == requirement.column)?;
-        // Beyond a fold the value is not valid.
+        // Some columns are not valid after the surface has folded.
         let is_valid = !(change.folds && is_invalid_after_fold(&requirement.column));
         Some((Check::Coupling, measure.full.filter(|_| is_valid)))
     }
 
-    /// Returns the force at the weakest load position, if a force is required.
+    /// Returns the check at the weakest load position, and the force there.
+    ///
+    /// `None` unless the requirement is a lower limit of a force that was computed at several load
+    /// positions.
     fn elsewhere(&self, requirement: &Requirement) -> Option<(Check, Option<f64>)> {
         let weakest = self.checks.places.iter().find(|of| of.column == requirement.column)?;
         let is_lower_limit = requirement.direction() > 0.0;
@@ -106,16 +112,17 @@ impl fmt::Display for Contradiction {
     }
 }
 
-/// Tightens the requirements of `limits` that the checks of a best design contradict.
+/// Tightens those requirements of `limits` that the checks of the design `best` contradict.
 ///
-/// `goal` has the limits of the user. Returns true if a limit changed.
+/// `limits` is the goal of the search, `goal` has the limits of the user. Returns true if a limit
+/// changed.
 pub(crate) fn tighten(limits: &mut DesignGoal, goal: &DesignGoal, best: &BestDesign) -> bool {
     let contradictions = best.contradictions(goal);
     let mut is_tighter = false;
     for (own, meant) in limits.requirements.iter_mut().zip(&goal.requirements) {
         let mut ratios = Vec::new();
         for Contradiction { check, requirement, searched, value } in &contradictions {
-            // Samples are judged by the same limits, so new samples need no tighter ones.
+            // New samples are no finer model: the search judges its samples by the same limits.
             let is_finer = requirement == meant && !matches!(check, Check::Samples(_));
             if let (true, Some(searched), Some(value)) = (is_finer, searched, value) {
                 ratios.extend(Some(searched / value).filter(|r| r.is_finite() && *r > 0.0));

@@ -1,6 +1,7 @@
-//! Start points on coverage peaks, ordered by predicted shortfall.
+//! Selects start points on the coverage peaks (O8).
 //!
-//! Closed forms predict the shortfall.
+//! Closed forms bound the shortfall of a point without solving its design. Points with the smallest
+//! shortfall are selected.
 
 use std::collections::BTreeMap;
 
@@ -13,27 +14,31 @@ use crate::judge::Judge;
 use crate::space::{DesignSpace, SpacePoint};
 use crate::space_filling;
 
-/// Space-filling points from which peaks are located.
+/// Number of space-filling points. Peaks are located along lines through these points.
 const POINTS: usize = 512;
 
-/// Maximum number of points evaluated on each peak.
+/// Maximum number of points selected on each peak.
 const EACH: usize = 6;
 
-/// Predicted shortfall above which a point is not evaluated.
+/// Known shortfall above which a point is not selected.
 const HOPELESS: f64 = 0.25;
 
-/// Minimum distance of points on a peak, as a fraction of the intervals.
+/// Minimum distance of two points on a peak, as a fraction of the intervals.
 const APART: f64 = 0.05;
 
 /// Number of bisections to locate a peak.
 ///
-/// The error is far below the tolerance of a branch border.
+/// The remaining error is far below the tolerance within which a point counts as on the border of a
+/// coverage branch.
 const BISECTIONS: usize = 40;
 
-/// Returns points on every coverage peak, the least predicted shortfall first.
+/// Returns points on each coverage peak, in the order of the peaks.
+///
+/// The points of a peak are sorted by their known shortfall, the smallest first. `seed` selects the
+/// space-filling points.
 pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> Vec<SpacePoint> {
     let number = space.sweep().grid().number(0);
-    // An ordered map gives the same points in the same order in every session.
+    // A `BTreeMap` has the same order in every session, a `HashMap` has not.
     let mut on_peaks: BTreeMap<u32, Vec<(f64, SpacePoint)>> = BTreeMap::new();
     for point in space_filling::points(space, POINTS, seed) {
         for interval in 0..point.shares.len() {
@@ -46,14 +51,17 @@ pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> 
     on_peaks.into_values().flat_map(spread).collect()
 }
 
-/// Returns the points on coverage peaks along one interval through `point`.
+/// Returns the numbers of coverage peaks, and points on them, along a line through `point`.
+///
+/// Only the fraction of the interval with index `interval` varies along this line.
 fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<(u32, SpacePoint)> {
     let at =
         |share| coverage_piece::reach_over_pitch(&space.case(&point.with_share(interval, share)));
     let Some((first, last)) = at(0.0).zip(at(1.0)) else { return Vec::new() };
     let (low, high) = (first.min(last), first.max(last));
-    // `S/p` is monotonic along an interval of any length parameter.
-    // Empty if the interval does not change `S/p`, for example a modulus.
+    // `S/p` is monotonic along the interval of a length or the slant, so each integer between its
+    // values at both ends is one peak. The range is empty for parameters that do not change `S/p`,
+    // e.g. a modulus.
     (low.floor() as u32 + 1..=high.floor() as u32)
         .filter_map(|peak| {
             let (mut below, mut above) = if first < last { (0.0, 1.0) } else { (1.0, 0.0) };
@@ -67,9 +75,9 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
         .collect()
 }
 
-/// Returns the shortfall of a design on a peak, as far as it is known without a solution.
+/// Returns the sum of the shortfalls of a design on a peak that are known without solving it.
 ///
-/// Coverage, parameters and masses are exact; compliance is bounded by `d/p`.
+/// Coverage, parameters and masses are exact. Compliances have the upper bound `d/p`.
 fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
     let Some(open) = open_share(case) else { return f64::INFINITY };
     // On a peak the coverage is exactly `1 − d/p` (O8).
@@ -80,7 +88,8 @@ fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
             .or_else(|| (is_compliance && requirement.direction() > 0.0).then_some(open))
             .map_or(0.0, |value| requirement.margin(value).min(0.0))
     });
-    // Contact in bending reduces the compliance, so a lower limit on it needs slack before contact.
+    // Contact in bending reduces the compliance. So a lower limit of the compliance requires that
+    // the strip bends without contact.
     let touching = judge
         .requirements()
         .find(|r| r.column == COMPLIANCES[0] && r.direction() > 0.0)
@@ -88,12 +97,12 @@ fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
     -known.sum::<f64>() - touching
 }
 
-/// Selects the points with the least shortfall that are apart from each other.
+/// Selects points with the smallest shortfall at a distance of at least `APART` from each other.
 fn spread(mut points: Vec<(f64, SpacePoint)>) -> Vec<SpacePoint> {
     points.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut chosen: Vec<SpacePoint> = Vec::new();
     for (shortfall, point) in points {
-        // Sorted by shortfall: of two close points, the one with the larger shortfall is dropped.
+        // The points are sorted, so the first of two close points has the smaller shortfall.
         if shortfall <= HOPELESS
             && chosen.len() < EACH
             && chosen.iter().all(|other| other.distance(&point) >= APART)

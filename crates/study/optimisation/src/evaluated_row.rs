@@ -1,38 +1,40 @@
-//! Row of an evaluated design, with derivatives of statistics over its samples.
+//! Row of an evaluated design, and derivatives of statistics over its samples.
 
 use results::DesignRow;
 use sweep::Parameter;
 
 use crate::slopes::Slopes;
 
-/// Use of a statistic in a goal.
+/// States which objective or requirement of a goal a statistic belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum StatisticUse {
-    /// An objective, by its index.
+    /// The objective with this index.
     Objective(usize),
-    /// A requirement, by its index.
+    /// The requirement with this index.
     Requirement(usize),
 }
 
 /// Derivatives of a statistic with respect to a design parameter.
 #[derive(Clone, Debug)]
 pub(crate) struct StatisticSlopes {
+    /// Objective or requirement of the statistic.
     pub of: StatisticUse,
+    /// Key of the parameter.
     pub parameter: &'static str,
     pub slopes: Slopes,
 }
 
-/// Row of an evaluated design.
+/// Row of an evaluated design, and derivatives of statistics over its samples.
 #[derive(Clone, Debug)]
 pub(crate) struct EvaluatedRow {
-    /// The nominal design.
+    /// Results of the nominal design.
     pub nominal: DesignRow,
     /// Derivatives of statistics over the samples of the design.
     pub statistics: Vec<StatisticSlopes>,
 }
 
 impl EvaluatedRow {
-    /// Returns the derivatives of a statistic; unknown if not computed.
+    /// Returns the derivatives of a statistic, or `Slopes::UNKNOWN` if they were not computed.
     pub fn statistic_slopes(&self, of: StatisticUse, parameter: &Parameter) -> Slopes {
         let mut known = self.statistics.iter();
         let known = known.find(|known| known.of == of && known.parameter == parameter.key);

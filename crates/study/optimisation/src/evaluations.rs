@@ -1,4 +1,4 @@
-//! Evaluates points and samples; each is solved once and kept in a journal.
+//! Evaluates points and samples. Results are stored in a journal, so nothing is solved twice.
 
 mod evaluation_journal;
 
@@ -22,9 +22,9 @@ use crate::space::{DesignSpace, SpacePoint};
 use evaluation_journal::{EvaluationKey, FarLine, JournalLine, PointKey, SamplesLine, SolvedLine};
 pub(crate) use evaluation_journal::{Known, Positions, read_journal};
 
-/// Offset of sample numbers in a search.
+/// Offset of the sample numbers in a search.
 ///
-/// `squama tolerance` uses numbers from 1, which remain independent of the search.
+/// `squama tolerance` uses numbers from 1, so its samples are independent of samples of the search.
 const BEFORE: u64 = 1 << 32;
 
 /// Largest critical tilt, degrees, up to which corners represent all load positions.
@@ -40,28 +40,30 @@ const CORNERS: usize = 2;
 /// Reason to stop evaluating.
 #[derive(Debug)]
 pub(crate) enum Halt {
-    /// A stop was requested.
+    /// The user requested a stop.
     Interrupted,
     /// The journal cannot be written.
     Output(OutputError),
-    /// A gradient search no longer moves.
+    /// The steps of a gradient search became too small.
     Stalled,
 }
 
 /// A point, and the load positions of its puncture.
 type EndKey = (PointKey, Positions);
 
-/// Solves each point of a space once, and stores the results in a journal.
+/// Solves points of a space and their samples, and stores the results in a journal.
 ///
-/// Results of earlier sessions are read from it.
+/// Results of earlier sessions are read from the journal.
 pub(crate) struct Evaluations<'a> {
     space: &'a DesignSpace,
     plain: Evaluator,
     differentiating: Evaluator,
-    /// Solves reported designs with all measures.
+    /// Evaluator for reported designs, with all columns.
     reporting: Evaluator,
     sampler: Sampler,
-    /// Ends of punctures followed from rest, for similar designs.
+    /// Ends of puncture paths that were followed from rest.
+    ///
+    /// Paths of similar designs can start there.
     ends: Mutex<HashMap<EndKey, Option<PunctureEnd>>>,
     journal: Mutex<Journal<Known>>,
     stop: &'a AtomicBool,
@@ -95,24 +97,27 @@ impl<'a> Evaluations<'a> {
         })
     }
 
-    /// Returns the intervals that only scale columns in physical units, not measures.
+    /// Returns the indices of the intervals that only change the scale of physical columns.
+    ///
+    /// They do not change dimensionless measures.
     pub fn scaling_intervals(&self) -> Vec<usize> {
         self.space.scaling_intervals()
     }
 
-    /// Returns the common representative of points that differ by scaling only.
+    /// Returns `point` with the fraction 0 for each scaling interval.
     ///
-    /// These points share one result.
+    /// Points that differ only in scaling intervals share one result, which is stored at this
+    /// point.
     fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
         let mut unscaled = point.clone();
         for j in self.scaling_intervals() {
-            // Any constant would do: points that differ only by scaling get the same key.
+            // Any constant would be suitable.
             unscaled.shares[j] = 0.0;
         }
         unscaled
     }
 
-    /// Returns the row of the design at `point`, as number `index` of a table.
+    /// Returns `result` as a row: the design at `point` with the number `index`.
     pub fn row(&self, index: u64, point: &SpacePoint, result: &DesignResult) -> DesignRow {
         let number = self.number(index);
         DesignRow { number, case: self.space.case(point), result: result.clone() }
@@ -129,6 +134,7 @@ impl<'a> Evaluations<'a> {
         Ok(self.row(0, point, &row.result))
     }
 
+    /// Returns the design number with this index.
     fn number(&self, index: u64) -> DesignNumber {
         self.space.sweep().grid().number(index)
     }
@@ -154,7 +160,9 @@ impl<'a> Evaluations<'a> {
         case
     }
 
-    /// Solves the design at `point` from rest, or returns its known result.
+    /// Solves the design at `point` from rest, or returns its stored result.
+    ///
+    /// `differentiated` requests derivatives with respect to the variables.
     ///
     /// # Errors
     ///
@@ -171,9 +179,10 @@ impl<'a> Evaluations<'a> {
         self.known_or(&point, changed.as_deref(), None, &case, positions)
     }
 
-    /// Solves the design at `point` from the end of the puncture at the point `near`.
+    /// Solves the design at `point`, starting from the end of the puncture path at `near`.
     ///
-    /// `None` if its path must be followed from rest. See [`Self::solve`].
+    /// `near` is the point of a similar design. Returns `None` if the path of the design must be
+    /// followed from rest. See [`Self::solve`] for `differentiated` and errors.
     pub fn solve_near(
         &self,
         point: &SpacePoint,
@@ -217,31 +226,33 @@ impl<'a> Evaluations<'a> {
         Ok(Some(Arc::clone(&journal.records().solved[&key])))
     }
 
-    /// Returns true if the design at `point` may be solved from the end of a similar one.
+    /// Returns true if the design at `point` may be solved from the path end of a similar design.
     pub fn has_ends(&self, point: &SpacePoint) -> bool {
         self.plain.has_ends(&self.space.case(point))
     }
 
-    /// Returns the end of the puncture at `point`, which is followed if it is unknown.
+    /// Returns the end of the puncture path at `point`. An unknown path is followed from rest.
+    ///
+    /// `None` if similar designs cannot start from this end.
     fn end(&self, point: &SpacePoint, positions: Positions) -> Option<PunctureEnd> {
         let key = (PointKey::of(point), positions);
         if let Some(known) = self.ends().get(&key) {
             return known.clone();
         }
-        // After a restart the journal provides the result of this point, but not its path end.
+        // In a resumed search the journal contains the result of this point, but not its path end.
         let end = self.plain.puncture_end(&self.case_with(point, positions));
         self.ends().insert(key, end.clone());
         end
     }
 
-    /// Locks the ends.
+    /// Locks the path ends.
     ///
-    /// A poisoned lock is safe, because no operation under it leaves partial state.
+    /// If another thread panicked while it held the lock, the data are still consistent.
     fn ends(&self) -> MutexGuard<'_, HashMap<EndKey, Option<PunctureEnd>>> {
         self.ends.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the parameters that the variables change.
+    /// Returns the parameters of `case` that change with the continuous variables.
     fn changed(&self, case: &Case) -> Vec<&'static Parameter> {
         let mut changed = Vec::new();
         for interval in self.space.intervals() {
@@ -250,9 +261,10 @@ impl<'a> Evaluations<'a> {
         changed
     }
 
-    /// Solves a sample with derivatives, without scatter between scales.
+    /// Solves sample `sample` of the design at `point` with derivatives.
     ///
-    /// `None` if the sample does not exist. See [`Self::solve`].
+    /// The sample has batch deviations only, without scatter between scales. `None` if no
+    /// deviations within the bounds of the parameters are found. See [`Self::solve`] for errors.
     pub fn even_sample(
         &self,
         point: &SpacePoint,
@@ -260,7 +272,8 @@ impl<'a> Evaluations<'a> {
     ) -> Result<Option<Arc<DesignResult>>, Halt> {
         let nominal = self.space.case(point);
         let Some(case) = self.even_case(&nominal, sample) else { return Ok(None) };
-        // Deviations move with the variables: a modulus that varies changes the ratio of moduli.
+        // A variable may change several parameters of the sample. For example, a modulus also
+        // changes the ratio of moduli.
         let mut changed = Vec::new();
         for interval in self.space.intervals() {
             for moved in neighbours(&nominal, interval.parameter) {
@@ -271,14 +284,17 @@ impl<'a> Evaluations<'a> {
         self.known_or(point, Some(&changed), Some(sample), &case, Positions::All).map(Some)
     }
 
-    /// Returns the case of a sample of `nominal`, without scatter between scales.
+    /// Returns the case of a sample of `nominal` without scatter between scales.
+    ///
+    /// `None` if no deviations within the bounds of the parameters are found.
     pub fn even_case(&self, nominal: &Case, sample: u64) -> Option<Case> {
         self.sampler.even_case(nominal, BEFORE + sample)
     }
 
-    /// Returns the result of a case, and solves it from rest if it is unknown.
+    /// Returns the stored result of `case`, or solves it from rest.
     ///
-    /// `changed` lists the parameters of the derivatives, if the result has any.
+    /// `case` is the design at `point`, or sample number `sample` of this design. `changed` are the
+    /// parameters of the requested derivatives; `None` for a result without derivatives.
     fn known_or(
         &self,
         point: &SpacePoint,
@@ -287,8 +303,8 @@ impl<'a> Evaluations<'a> {
         case: &Case,
         positions: Positions,
     ) -> Result<Arc<DesignResult>, Halt> {
-        // Results with and without derivatives are separate, because derivatives cost more and are
-        // often unnecessary.
+        // Results with and without derivatives are stored separately, because derivatives are
+        // expensive and often unnecessary.
         let differentiated = changed.is_some();
         let (near, of_point) = (None, PointKey::of(point));
         let key = EvaluationKey { differentiated, positions, near, sample, point: of_point };
@@ -296,7 +312,8 @@ impl<'a> Evaluations<'a> {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
-        // Solved without the lock: two threads may solve the same point and append the same line.
+        // The journal is not locked while the design is solved. So two threads may solve one point
+        // and append equal lines, which is harmless.
         let evaluator = if differentiated { &self.differentiating } else { &self.plain };
         let mut end = None;
         let result = self.solved(|| {
@@ -316,19 +333,19 @@ impl<'a> Evaluations<'a> {
         Ok(Arc::clone(&journal.records().solved[&key]))
     }
 
-    /// Solves a design, and reports it if it is slow.
+    /// Calls `solve` to solve a design. The progress display reports the design if it is slow.
     fn solved(&self, solve: impl FnOnce() -> DesignRow) -> Result<DesignRow, Halt> {
         let row = uninterrupted(|| self.progress.slow().track("a design of the search", solve));
         row.ok_or(Halt::Interrupted)
     }
 
-    /// Returns the values of samples of the design at `point`.
+    /// Returns the values of samples `first` to `first + count − 1` of the design at `point`.
     ///
-    /// `count` samples from number `first` are solved in parallel.
+    /// Samples that are not stored are solved in parallel. `judge` selects the columns.
     ///
     /// # Errors
     ///
-    /// See [`Self::solve`].
+    /// If a stop was requested, or the journal cannot be written.
     pub fn samples(
         &self,
         point: &SpacePoint,
@@ -336,7 +353,7 @@ impl<'a> Evaluations<'a> {
         count: usize,
         judge: &SampleJudge,
     ) -> Result<Arc<Samples>, Halt> {
-        // Samples of a scaled design differ, so do not use `unscaled`.
+        // Do not use `unscaled`: samples of points that differ only by scaling are different.
         let key = (PointKey::of(point), first, count);
         if let Some(known) = self.journal().records().sampled.get(&key) {
             return Ok(Arc::clone(known));
@@ -363,17 +380,17 @@ impl<'a> Evaluations<'a> {
         Ok(Arc::clone(&journal.records().sampled[&key]))
     }
 
-    /// Returns an error once a stop was requested.
+    /// Returns an error if a stop was requested.
     fn go_on(&self) -> Result<(), Halt> {
         if self.stop.load(Ordering::Relaxed) { Err(Halt::Interrupted) } else { Ok(()) }
     }
 
-    /// Writes the journal to disk.
+    /// Flushes the journal to the disk.
     pub fn sync(&self) -> Result<(), OutputError> {
         self.journal().sync()
     }
 
-    /// Returns the number of solved points and samples, of this and earlier sessions.
+    /// Returns the number of solved points and samples in this session and earlier sessions.
     pub fn count(&self) -> usize {
         let journal = self.journal();
         let known = journal.records();
@@ -383,7 +400,7 @@ impl<'a> Evaluations<'a> {
 
     /// Locks the journal.
     ///
-    /// A poisoned lock is safe, because no operation under it leaves partial state.
+    /// If another thread panicked while it held the lock, the data are still consistent.
     fn journal(&self) -> MutexGuard<'_, Journal<Known>> {
         self.journal.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,6 +1,6 @@
-//! Searches the front of several objectives by the ε-constraint method.
+//! Searches the Pareto front of several objectives by the ε-constraint method.
 //!
-//! One objective is maximised under lower bounds on the others.
+//! Each point of the front maximises one objective under lower bounds on the other objectives.
 
 use ranking::dominates;
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
@@ -14,63 +14,67 @@ use crate::local::Search;
 use crate::progress::SearchPart;
 use crate::space::SpacePoint;
 
-/// Maximum rounds that add points in the widest gaps.
+/// Maximum number of rounds that add points in the widest gaps.
 const REFILLS: usize = 3;
 
-/// Minimum distance of a new lower bound from the start of its gap.
+/// Fraction of a gap, at its start, in which earlier lower bounds are ignored.
 ///
-/// It is a fraction of the gap. A design exceeds its own lower bound slightly.
+/// Such a bound belongs to the design at the start of the gap, which meets its bound exactly.
 const INSIDE: f64 = 1e-3;
 
-/// Relative difference up to which designs are the same point of the front.
+/// Relative difference of objectives up to which two designs are one point of the front.
 ///
 /// Tables show six digits.
 const SAME: f64 = 1e-6;
 
-/// Distance of the first end targets from the ends, as a fraction of the front.
+/// Distance of the targets at the ends of a front from these ends, as a fraction of the front.
 ///
-/// The exact optimum of one objective may be a set of zero width, in which no search can step.
+/// The designs with exactly the best value of one objective may form a set of zero width, in which
+/// a search cannot step.
 const BESIDE: f64 = 1e-6;
 
-/// Fraction of the front below which a gap needs no further point.
+/// Width of a gap, as a fraction of the front, up to which it needs no further point.
 const NARROW: f64 = 1e-3;
 
-/// Number of parts between the first points of a front.
+/// Number of parts into which the first points divide a front.
 const QUARTERS: usize = 4;
 
-/// Ratio of the ends of a front above which points are spaced by equal ratios.
+/// Ratio of the ends of a front from which points are spaced by equal ratios.
 const DECADE: f64 = 10.0;
 
-/// Front of several objectives.
+/// Pareto front of several objectives.
 #[derive(Clone, Debug)]
 pub struct Front {
-    /// Non-dominated designs, in the order of the first objective, best first.
+    /// Non-dominated designs, sorted by the first objective, best first.
     pub designs: Vec<BestDesign>,
-    /// Points with the same best design as another point: the front has a step there.
+    /// Number of points with the best design of another point. The front has a step there.
     pub same: usize,
-    /// Points with a dominated best design.
+    /// Number of points with a best design that another design dominates.
     pub beaten: usize,
-    /// Points without a feasible design.
+    /// Number of points without a feasible design.
     pub empty: usize,
 }
 
 impl Front {
-    /// Returns the number of requested points that were not searched.
+    /// Returns how many of the `points` requested points were not searched.
     ///
-    /// Either no gap was wide enough, or no known design was far enough from the others.
+    /// No gap was wide enough for them, or no known design was far enough from the other points.
     pub fn left_out(&self, points: usize) -> usize {
         points.saturating_sub(self.designs.len() + self.same + self.beaten + self.empty)
     }
 }
 
-/// Searches points between the ends of a front, then points in the widest gaps.
+/// Searches a front with `points` points.
+///
+/// Half of the points are between the ends of the known front. The other points are in the widest
+/// gaps. Evaluated designs are added to `history`.
 pub(crate) fn search(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
     plan: Plan,
     points: usize,
 ) -> Result<Front, Halt> {
-    // Half of the points show where the front changes.
+    // The first half of the points shows where the front needs more points.
     let mut targets = first_targets(search, history, points.div_ceil(2).max(2).min(points));
     if search.judge.objectives() == 2 {
         improve_by_halves(search, history, &targets, plan)?;
@@ -98,17 +102,17 @@ pub(crate) fn search(
     Ok(front)
 }
 
-/// Returns targets for the exact ends of the front.
+/// Returns targets for the exact ends of a front of two objectives.
 ///
-/// Each objective is maximised while the other keeps its value, within the smallest visible
-/// difference.
+/// At each end one objective is maximised. The other objective has its value at this end as a lower
+/// bound, reduced by the fraction `NARROW` of the front. `None` for other numbers of objectives.
 fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
     let first = turned(search, &designs.first()?.candidate)?;
     let last = turned(search, &designs.last()?.candidate)?;
     if first.len() != 2 || designs.len() < 2 {
         return None;
     }
-    // The other objective may fall just below its value at the exact end.
+    // Reduce the lower bounds slightly: at the exact end the objective may be smaller.
     let floors = [Spacing::between(first[1], last[1]), Spacing::between(last[0], first[0])]
         .map(|spacing| spacing.at(-NARROW));
     Some(
@@ -119,9 +123,10 @@ fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
     )
 }
 
-/// Returns targets for missing points.
+/// Returns targets for points that are still missing.
 ///
-/// They are in the widest gaps of a curve, or at known designs far from all points of a surface.
+/// For two objectives they are in the widest gaps of the front `designs`. For more objectives they
+/// are at known designs of `history` far from all points of the front.
 fn more_targets(
     search: &Search<'_>,
     history: &[Candidate],
@@ -138,15 +143,15 @@ fn more_targets(
     let known: Vec<Vec<f64>> =
         history.iter().filter_map(|candidate| turned(search, candidate)).collect();
     let floors = spread(&known, &front, more).into_iter().map(target);
-    // A repeated lower bound leads to the same design.
+    // A lower bound that was searched before would give the same design.
     floors.filter(|target| !targets.contains(target)).collect()
 }
 
-/// Returns targets in the widest gaps of a front of two objectives.
+/// Returns at most `count` targets in the widest gaps of a front of two objectives.
 ///
-/// There are at most `count` targets. If a lower bound inside a gap led to the far end of the gap,
-/// the front has a step there, and only the part before this bound remains. Narrow gaps are
-/// skipped.
+/// If one of the earlier `targets` has its lower bound inside a gap, its best design is at the far
+/// end of the gap, i.e. the front has a step there. Only the part of the gap before this bound is
+/// then searched. Narrow gaps are skipped.
 fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> {
     let (Some(first), Some(last)) = (front.first(), front.last()) else { return Vec::new() };
     let scales = [0, 1].map(|k| Spacing::between(first[k], last[k]));
@@ -167,10 +172,9 @@ fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> 
     gaps.into_iter().map(|(_, floor)| target(vec![floor])).collect()
 }
 
-/// Spacing of values between two ends.
+/// Scale between two ends, on which points are equally spaced.
 ///
-/// Ratios are equal if the ends differ by a factor of at least ten, otherwise differences are
-/// equal.
+/// The scale is logarithmic if the ends differ by a factor of at least ten, otherwise linear.
 #[derive(Clone, Copy)]
 struct Spacing {
     ends: [f64; 2],
@@ -178,18 +182,19 @@ struct Spacing {
 }
 
 impl Spacing {
+    /// Creates the scale between two ends.
     fn between(from: f64, to: f64) -> Self {
         let ratio = (to / from).max(from / to);
         Self { ends: [from, to], logarithmic: ratio.is_finite() && ratio >= DECADE }
     }
 
-    /// Returns the value at a fraction of the spacing.
+    /// Returns the value at the fraction `share` of the scale: 0 is `from`, 1 is `to`.
     fn at(self, share: f64) -> f64 {
         let [from, to] = self.ends;
         if self.logarithmic { from * (to / from).powf(share) } else { from + (to - from) * share }
     }
 
-    /// Returns the fraction of the spacing at a value.
+    /// Returns the fraction of the scale at `value`, the inverse of [`Self::at`].
     fn share(self, value: f64) -> f64 {
         let [from, to] = self.ends;
         match self.logarithmic {
@@ -200,12 +205,11 @@ impl Spacing {
     }
 }
 
-/// Searches the points of a curve in ever finer intervals.
+/// Searches the points of a front of two objectives in ever finer intervals.
 ///
-/// The ends and the quarters come first, then halves of each interval.
-///
-/// The first points search every region of the space. The others continue from the points on both
-/// sides, because the designs of a front change gradually along most of it.
+/// The ends and three points between them are searched first, from the best designs of all regions.
+/// Then each interval is halved. These points are searched from the designs at both ends of the
+/// interval, because the designs change gradually along most of a front.
 fn improve_by_halves(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -232,13 +236,14 @@ fn improve_by_halves(
     }
 }
 
+/// Returns the targets with the indices `places`.
 fn chosen(targets: &[Target], places: &[usize]) -> Vec<Target> {
     places.iter().map(|&k| targets[k].clone()).collect()
 }
 
-/// Runs a search for each target, from the known designs.
+/// Runs a search for each target from the designs in `history`, which it extends.
 ///
-/// `front` are the best designs of other targets; searches start between them, too.
+/// `front` are the best designs of other targets. Searches also start between two of them.
 fn improve(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -249,7 +254,7 @@ fn improve(
     let units =
         targets.iter().map(|target| plan.evaluations() * search.evaluation_units(target)).sum();
     search.progress.begin(SearchPart::Front, targets.len() * plan.tasks(), units);
-    // Collect in the order of the targets, so that the history is the same on every machine.
+    // `collect` keeps the order of the targets, so the history does not depend on the threads.
     let walks = targets.par_iter().map(|target| {
         let point = between_neighbours(search, front, target);
         let start = point.map(|point| search.compared(SearchStage::Gradient, &point, true));
@@ -263,10 +268,10 @@ fn improve(
     Ok(())
 }
 
-/// Returns the point between the designs of `front` on both sides of a lower bound.
+/// Interpolates between the two designs of `front` that are next to the lower bound of `target`.
 ///
-/// It divides their distance like the bound divides the difference of their objectives. `None` if
-/// the bound is not between two designs with the same choices.
+/// At the returned point the bounded objective would have the value of the bound if it varied
+/// linearly. `None` if the bound is not between two designs with equal choices.
 fn between_neighbours(
     search: &Search<'_>,
     front: &[Candidate],
@@ -287,10 +292,10 @@ fn between_neighbours(
         .then(|| SpacePoint { shares: shares.collect(), chosen: from.chosen.clone() })
 }
 
-/// Returns the front after scaling each design for each target.
+/// Returns the front after optimising the scaling intervals of each design for each target.
 ///
-/// Scaling intervals, such as a thickness in mm, change forces and lengths alone, and cost no
-/// solution.
+/// Scaling intervals, such as the thickness in mm, only change forces and lengths in physical
+/// units. The designs need no new solution.
 fn rescaled_front(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -298,7 +303,7 @@ fn rescaled_front(
 ) -> Result<Front, Halt> {
     let front = designs(search, history, targets)?;
     let scaling = search.evaluations.scaling_intervals();
-    // Samples of a scaled design differ and must be solved.
+    // With samples this would be expensive: the samples of a scaled design must be solved.
     if scaling.is_empty() || search.judge.samples().is_some() {
         return Ok(front);
     }
@@ -310,7 +315,7 @@ fn rescaled_front(
     designs(search, history, targets)
 }
 
-/// Returns the non-dominated best designs of the targets, and counts the others.
+/// Returns the front: the best design of each target, without dominated and repeated designs.
 fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Result<Front, Halt> {
     let found = targets.par_iter().map(|target| {
         let any = history
@@ -328,8 +333,8 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
         Front { designs: Vec::new(), same: 0, beaten: 0, empty: targets.len() - found.len() };
     let mut kept: Vec<(BestDesign, f64)> = Vec::new();
     for (k, (design, turned)) in found.into_iter().enumerate() {
-        // If two limits bind, points may differ only by round-off in one objective. Exact dominance
-        // would then keep the worse of two points.
+        // `dominates` tolerates round-off. If two limits bind, two points may differ in one
+        // objective by round-off only, and exact comparison would keep the worse point.
         if values.iter().any(|other| dominates(other, &turned)) {
             front.beaten += 1;
         } else if values[..k].iter().any(|other| is_same(other, &turned)) {
@@ -343,19 +348,21 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
     Ok(front)
 }
 
-/// Returns true if all objectives agree within the visible digits.
+/// Returns true if all objectives agree within the digits that tables show.
 fn is_same(one: &[f64], other: &[f64]) -> bool {
     one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME * b.abs())
 }
 
-/// Returns the objectives of a feasible design, with changed sign if minimised.
+/// Returns the objectives of a feasible design; objectives to be minimised change sign.
+///
+/// `None` for an infeasible design.
 fn turned(search: &Search<'_>, candidate: &Candidate) -> Option<Vec<f64>> {
     let Judgement::Judged(worth) = &candidate.verdict else { return None };
     let turned = worth.objectives.iter().enumerate().map(|(k, x)| search.judge.sign(k) * x);
     worth.met.then(|| turned.collect())
 }
 
-/// Returns the first targets of a front: its ends, and lower bounds between them.
+/// Returns the first targets of a front, derived from the feasible designs in `history`.
 fn first_targets(search: &Search<'_>, history: &[Candidate], points: usize) -> Vec<Target> {
     let values: Vec<Vec<f64>> = history.iter().filter_map(|c| turned(search, c)).collect();
     if search.judge.objectives() == 2 {
@@ -364,22 +371,27 @@ fn first_targets(search: &Search<'_>, history: &[Candidate], points: usize) -> V
     spread(&values, &[], points).into_iter().map(target).collect()
 }
 
-/// Returns the target with these lower bounds on all objectives but the first.
+/// Returns the target that maximises the first objective under lower bounds on the others.
+///
+/// `floors` are the bounds of the second and all following objectives.
 fn target(floors: Vec<f64>) -> Target {
-    // The same objective is maximised at all points: lower bounds on the others reach every part of
-    // a front.
+    // One objective is sufficient: with suitable lower bounds on the other objectives, its maximum
+    // can be any point of the front.
     Target {
         objective: 0,
         floors: floors.into_iter().enumerate().map(|(k, floor)| (k + 1, floor)).collect(),
     }
 }
 
-/// Returns targets for a front of two objectives: its ends and points between.
+/// Returns targets for a front of two objectives: its ends, and equally spaced points between.
+///
+/// `values` are the objectives of the known feasible designs.
 fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     let ends = [0, 1].map(|k| values.iter().max_by(|a, b| a[k].total_cmp(&b[k])));
     let [Some(first), Some(last)] = ends else { return Vec::new() };
     let spacings = [0, 1].map(|k| Spacing::between(first[k], last[k]));
-    // At an end the other objective decides, because many designs may share the optimum of one.
+    // At an end, bound one objective at its optimum and maximise the other objective, because many
+    // designs may share the optimum of one objective.
     let first_end = Target { objective: 1, floors: vec![(0, spacings[0].at(BESIDE))] };
     let last_end = target(vec![spacings[1].at(1.0 - BESIDE)]);
     let inner =
@@ -387,9 +399,10 @@ fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     [first_end].into_iter().chain(inner).chain([last_end]).collect()
 }
 
-/// Returns lower bounds at non-dominated designs with the largest distances.
+/// Selects up to `count` of the points `values` that are not dominated and far apart.
 ///
-/// Distances are measured to each other and to `taken`.
+/// Each point is the farthest from all selected points and from the points `taken`. Returns the
+/// objectives of the points, except the first objective.
 fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
     let front: Vec<&Vec<f64>> =
         values.iter().filter(|value| !values.iter().any(|other| dominates(other, value))).collect();
@@ -409,7 +422,7 @@ fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>
         .collect();
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < count {
-        // The first of equal distances; without `taken` all distances are infinite.
+        // Without `taken` all distances are infinite at first, and the first point is selected.
         let farthest = (0..front.len())
             .reduce(|a, b| if nearest[b] > nearest[a] { b } else { a })
             .filter(|&k| nearest[k] > NARROW);
@@ -423,7 +436,7 @@ fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>
     chosen.into_iter().map(|k| front[k][1..].to_vec()).collect()
 }
 
-/// Returns the distance between two values, relative to the spans of the objectives.
+/// Returns the distance between two points, with each objective divided by its span.
 fn scaled_distance(a: &[f64], b: &[f64], spans: &[f64]) -> f64 {
     let pairs = a.iter().zip(b).zip(spans);
     pairs.map(|((a, b), span)| ((a - b) / span).powi(2)).sum::<f64>().sqrt()
@@ -435,7 +448,7 @@ mod tests {
 
     #[test]
     fn dominance_tolerates_round_off_in_one_objective() {
-        // Such points occur if coverage and compliance both bind.
+        // These points are typical if requirements on coverage and on compliance bind.
         let (poor, good) = ([0.800_000_000_004_8, 0.06], [0.799_999_999_999_9, 0.6]);
         assert!(dominates(&good, &poor) && !dominates(&poor, &good));
         assert!(!dominates(&good, &good) && is_same(&good, &[0.8, 0.6]));

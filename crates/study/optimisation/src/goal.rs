@@ -12,7 +12,7 @@ use ranking::{Criterion, FitnessGoal, Requirement, Standard, Worth};
 use crate::space::DesignSpace;
 use crate::statistic::Statistic;
 
-/// Ratio of the number of samples near the best design to the number elsewhere.
+/// Factor by which [`DesignGoal::finer`] increases the number of samples of each design.
 const MORE: usize = 5;
 
 /// Goal of an optimisation: design space, objectives and requirements.
@@ -24,7 +24,7 @@ pub struct DesignGoal {
     ///
     /// One objective gives an optimum, two to four give a front.
     pub objectives: Vec<Criterion>,
-    /// Bounds on columns.
+    /// Bounds on columns that a design must meet.
     pub requirements: Vec<Requirement>,
     /// Standards named by requirements such as `needle 2`.
     pub standards: Vec<&'static Standard>,
@@ -32,17 +32,17 @@ pub struct DesignGoal {
     pub fitness: Option<FitnessGoal>,
     /// True if designs with a folded surface are excluded.
     pub sound: bool,
-    /// True if the best design must meet the requirements in the checks, too.
+    /// True if the best design must also meet the requirements in the checks with finer models.
     pub confirm: bool,
-    /// Step of the lengths of a rounded best design, in mm.
+    /// Step to which the lengths of the best design are rounded; `None` without rounding.
     ///
-    /// Over the thickness if the thickness is unknown.
+    /// In mm, or divided by the thickness of a scale if the goal states no thickness in mm.
     pub round: Option<f64>,
     /// Number of space-filling points.
     pub samples: usize,
     /// Number of points of a front.
     pub points: usize,
-    /// Number of samples of each design, if the goal is about samples.
+    /// Number of samples of each design, used if the goal contains a quantile or yield.
     ///
     /// The key in the file is `skins`.
     pub realisations: usize,
@@ -57,33 +57,36 @@ impl DesignGoal {
         self.space.sweep().name()
     }
 
-    /// Returns the goal in TOML, including overrides.
+    /// Returns the goal in TOML, including settings that override keys of the file.
     pub fn to_toml(&self) -> &str {
         &self.text
     }
 
-    /// Returns the columns of objectives and requirements with the values of a design.
+    /// Returns each column of objectives and requirements with its value for a design.
+    ///
+    /// `worth` holds the values of the design.
     pub fn values<'a>(&'a self, worth: &'a Worth) -> impl Iterator<Item = (&'a str, f64)> {
         self.columns().zip(worth.objectives.iter().chain(&worth.required).copied())
     }
 
-    /// Returns the statistic over samples that a column names.
+    /// Returns the statistic over samples with the name `column`, e.g. `critical_force_p05`.
     ///
-    /// `None` for columns of `designs.csv` and the fitness.
+    /// `None` for columns of `designs.csv` and for the fitness.
     pub fn statistic(&self, column: &str) -> Option<Statistic> {
         let sweep = self.space.sweep();
-        // With imperfections, such names are columns of tables, for the random rows of a design.
+        // In a sweep with imperfections these names are columns of `designs.csv`: quantiles over
+        // the imperfect rows of a design.
         let has_samples = !sweep.deviations().is_empty() && !sweep.is_imperfect();
         Statistic::named(column).filter(|_| has_samples)
     }
 
-    /// Returns the columns of objectives, then of requirements.
+    /// Returns the columns of the objectives, then the columns of the requirements.
     pub fn columns(&self) -> impl Iterator<Item = &str> {
         let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
         objectives.chain(self.requirements.iter().map(|requirement| requirement.column.as_str()))
     }
 
-    /// Returns the columns of objectives, requirements and criteria of the fitness.
+    /// Returns the columns of objectives, requirements and criteria of the fitness, in this order.
     pub(crate) fn measured_columns(&self) -> impl Iterator<Item = &str> {
         let criteria = self.fitness.iter().flat_map(|fitness| &fitness.criteria);
         self.columns().chain(criteria.map(|criterion| criterion.column.as_ref()))
@@ -100,11 +103,10 @@ impl DesignGoal {
         required.any(|requirement| self.statistic(&requirement.column) == Some(Statistic::Yield))
     }
 
-    /// Returns the goal for nominal designs, with which a search begins.
+    /// Returns the goal for nominal designs, which a search optimises first.
     ///
-    /// A quantile of a column is replaced by the column. A yield is replaced by the least margin
-    /// over the requirements (`Statistic::MARGIN`) if it is an objective, and is dropped if it is a
-    /// requirement.
+    /// A quantile of a column is replaced by the column. A yield as objective is replaced by the
+    /// smallest margin over the requirements (`Statistic::MARGIN`). A required yield is dropped.
     #[must_use]
     pub fn nominal(&self) -> Self {
         let mut goal = self.clone();
@@ -124,7 +126,7 @@ impl DesignGoal {
         goal
     }
 
-    /// Returns the goal with more samples of each design.
+    /// Returns the goal with five times as many samples of each design.
     #[must_use]
     pub(crate) fn finer(&self) -> Self {
         Self { realisations: MORE * self.realisations, ..self.clone() }

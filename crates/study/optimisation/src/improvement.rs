@@ -1,6 +1,6 @@
 //! Improves known designs by local searches.
 //!
-//! Short searches start in many regions, full searches from the best designs.
+//! Short searches start in many regions. Full searches start from the best designs so far.
 
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
@@ -10,20 +10,20 @@ use crate::evaluations::Halt;
 use crate::local::{Effort, Search};
 use crate::restarts::met;
 
-/// Minimum distance of two distinct starts, as a fraction of the intervals.
+/// Distance, as a fraction of the intervals, below which a start is dropped as a duplicate.
 const DISTINCT: f64 = 1e-3;
 
-/// Number of gradient searches besides the one from a design that is probably near the best.
+/// Number of gradient searches from other designs, if a design near the best is known.
 const ELSEWHERE: usize = 2;
 
 /// Numbers of local searches for a target.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plan {
-    /// Short searches, one per region.
+    /// Number of short searches, which start in different regions if possible.
     pub regions: usize,
-    /// Gradient searches after the short ones.
+    /// Number of gradient searches, which follow the short searches.
     pub starts: usize,
-    /// Full searches after the gradient searches.
+    /// Number of full searches, which follow the gradient searches.
     pub finalists: usize,
     /// Maximum number of restarts if the full searches disagree.
     pub restarts: usize,
@@ -32,40 +32,40 @@ pub(crate) struct Plan {
 impl Plan {
     /// Plan for nominal designs.
     pub const NOMINAL: Self = Self { regions: 24, starts: 6, finalists: 3, restarts: 6 };
-    /// Plan for nominal designs at which searches of sampled designs start.
+    /// Plan for nominal designs from which searches over samples start.
     pub const STARTS: Self = Self { restarts: 0, ..Self::NOMINAL };
-    /// Plan for sampled designs.
+    /// Plan for designs with samples.
     ///
-    /// They are too expensive for restarts, and the uncertainty of their quantiles exceeds the
-    /// steps of an objective that jumps.
+    /// Restarts would be too expensive. Also, the uncertainty of quantiles exceeds the jumps of an
+    /// objective.
     pub const SAMPLED: Self = Self { regions: 6, ..Self::STARTS };
 
-    /// Plan for a search that continues with tighter limits. The best regions are known.
+    /// Plan for a search that continues with tighter limits, when the best regions are known.
     pub const AGAIN: Self = Self { regions: 0, starts: 3, finalists: 2, restarts: 0 };
 
-    /// Returns the plan for a point of a front.
+    /// Returns the plan for one of the first points of a front.
     ///
-    /// The ends of the front are known, so few regions are near the best.
+    /// Two full searches suffice, because good designs near the ends of the front are known.
     pub fn of_a_point(self) -> Self {
         Self { finalists: 2, ..self }
     }
 
-    /// Returns the plan for an intermediate point of a front.
+    /// Returns the plan for a point of a front between known points.
     ///
-    /// No region needs a new search, because the searches for the neighbouring points have already
-    /// found good designs in each.
+    /// Short searches are unnecessary, because the searches for the neighbouring points have found
+    /// good designs in each region.
     pub fn between_points(self) -> Self {
         Self { regions: 0, finalists: 1, ..self }
     }
 
-    /// Returns the expected number of evaluations for a target.
+    /// Returns the expected number of evaluations for one target.
     pub fn evaluations(self) -> u64 {
         let Self { regions, starts, finalists, .. } = self;
         (regions + starts) as u64 * Effort::GRADIENT.evaluations
             + finalists as u64 * Effort::WHOLE.evaluations
     }
 
-    /// Returns the maximum number of local searches.
+    /// Returns the maximum number of local searches for one target, without restarts.
     pub fn tasks(self) -> usize {
         self.regions + self.starts + self.finalists
     }
@@ -75,13 +75,13 @@ impl Plan {
 pub(crate) struct Improved {
     /// All evaluated designs, in the order of the searches.
     pub evaluated: Vec<Candidate>,
-    /// Objectives of the last searches and of their starts, to be maximised.
+    /// Objectives of the designs found by the full searches, and of the starts of these searches.
     ///
-    /// Infeasible ends are omitted.
+    /// Objectives to be minimised change sign. Infeasible designs are omitted.
     pub ends: Vec<f64>,
 }
 
-/// Improves the best designs in `history` for a target.
+/// Improves the best designs in `history` for `target`.
 pub(crate) fn improved(
     search: &Search<'_>,
     history: &[Candidate],
@@ -91,9 +91,10 @@ pub(crate) fn improved(
     improved_from(search, history, target, plan, None)
 }
 
-/// Improves the best designs in `history`, and a design that is probably near the best.
+/// Improves the best designs in `history` for `target`, and the design `near`, if given.
 ///
-/// With such a design fewer gradient searches start elsewhere.
+/// `near` is probably close to the best design. If it is given, fewer gradient searches start from
+/// other designs.
 pub(crate) fn improved_from(
     search: &Search<'_>,
     history: &[Candidate],
@@ -102,25 +103,26 @@ pub(crate) fn improved_from(
     near: Option<&Candidate>,
 ) -> Result<Improved, Halt> {
     let (mut evaluated, mut ends): (Vec<Candidate>, Vec<f64>) = (Vec::new(), Vec::new());
-    // Successive halving: a few steps show which regions are worth a longer search.
+    // Successive halving: a few steps in each region show which regions deserve longer searches.
     let full = if near.is_some() { Effort::NEAR } else { Effort::WHOLE };
     let stages =
         [(plan.regions, Effort::PROBE), (plan.starts, Effort::GRADIENT), (plan.finalists, full)];
     for (count, effort) in stages {
-        // Each search depends on its start only, so results are independent of the order of
-        // completion.
+        // The results do not depend on the order in which parallel searches end, because each
+        // search depends on its start only.
         let known = history.iter().chain(&evaluated);
         let is_met = |candidate: &Candidate| met(search, candidate, target).is_some();
         let any_met = known.clone().any(is_met);
-        // Gradient searches lead to feasible designs, and full searches improve them. Full searches
-        // therefore start at feasible designs if there are any.
+        // Full searches start only from feasible designs, if there are any. Gradient searches also
+        // start from infeasible designs, and may become feasible.
         let known = known.filter(|c| effort.rounds == 0 || !any_met || is_met(c));
         let near = near.filter(|_| effort.rounds == 0 && count > 0);
         let count = if near.is_some() { count.min(ELSEWHERE) } else { count };
         let starts = starts(search, known, target, count);
         let starts = distinct(near.cloned().into_iter().chain(starts).collect());
         let walks = starts.par_iter().map(|start| {
-            // If some designs are feasible, a start that is not gets another short search.
+            // If some designs are feasible, a search from an infeasible design gets a few steps
+            // only.
             let effort = if any_met && !is_met(start) { Effort::PROBE } else { effort };
             let walk = search.improve(target, start, effort)?;
             let best = search.best(walk.iter().chain([start]), target);
@@ -128,8 +130,8 @@ pub(crate) fn improved_from(
             Ok((walk, end))
         });
         let walks: Vec<_> = walks.collect::<Result<_, Halt>>()?;
-        // Only the last stage converges. Its starts are the ends of searches by another method, so
-        // they count too.
+        // Only the searches of the last stage converge, so `ends` is replaced in each stage. Starts
+        // count too: they are results of gradient searches, i.e. of another method.
         let both = starts.iter().zip(&walks);
         let both = both.flat_map(|(start, (_, end))| [met(search, start, target), *end]);
         ends = both.flatten().collect();
@@ -138,10 +140,10 @@ pub(crate) fn improved_from(
     Ok(Improved { evaluated, ends })
 }
 
-/// Drops starts beside an earlier start.
+/// Drops starts that are very close to an earlier start.
 ///
-/// Starts on both sides of a region border are one point, and searches from them end at the same
-/// design.
+/// Two starts may be on both sides of the border of a region. Searches from both would find the
+/// same design.
 fn distinct(starts: Vec<Candidate>) -> Vec<Candidate> {
     let mut kept: Vec<Candidate> = Vec::new();
     for start in starts {

@@ -14,17 +14,17 @@ use crate::sample::{SampleJudge, Samples};
 use crate::slopes::Slopes;
 use crate::statistic::Statistic;
 
-/// Source of a judged value.
+/// Source of the value of an objective or requirement.
 enum Source {
     /// A column of the nominal design.
     Nominal(NumberColumn),
-    /// Least margin of the nominal design over all bounds.
+    /// Smallest margin of the nominal design over all requirements.
     Margin,
-    /// A statistic over samples, by its index.
+    /// The statistic over samples with this index.
     Statistic(usize),
 }
 
-/// Judges designs by a goal.
+/// Judges designs by a goal: computes their objectives and their margins to the requirements.
 pub struct Judge {
     objectives: Vec<(Goal, Source)>,
     requirements: Vec<Bound<Source>>,
@@ -36,12 +36,12 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// Returns the judge of samples, if the goal is about samples.
+    /// Returns the judge of samples; `None` if the goal contains no statistics over samples.
     pub(crate) fn samples(&self) -> Option<&SampleJudge> {
         Some(&self.samples).filter(|samples| !samples.statistics.is_empty())
     }
 
-    /// Returns the uses of statistics, each with the index of its statistic.
+    /// Returns each objective and requirement that is a statistic, with the index of the statistic.
     pub(crate) fn uses(&self) -> impl Iterator<Item = (StatisticUse, usize)> {
         let objectives = self.objectives.iter().map(|(_, source)| source).enumerate();
         let objectives = objectives.map(|(k, source)| (StatisticUse::Objective(k), source));
@@ -53,7 +53,7 @@ impl Judge {
         })
     }
 
-    /// Returns the reported statistics, with unique names.
+    /// Returns the names and definitions of the reported statistics, each name once.
     pub fn statistics(&self) -> Vec<(String, Statistic)> {
         let mut all: Vec<(String, Statistic)> = Vec::new();
         for used in &self.samples.statistics {
@@ -64,17 +64,17 @@ impl Judge {
         all
     }
 
-    /// Returns true if an objective or requirement is a statistic.
+    /// Returns true if the objective or requirement `of` is a statistic.
     pub(crate) fn is_statistic(&self, of: StatisticUse) -> bool {
         self.uses().any(|(other, _)| other == of)
     }
 
-    /// Returns true if an objective or requirement is a yield.
+    /// Returns true if the objective or requirement `of` is a yield.
     pub(crate) fn is_yield(&self, of: StatisticUse) -> bool {
         self.uses().any(|(other, q)| other == of && self.samples.statistics[q].is_yield())
     }
 
-    /// Returns the requirements of the goal, then an unfolded surface if required.
+    /// Returns the requirements of the goal, then the requirement of an unfolded surface, if any.
     pub fn requirements(&self) -> impl Iterator<Item = &Requirement> {
         self.requirements.iter().map(|required| &required.requirement)
     }
@@ -89,19 +89,22 @@ impl Judge {
         self.soundness.is_some()
     }
 
-    /// Returns true if the goal depends on a measure.
+    /// Returns true if the goal depends on `measure`.
     pub(crate) fn is_about(&self, measure: Measure) -> bool {
         self.measures.contains(&measure)
     }
 
-    /// Returns true if coverage peaks separate regions.
+    /// Returns true if coverage peaks divide the space into regions that matter for the goal.
     ///
-    /// They matter for any measure: contacts in bending and puncture depend on the same lengths.
+    /// This holds for each measure: contacts in puncture and bending depend on the same lengths as
+    /// the coverage.
     pub(crate) fn has_regions(&self) -> bool {
         !self.measures.is_empty()
     }
 
-    /// Returns the requirements on columns with their values in a partly known result.
+    /// Returns the requirements on columns, each with its value in a partly known `result`.
+    ///
+    /// A value is `None` if `result` does not contain it.
     pub(crate) fn known(
         &self,
         case: &Case,
@@ -124,12 +127,14 @@ impl Judge {
         self.objectives.len()
     }
 
-    /// Judges a design; for a goal about samples, the nominal design alone.
+    /// Judges a design without samples.
+    ///
+    /// If the goal contains statistics over samples, only the requirements on columns are judged.
     pub fn verdict(&self, row: &DesignRow) -> Judgement {
         self.verdict_with(row, None)
     }
 
-    /// Judges a design with its samples.
+    /// Judges a design with its samples, if they are known.
     pub(crate) fn verdict_with(&self, row: &DesignRow, samples: Option<&Samples>) -> Judgement {
         if let Some(failure) = row.result.failures.first() {
             return Judgement::Failed(failure.outcome);
@@ -140,8 +145,8 @@ impl Judge {
             (_, samples) => self.worth(row, samples.unwrap_or(&no_samples)),
         };
         match worth {
-            // Only for otherwise feasible designs: the shortfall of infeasible ones still guides a
-            // search, folded or not.
+            // Check for folds only if the design is otherwise feasible. The shortfall of an
+            // infeasible design guides the search, even if the surface has folded.
             Ok(worth) if worth.met && self.requires_unfolded() && has_folded(row) => {
                 Judgement::Folded
             }
@@ -158,7 +163,8 @@ impl Judge {
             return Judgement::Missing(bounds.all[missing].column.name().to_owned());
         }
         let margin = bounds.margin(values.iter().copied());
-        // Check the fold last, as for sampled designs, so that other shortfalls are reported first.
+        // Check for folds last, as for sampled designs, so that other shortfalls are reported
+        // first.
         if margin >= 0.0 && self.requires_unfolded() && has_folded(row) {
             return Judgement::Folded;
         }
@@ -166,7 +172,7 @@ impl Judge {
         Judgement::Nominal(NominalWorth { shortfall: (-margin).max(0.0), required })
     }
 
-    /// Returns true if a design is complete, and never folded if this is required.
+    /// Returns true if a design is complete and meets the requirement of an unfolded surface.
     pub(crate) fn is_whole(&self, row: &DesignRow) -> bool {
         let bounds = &self.samples.bounds;
         let is_open = bounds.soundness.is_none_or(|k| {
@@ -177,7 +183,9 @@ impl Judge {
         row.result.failures.is_empty() && is_open
     }
 
-    /// Returns the worth of a complete design, or the column without a value.
+    /// Computes objectives and margins of a complete design.
+    ///
+    /// The error is the name of a column without a value.
     fn worth(&self, row: &DesignRow, samples: &Samples) -> Result<Worth, String> {
         let objectives = self.objectives.iter().map(|(_, source)| self.value(source, row, samples));
         let objectives: Vec<f64> = objectives.collect::<Result<_, _>>()?;
@@ -195,7 +203,7 @@ impl Judge {
                 .clone()
                 .map(|(bound, value)| self.margin(bound, *value, samples))
                 .collect(),
-            // Compared by value: margins of strict limits become negative slightly before the
+            // Do not use the margins: the margin of a strict limit is negative slightly inside the
             // limit.
             met: bounds.clone().all(|(bound, value)| bound.requirement.is_met(*value)),
             compared: compared.collect(),
@@ -204,7 +212,9 @@ impl Judge {
         })
     }
 
-    /// Returns the relative margin of a design with this value of a required column.
+    /// Returns the margin to `bound`, relative to the limit, for this `value` of its column.
+    ///
+    /// Quantiles and yields have margins that are computed from `samples`.
     fn margin(&self, bound: &Bound<Source>, value: f64, samples: &Samples) -> f64 {
         let of_samples = match bound.column {
             Source::Statistic(q) => self.samples.requirement_margin(q, &bound.requirement, samples),
@@ -213,7 +223,7 @@ impl Judge {
         of_samples.unwrap_or_else(|| bound.requirement.margin(value))
     }
 
-    /// Returns a value of a design, or the name of the column without one.
+    /// Returns the value from `source` of a design. The error is the name of an empty column.
     fn value(&self, source: &Source, row: &DesignRow, samples: &Samples) -> Result<f64, String> {
         match source {
             Source::Nominal(column) => column.value(row).ok_or_else(|| column.name().to_owned()),
@@ -229,7 +239,7 @@ impl Judge {
         }
     }
 
-    /// Returns the derivatives of an objective or requirement.
+    /// Returns the derivatives of an objective or of the column of a requirement.
     fn slopes(&self, of: StatisticUse, row: &EvaluatedRow, parameter: &Parameter) -> Slopes {
         let source = match of {
             StatisticUse::Objective(k) => &self.objectives[k].1,
@@ -242,7 +252,7 @@ impl Judge {
         }
     }
 
-    /// Returns the derivatives of objective `k`, with changed sign if minimised.
+    /// Returns the derivatives of objective `k`, with changed sign if the objective is minimised.
     pub(crate) fn objective_slopes(
         &self,
         k: usize,
@@ -252,15 +262,15 @@ impl Judge {
         self.slopes(StatisticUse::Objective(k), row, parameter).scaled(self.sign(k))
     }
 
-    /// Returns the derivative of objective `k` for a nominal design.
+    /// Returns the derivative of objective `k` at a nominal design.
     ///
-    /// `None` at a kink, without derivatives, or for a statistic.
+    /// `None` at a kink, for a design without derivatives, and for a statistic.
     pub fn objective_slope(&self, k: usize, row: &DesignRow, parameter: &Parameter) -> Option<f64> {
         let row = EvaluatedRow { nominal: row.clone(), statistics: Vec::new() };
         self.slopes(StatisticUse::Objective(k), &row, parameter).smooth()
     }
 
-    /// Returns the derivatives of the relative margin in requirement `k`.
+    /// Returns the derivatives of the margin to requirement `k`, relative to the limit.
     pub(crate) fn margin_slopes(
         &self,
         k: usize,
@@ -268,7 +278,7 @@ impl Judge {
         parameter: &Parameter,
     ) -> Slopes {
         let of = StatisticUse::Requirement(k);
-        // The margin of the deciding sample is already relative.
+        // The derivatives of a yield are derivatives of a margin, which is already relative.
         let rate =
             if self.is_yield(of) { 1.0 } else { self.requirements[k].requirement.margin_rate() };
         self.slopes(of, row, parameter).scaled(rate)

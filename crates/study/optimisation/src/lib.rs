@@ -1,10 +1,11 @@
 //! Optimisation: finds the best designs between the points of a grid.
 //!
-//! A goal defines variables, objectives and requirements. A search solves space-filling points
-//! first and improves the best of them along the exact derivatives of the measures. Gradient
-//! searches stop at kinks, so a bundle method continues there. Several objectives give a Pareto
-//! front. The binding limits `g_k ≥ l_k` of a best design have multipliers `μ_k`, which balance the
-//! gradient of the objective `o` and state the cost of each limit (O1):
+//! A goal defines variables, objectives and requirements. A search first solves space-filling
+//! points. Gradient searches then improve the best of these points with the exact derivatives of
+//! the measures. Gradient searches stop at kinks of a measure, so a bundle method continues there.
+//! Several objectives give a Pareto front. The binding limits `g_k ≥ l_k` of a best design have
+//! multipliers `μ_k`, which balance the gradient of the objective `o` and state the cost of each
+//! limit (O1):
 //!
 //! ```text
 //! ∇o + Σ μ_k ∇g_k = 0,   μ_k ≥ 0;      do/dl_k = −μ_k
@@ -19,23 +20,23 @@
 //! |---|---|
 //! | [`DesignGoal`] | variables, objectives and requirements, as in the file |
 //! | [`DesignSpace`], [`SpacePoint`] | space of the variables, and its points |
-//! | [`Interval`], [`Choice`] | continuous and discrete variable |
+//! | [`Interval`], [`Choice`] | a continuous variable, and a discrete variable |
 //! | [`Judge`], [`Judgement`], [`NominalWorth`] | judgement of a design by the goal |
 //! | [`Statistic`] | quantile or yield over samples |
 //! | [`Confirmation`], [`Estimate`] | check of statistics with independent samples |
-//! | [`MissedRequirement`] | requirement with the fraction of samples that miss it |
+//! | [`MissedRequirement`] | a requirement, and the fraction of samples that miss it |
 //! | [`Rounding`] | rounding of a best design to multiples of a step |
-//! | [`DesignChecks`], [`Check`], [`Contradiction`] | check of a best design with finer models |
+//! | [`DesignChecks`], [`Check`], [`Contradiction`] | checks of a best design with finer models |
 //! | [`optimise`], [`SearchOptions`] | runs a search |
 //! | [`SearchProgress`], [`SearchPart`] | progress of a search |
 //! | [`SearchStatus`] | status of a search, from its journal |
 //! | [`Found`], [`Answer`], [`BestDesign`], [`Front`] | results of a search |
-//! | [`LeftOutDesigns`] | numbers of designs without a valid judgement |
-//! | [`Candidate`], [`SearchStage`], [`Target`] | evaluated design, stage and target of its search |
+//! | [`LeftOutDesigns`] | counts of designs without a valid judgement |
+//! | [`Candidate`], [`SearchStage`], [`Target`] | evaluated design, stage and target of a search |
 //! | [`write_found`] | writes the tables of a search |
-//! | [`BindingText`] | describes binding limits and their cost |
-//! | [`Agreement`] | number of searches that agree on a best design |
-//! | [`Binding`], [`Limit`] | binding limit with its multiplier |
+//! | [`BindingText`] | describes binding limits and their cost in words |
+//! | [`Agreement`] | number of local searches that found the same best design |
+//! | [`Binding`], [`Limit`] | a binding limit with its multiplier, and the kinds of limits |
 //! | [`OptimisationError`] | error of a search |
 //!
 //! ```
@@ -44,7 +45,7 @@
 //! use optimisation::{Answer, DesignGoal, SearchProgress, SearchOptions, optimise};
 //! use run::{Program, Start};
 //!
-//! // Scales of 45° cover more, the narrower their gaps: λ = 1 − d (Eq. G2).
+//! // At 45° the coverage is λ = 1 − d (Eq. G2), so the narrowest gap is best.
 //! let text = "name = 'covered'\nmeasures = 'coverage'\n\
 //!             [variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
 //!             [designs]\nlength_over_t = 1\nslant_deg = 45\n\

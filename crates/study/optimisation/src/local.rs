@@ -1,7 +1,8 @@
 //! Local search: gradient steps, bundle steps and derivative-free steps.
 //!
-//! The bundle method follows ridges, where the gradient search stops at kinks. The derivative-free
-//! search handles jumps. For a required yield, linear programs over the samples come first.
+//! The gradient search stops at kinks, so the bundle method then follows the ridge of the kink. The
+//! derivative-free search finds improvements beyond jumps. If the goal requires a yield, a search
+//! by linear programs over the samples precedes the gradient search.
 
 mod bundle;
 mod certainty;
@@ -30,27 +31,30 @@ use followed_points::FollowedPoints;
 pub(crate) use problem::CLEAR;
 use samples::SampledPoint;
 
-/// Maximum number of rounds of ridge search, polish and gradient search.
+/// Maximum number of rounds, each of ridge search, derivative-free search and gradient search.
 const ROUNDS: usize = 4;
 
-/// Tolerance within which a fraction counts as an end of its interval.
+/// Distance within which a fraction is set to the end of its interval.
 const ROUND_OFF: f64 = 1e-13;
 
-/// Grid steps in each round of a search along a scaling interval.
+/// Number of grid steps in each round of a search along a scaling interval.
 const STEPS: u32 = 8;
 
-/// Rounds of a search along a scaling interval.
+/// Number of rounds of a search along a scaling interval.
 const SCALINGS: usize = 15;
 
-/// Units of work of an evaluation in a local search.
+/// Work of an evaluation in a local search. The unit is the work for a space-filling point.
 ///
-/// It costs more than a sample of the space: it has derivatives, and good designs have contacts.
+/// An evaluation in a local search is more expensive, because it includes derivatives, and because
+/// good designs have contacts.
 const EVALUATION: u64 = 4;
 
-/// Number of samples that cost as much as a nominal evaluation.
+/// Number of samples that need as much work as an evaluation of a nominal design.
 const SAMPLES: usize = 20;
 
-/// Returns the expected units of work of an evaluation with this number of samples.
+/// Returns the expected work of an evaluation of a design with this number of samples.
+///
+/// The unit is the work for a space-filling point.
 pub(crate) fn evaluation_units(samples: usize) -> u64 {
     EVALUATION * (1 + samples / SAMPLES) as u64
 }
@@ -58,7 +62,7 @@ pub(crate) fn evaluation_units(samples: usize) -> u64 {
 /// Termination tolerances of a local search.
 #[derive(Clone, Copy, Debug)]
 struct Fineness {
-    /// Relative gain of a round below which the search ends.
+    /// Relative gain in a round below which the search ends.
     gain: f64,
     /// Smallest step of the derivative-free search, as a fraction of the intervals.
     step: f64,
@@ -67,13 +71,13 @@ struct Fineness {
 impl Fineness {
     /// Tolerances for nominal designs.
     const NOMINAL: Self = Self { gain: 1e-8, step: 1e-7 };
-    /// Tolerances for sampled designs.
+    /// Tolerances for designs with samples.
     ///
-    /// A finite number of samples leaves quantiles and yields uncertain by some per cent.
+    /// Quantiles and yields have errors of some per cent, because the number of samples is finite.
     const SAMPLED: Self = Self { gain: 1e-3, step: 1e-4 };
 }
 
-/// Space, evaluations and judge, shared by all local searches.
+/// Space, evaluations, judge and progress, shared by all local searches for a goal.
 pub(crate) struct Search<'a> {
     pub space: &'a DesignSpace,
     pub evaluations: &'a Evaluations<'a>,
@@ -84,23 +88,23 @@ pub(crate) struct Search<'a> {
 /// Evaluation budget of a local search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
-    /// Maximum evaluations of a gradient search, per variable.
+    /// Maximum number of evaluations of a gradient search for each variable.
     ///
-    /// Smooth problems need fewer. A search that needs more is zigzagging across a ridge.
+    /// Smooth problems need fewer evaluations. A search that needs more zigzags across a ridge.
     pub gradient_evaluations: u64,
-    /// Maximum evaluations of a search for a required yield.
+    /// Maximum number of evaluations of a search for a required yield.
     pub yield_evaluations: usize,
     /// Maximum number of coverage branches in a gradient search.
     pub pieces: usize,
-    /// Maximum number of rounds.
+    /// Maximum number of rounds of ridge search, derivative-free search and gradient search.
     pub rounds: usize,
-    /// First step of ridge search and polish, as a fraction of the intervals.
+    /// First step of ridge and derivative-free search, as a fraction of the intervals.
     pub reach: f64,
-    /// Maximum evaluations of the ridge search in a round, per variable.
+    /// Maximum number of evaluations of the ridge search in a round, for each variable.
     pub ridge: usize,
-    /// Maximum evaluations of the polish in a round, per variable.
+    /// Maximum number of evaluations of the derivative-free search in a round, for each variable.
     pub polish: usize,
-    /// Expected number of evaluations, for the progress of the search.
+    /// Expected number of evaluations, for the progress display.
     pub evaluations: u64,
 }
 
@@ -108,7 +112,7 @@ impl Effort {
     /// A few gradient steps, enough to compare regions.
     pub const PROBE: Self =
         Self { gradient_evaluations: 4, yield_evaluations: 5, pieces: 1, ..Self::GRADIENT };
-    /// Gradient search alone.
+    /// A gradient search without ridge search and derivative-free search.
     pub const GRADIENT: Self = Self {
         gradient_evaluations: 15,
         yield_evaluations: 15,
@@ -129,15 +133,16 @@ impl Effort {
         ..Self::GRADIENT
     };
 
-    /// Local search from a design that is probably near the best.
+    /// Local search from a design that is probably close to the best design.
     ///
-    /// Jumps are left to the searches for the designs on both sides.
+    /// It has no derivative-free search for jumps: other local searches start on both sides of a
+    /// jump.
     pub const NEAR: Self =
         Self { rounds: 2, reach: 0.01, polish: 0, evaluations: 40, ..Self::WHOLE };
 
-    /// Returns a smaller budget for sampled designs.
+    /// Returns a smaller budget for designs with samples.
     ///
-    /// Each evaluation costs as many solutions as there are samples.
+    /// Each evaluation then needs one solution for each sample.
     fn on_samples(self) -> Self {
         Self {
             gradient_evaluations: self.gradient_evaluations.min(8),
@@ -150,7 +155,9 @@ impl Effort {
 }
 
 impl Search<'_> {
-    /// Evaluates the design at `point`, with its samples if the goal is about them.
+    /// Evaluates the design at `point`, with samples if the goal contains statistics over samples.
+    ///
+    /// `differentiated` requests derivatives with respect to the variables.
     pub fn evaluate(
         &self,
         stage: SearchStage,
@@ -183,7 +190,9 @@ impl Search<'_> {
         self.judged(stage, point, result, differentiated)
     }
 
-    /// Judges the design at `point` by its result and its samples.
+    /// Judges the design at `point` by its nominal `result` and by its samples.
+    ///
+    /// The samples are solved if they are needed and unknown.
     fn judged(
         &self,
         stage: SearchStage,
@@ -208,10 +217,11 @@ impl Search<'_> {
         Ok((candidate, EvaluatedRow { nominal, statistics }))
     }
 
-    /// Computes gradients of the margins of single samples.
+    /// Computes the gradients of the margins of those samples that decide a required yield.
     ///
-    /// `k` is a requirement on a yield, `q` its statistic. The yield is met if a quantile of the
-    /// margins is positive; the samples are the `spread` next to this quantile on either side.
+    /// `k` is the index of the requirement on the yield, and `q` the index of its statistic. The
+    /// yield is met if a quantile of the margins is not negative. Gradients are returned for
+    /// `spread` samples on each side of this quantile.
     pub fn margin_gradients(
         &self,
         point: &SpacePoint,
@@ -226,14 +236,14 @@ impl Search<'_> {
         SampledPoint { space, evaluations, judge, point, samples: &samples }.gradients(q, &near)
     }
 
-    /// Returns the merit of a design for a target.
+    /// Returns the merit of a design for `target`.
     pub fn merit(&self, candidate: &Candidate, target: &Target) -> Merit {
         self.merit_within(candidate, target, 0.0)
     }
 
-    /// Returns the merit with requirements and lower bounds relaxed by `slack`.
+    /// Returns the merit of a design for `target`, with limits that are relaxed by `slack`.
     ///
-    /// The slack is relative to the limits.
+    /// `slack` is relative to the limits: requirements and lower bounds of objectives.
     pub fn merit_within(&self, candidate: &Candidate, target: &Target, slack: f64) -> Merit {
         let Judgement::Judged(worth) = &candidate.verdict else { return Merit::None };
         let short = target.floors.iter().map(|&(k, floor)| {
@@ -241,7 +251,7 @@ impl Search<'_> {
         });
         let floors = short.fold(0.0, f64::max);
         let is_met = worth.met || worth.shortfall() < slack;
-        // Lower bounds tolerate round-off, as requirements do.
+        // Lower bounds of objectives tolerate round-off, as requirements do.
         if is_met && floors <= slack.max(1e-9) {
             return Merit::Met(
                 self.judge.sign(target.objective) * worth.compared[target.objective],
@@ -250,10 +260,10 @@ impl Search<'_> {
         Merit::Short(worth.shortfall().max(floors).max(f64::MIN_POSITIVE))
     }
 
-    /// Searches the scaling intervals one after the other.
+    /// Optimises the variables of the `scaling` intervals one after the other, from `start`.
     ///
-    /// Returns the best design for a target. Scaling intervals only change physical units, so all
-    /// these designs share one solution.
+    /// Returns the best design for `target`. Scaling intervals only change columns in physical
+    /// units, so all evaluated designs share one solution.
     pub fn scaled(
         &self,
         target: &Target,
@@ -263,15 +273,14 @@ impl Search<'_> {
         let mut best = start.clone();
         for &j in scaling {
             let (mut from, mut to) = (0.0, 1.0);
-            // Each round narrows the interval to a quarter (two of eight steps around the best), so
-            // 15 rounds reach 4⁻¹⁵ ≈ 10⁻⁹ of its first width.
+            // Each round narrows the range to a quarter: two of eight steps, around the best
+            // design. After 15 rounds the range has 4⁻¹⁵ ≈ 10⁻⁹ of its first width.
             for _ in 0..SCALINGS {
                 let step = (to - from) / f64::from(STEPS);
                 for k in 0..=STEPS {
                     let mut point = best.point.clone();
                     point.shares[j] = (from + step * f64::from(k)).min(1.0);
-                    // Without derivatives: this search only compares values, and all designs share
-                    // one solution.
+                    // This search compares values only, so it needs no derivatives.
                     let evaluated = self.evaluate(SearchStage::Gradient, &point, false)?.0;
                     if self.merit(&evaluated, target).compare(self.merit(&best, target)).is_gt() {
                         best = evaluated;
@@ -284,18 +293,21 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// Returns the expected units of work of an evaluation in a local search for `target`.
+    /// Returns the expected work of an evaluation in a local search for `target`.
+    ///
+    /// The unit is the work for a space-filling point.
     pub fn evaluation_units(&self, target: &Target) -> u64 {
         let units = evaluation_units(self.judge.samples().map_or(0, |judge| judge.count));
-        // Searches for neighbouring points of a front evaluate the same designs.
+        // Searches for neighbouring points of a front share about half of their evaluations.
         if target.floors.is_empty() { units } else { units / 2 }
     }
 
+    /// Returns the termination tolerances for the goal.
     fn fineness(&self) -> Fineness {
         if self.judge.samples().is_some() { Fineness::SAMPLED } else { Fineness::NOMINAL }
     }
 
-    /// Returns the best of `candidates` for a target.
+    /// Returns the best of `candidates` for `target`; `None` without a valid judgement.
     pub fn best<'c>(
         &self,
         candidates: impl Iterator<Item = &'c Candidate> + Clone,
@@ -305,9 +317,10 @@ impl Search<'_> {
         candidates.into_iter().nth(index)
     }
 
-    /// Improves `start` for `target` with its choices fixed.
+    /// Runs a local search for `target` from `start`.
     ///
-    /// Returns every evaluated design except `start`.
+    /// The choices (discrete variables) keep their values. Returns all evaluated designs except
+    /// `start`.
     pub fn improve(
         &self,
         target: &Target,
@@ -326,14 +339,14 @@ impl Search<'_> {
             units,
             task: self.progress.task(effort.evaluations * units),
         };
-        // Local searches keep the choices: without intervals no variable is left.
+        // Without intervals there is nothing to vary, because the choices are fixed.
         if start.point.shares.is_empty() {
             return Ok(Vec::new());
         }
         let effort = if self.judge.samples().is_some() { effort.on_samples() } else { effort };
         walk.run(effort)?;
-        // A full search ends if all load positions confirm its best design. Otherwise the search
-        // continues with all of them.
+        // A full search ends if the results at all load positions confirm its best design.
+        // Otherwise it continues and solves all load positions.
         if effort.rounds > 0 && walk.positions(&walk.best.borrow().point) == Positions::Corners {
             walk.solves_all_positions.set(true);
             let is_confirmed = walk.follow_best()?;
@@ -345,7 +358,7 @@ impl Search<'_> {
     }
 }
 
-/// Returns the size of a lower bound, to which shortfalls are relative.
+/// Returns the size by which a shortfall below the lower bound `floor` is divided.
 pub(crate) fn floor_size(floor: f64) -> f64 {
     if floor == 0.0 { 1.0 } else { floor.abs() }
 }
@@ -355,12 +368,12 @@ fn gained(before: Merit, after: Merit, gain: f64) -> bool {
     match (before, after) {
         (Merit::Met(before), Merit::Met(after)) => after - before > gain * before.abs(),
         (Merit::Short(before), Merit::Short(after)) => before - after > gain * before,
-        // Becoming feasible, or obtaining a value at all, is always a gain.
+        // The design has become feasible, or has obtained a valid judgement.
         _ => before != after,
     }
 }
 
-/// State of a local search: the best design so far and a log of all evaluations.
+/// State of a local search: the best design so far, and a log of all evaluated designs.
 struct LocalSearch<'a> {
     search: &'a Search<'a>,
     target: &'a Target,
@@ -369,7 +382,7 @@ struct LocalSearch<'a> {
     best: RefCell<Candidate>,
     log: RefCell<Vec<Candidate>>,
     ends: RefCell<FollowedPoints>,
-    /// Units of work of an evaluation.
+    /// Work of an evaluation; the unit is the work for a space-filling point.
     units: u64,
     task: SearchTask<'a>,
 }
@@ -378,7 +391,7 @@ impl LocalSearch<'_> {
     /// Runs the gradient search, then rounds of ridge search, polish and gradient search.
     fn run(&self, effort: Effort) -> Result<(), Halt> {
         let (mut reach, variables) = (effort.reach, self.best_shares().len());
-        // Full searches start where gradient searches ended, which may already be an optimum.
+        // A full search starts at the end of a gradient search, which may already be an optimum.
         if effort.rounds > 0 && self.is_certain()? {
             return Ok(());
         }
@@ -388,8 +401,8 @@ impl LocalSearch<'_> {
                 break;
             }
             let before = self.best_merit();
-            // The ridge search goes first: tangents give a direction along the ridge, which the
-            // polls of a direct search rarely hit.
+            // The ridge search precedes the direct search: tangents give the direction along the
+            // ridge, and the polls of a direct search rarely have this direction.
             self.follow(reach, effort.ridge * variables)?;
             if effort.polish > 0 {
                 self.polish(reach, effort.polish * variables)?;
@@ -404,13 +417,13 @@ impl LocalSearch<'_> {
         Ok(())
     }
 
-    /// Searches by derivatives from the best design.
+    /// Runs a search by derivatives from the best design.
     ///
-    /// Returns true if it converged to a design with a required yield.
+    /// Returns true if the search converged to a design that meets a required yield.
     fn climb(&self, effort: Effort) -> Result<bool, Halt> {
         if let Some(required) = self.required_yield() {
             let converged = match self.yield_search(required, effort.yield_evaluations) {
-                // Its steps no longer move.
+                // The steps have become too small.
                 Err(Halt::Stalled) => matches!(self.best_merit(), Merit::Met(_)),
                 converged => converged?,
             };
@@ -418,12 +431,15 @@ impl LocalSearch<'_> {
                 return Ok(true);
             }
         }
-        // Where samples jump, the linear model of the yield search fails.
+        // No yield is required, or the linear model of the yield search failed. The model fails if
+        // values of samples jump.
         self.gradient_search(effort)?;
         Ok(false)
     }
 
-    /// Evaluates the design at `shares`, with the choices of the start.
+    /// Evaluates the design at the fractions `shares` of the intervals, and logs it.
+    ///
+    /// The choices are the choices of the start.
     fn at(
         &self,
         stage: SearchStage,
@@ -437,10 +453,10 @@ impl LocalSearch<'_> {
         Ok(evaluated)
     }
 
-    /// Returns the point at `shares`, with the choices of the start.
+    /// Returns the point at the fractions `shares` of the intervals, with the choices of the start.
     fn point(&self, shares: &[f64]) -> SpacePoint {
         let chosen = self.best.borrow().point.chosen.clone();
-        // Snap to the ends: tables should show 60, not 59.99999999999999.
+        // Set fractions near an end to this end: tables should show 60, not 59.99999999999999.
         let ended = shares.iter().map(|share| match *share {
             share if share < ROUND_OFF => 0.0,
             share if share > 1.0 - ROUND_OFF => 1.0,
@@ -449,10 +465,11 @@ impl LocalSearch<'_> {
         SpacePoint { shares: ended.collect(), chosen }
     }
 
-    /// Solves a design from the end of the nearest design that this search has followed, or else
-    /// from rest.
+    /// Solves the design at `point`, if possible starting from the path end of a similar design.
     ///
-    /// Other searches have no influence, so that results do not depend on the number of threads.
+    /// This is the nearest design with a path that this local search has followed from rest. Path
+    /// ends of other local searches are not used, so results do not depend on the number of
+    /// threads.
     fn solved(&self, point: &SpacePoint, differentiated: bool) -> Result<Arc<DesignResult>, Halt> {
         let (evaluations, positions) = (self.search.evaluations, self.positions(point));
         if !evaluations.has_ends(point) {
@@ -486,9 +503,9 @@ impl LocalSearch<'_> {
         }
     }
 
+    /// Adds a design to the log, and updates the best design.
     fn note(&self, candidate: &Candidate) {
-        // The solver requests cost, gradient and limits at the same point one after the other: log
-        // the point once.
+        // SLSQP requests cost, gradient and limits at one point in succession. Log the point once.
         if self.log.borrow().iter().rev().take(3).any(|other| other.point == candidate.point) {
             return;
         }
@@ -500,10 +517,10 @@ impl LocalSearch<'_> {
         }
     }
 
-    /// Follows the path of the best design from rest.
+    /// Follows the path of the best design from rest, to verify its result.
     ///
-    /// If the path ends in another state than the search found, the next best design replaces it.
-    /// Returns true if no design was replaced.
+    /// If the results differ, the design gets its new result, and the design that is then the best
+    /// is verified. Returns true if the first result was confirmed.
     fn follow_best(&self) -> Result<bool, Halt> {
         for count in 0.. {
             let best = self.best.borrow().clone();
@@ -527,10 +544,12 @@ impl LocalSearch<'_> {
         Ok(false)
     }
 
+    /// Returns the merit of the best design.
     fn best_merit(&self) -> Merit {
         self.search.merit(&self.best.borrow(), self.target)
     }
 
+    /// Returns the best design as fractions of the intervals.
     fn best_shares(&self) -> Vec<f64> {
         self.best.borrow().point.shares.clone()
     }

@@ -21,70 +21,73 @@ use crate::sample::MissedRequirement;
 use crate::slopes::Slopes;
 use crate::space::{Interval, SpacePoint};
 
-/// Distance, relative to its size, within which a limit counts as binding.
+/// Margin, relative to the size of the limit, up to which a limit counts as binding.
 const NEAR: f64 = 1e-5;
 
-/// Like [`NEAR`], but for a statistic: a search over samples converges less accurately.
+/// Like [`NEAR`], for a statistic. A search over samples converges less accurately.
 const NEAR_SAMPLES: f64 = 1e-3;
 
-/// Fraction of the gradient that the multipliers may leave unbalanced.
+/// Fraction of the gradient of the objective that multipliers may leave unbalanced.
 const BALANCED: f64 = 1e-3;
 
-/// Like [`BALANCED`], but for an optimum that needs no confirmation by further searches.
+/// Like [`BALANCED`], for an optimum that needs no confirmation by further searches.
 const CERTAIN: f64 = 1e-5;
 
-/// Like [`BALANCED`], but for the nominal design of a sampled optimum.
+/// Like [`BALANCED`], for the nominal design of an optimum over samples.
 ///
-/// Deviations keep this design away from its limits.
+/// This design keeps a distance from its limits, so that its samples meet them.
 const ROUGHLY: f64 = 0.2;
 
-/// Fraction of the samples above which a missed requirement limits a sampled design.
+/// Fraction of samples that must miss a requirement for it to count as a limit of the design.
 const OFTEN: f64 = 0.01;
 
-/// A binding limit with its multiplier.
+/// A limit that binds at the best design, with its multiplier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Binding {
-    /// The limit.
+    /// Limit that binds.
     pub limit: Limit,
-    /// Loss of the objective per unit by which the limit is tightened, in their units.
+    /// Loss of the objective for each unit by which the limit is tightened.
     ///
-    /// `None` on a kink, where no multipliers balance the gradients.
+    /// Objective and limit are in the units of their columns. `None` on a kink, where no
+    /// multipliers balance the gradients.
     pub price: Option<f64>,
 }
 
-/// Constraint that can bind at the best design.
-///
-/// It is a requirement, the lower bound of an objective, an end of an interval, or first contact.
+/// Kind of a limit that can bind at the best design.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Limit {
-    /// A requirement, by its index.
+    /// The requirement with this index.
     Requirement(usize),
-    /// The lower bound of an objective, by its index.
+    /// The lower bound of the objective with this index.
     Floor(usize),
-    /// The lower end of an interval.
+    /// The lower end of the interval with this index.
     Lower(usize),
-    /// The upper end of an interval.
+    /// The upper end of the interval with this index.
     Upper(usize),
-    /// Contact at the end of bending, where other columns jump.
+    /// First contact at the end of bending, where the compliance jumps.
     ///
-    /// Measured by the logarithm of the end rotation.
+    /// The distance from this limit is the logarithm (O2).
     Touch,
 }
 
 impl Limit {
-    /// Returns true for a yield: its multiplier is undefined, because it is a step function.
+    /// Returns true if the limit is a required yield.
+    ///
+    /// A yield has no multiplier, because it is a step function.
     pub(crate) fn is_yield(&self, judge: &Judge) -> bool {
         matches!(*self, Self::Requirement(k) if judge.is_yield(StatisticUse::Requirement(k)))
     }
 }
-/// Returns the binding limits at `best` with their multipliers.
+
+/// Returns the limits that bind at the design `best` for `target`, with their multipliers.
 pub(crate) fn bindings(
     search: &Search<'_>,
     best: &Candidate,
     target: &Target,
 ) -> Result<Vec<Binding>, Halt> {
     let limits = binding_limits(search, best, target);
-    // A polish or a scaling evaluates the best design without derivatives, so evaluate it again.
+    // Evaluate the best design with derivatives. The direct search and the search along scaling
+    // intervals evaluate designs without derivatives.
     let (evaluated, row) = search.evaluate(SearchStage::Gradient, &best.point, true)?;
     let is_whole = matches!(evaluated.verdict, Judgement::Judged(_));
     let prices = if is_whole { prices(search, &row, target, &limits, BALANCED) } else { None };
@@ -96,10 +99,11 @@ pub(crate) fn bindings(
     Ok(bindings.collect())
 }
 
-/// Returns the limits of the nominal design of a sampled optimum, with rough multipliers.
+/// Returns the limits of an optimum over samples, with approximate multipliers.
 ///
-/// They are the requirements that samples miss, and ends of intervals. `nominal` judges nominal
-/// designs.
+/// The limits are the requirements that many samples miss (`missed`), and ends of intervals. The
+/// multipliers are computed at the nominal design. `nominal` is the search with the goal for
+/// nominal designs.
 pub(crate) fn limits_of_samples(
     nominal: &Search<'_>,
     best: &Candidate,
@@ -119,11 +123,12 @@ pub(crate) fn limits_of_samples(
     Ok(limits.into_iter().zip(prices).map(|(limit, price)| Binding { limit, price }).collect())
 }
 
-/// Returns one multiplier per limit; `None` for each if none are known.
+/// Returns one multiplier for each of `count` limits; all are `None` if `prices` is `None`.
 fn each(prices: Option<Vec<f64>>, count: usize) -> Vec<Option<f64>> {
     prices.map_or_else(|| vec![None; count], |prices| prices.into_iter().map(Some).collect())
 }
 
+/// Returns the limits that bind at `best`.
 fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec<Limit> {
     near_limits(search, best, target, NEAR)
 }
@@ -155,7 +160,9 @@ pub(crate) fn near_limits(
     limits
 }
 
-/// Returns the ends of intervals within the fraction `nearness` of a point.
+/// Returns the ends of intervals near `point`.
+///
+/// The distance is at most the fraction `nearness` of the interval.
 fn end_limits(point: &SpacePoint, nearness: f64) -> Vec<Limit> {
     let mut limits = Vec::new();
     for (j, share) in point.shares.iter().enumerate() {
@@ -168,9 +175,10 @@ fn end_limits(point: &SpacePoint, nearness: f64) -> Vec<Limit> {
     limits
 }
 
-/// Computes the multipliers, in units of the objective per unit of the limit.
+/// Computes the multipliers of `limits`, in units of the objective per unit of the limit.
 ///
-/// `None` if they leave more than the fraction `unbalanced` of the gradient.
+/// `None` at a kink, or if the multipliers leave more than the fraction `unbalanced` of the
+/// gradient of the objective.
 fn prices(
     search: &Search<'_>,
     row: &EvaluatedRow,
@@ -190,10 +198,11 @@ fn prices(
     Some(per_unit.collect())
 }
 
-/// Bounds the remaining first-order gain of the objective, relative to the objective.
+/// Returns an upper bound of the first-order gain that remains at the design `best`.
 ///
-/// Also returns whether the bound depends on the border of contact in bending. `None` at a kink, or
-/// if multipliers do not balance the gradient.
+/// The gain is relative to the objective. The second value is true if the bound depends on the
+/// limit of first contact in bending. `None` at a kink, or if the multipliers do not balance the
+/// gradient of the objective.
 pub(crate) fn first_order_gain(
     search: &Search<'_>,
     best: &Candidate,
@@ -225,10 +234,11 @@ pub(crate) fn first_order_gain(
     Some((gain / objective, needed.any(|(limit, _)| *limit == Limit::Touch)))
 }
 
-/// Gradients over the fractions of the intervals.
+/// Gradients with respect to the fractions of the intervals.
 struct Gradients {
+    /// Gradient of the objective to be maximised.
     objective: DVector<f64>,
-    /// Gradients of the margins.
+    /// Gradient of the margin to each limit.
     limits: Vec<DVector<f64>>,
 }
 
@@ -242,8 +252,8 @@ impl Gradients {
     ) -> Option<Self> {
         let judge = search.judge;
         let intervals = search.space.intervals();
-        // All multipliers balance the same gradient, so a kink along any variable leaves all of
-        // them unknown.
+        // The multipliers balance the gradient of the objective along all variables. A kink along
+        // one variable therefore leaves all multipliers unknown.
         let objective = gradient(intervals, |p| judge.objective_slopes(target.objective, row, p))?;
         let mut columns = Vec::new();
         for limit in limits {
@@ -261,7 +271,9 @@ impl Gradients {
     }
 }
 
-/// Returns the gradient over the fractions of the intervals; `None` at a kink.
+/// Returns a gradient with respect to the fractions of the intervals; `None` at a kink.
+///
+/// `slopes` returns the derivatives with respect to a parameter.
 fn gradient(intervals: &[Interval], slopes: impl Fn(&Parameter) -> Slopes) -> Option<DVector<f64>> {
     let slope = intervals
         .iter()
@@ -269,22 +281,24 @@ fn gradient(intervals: &[Interval], slopes: impl Fn(&Parameter) -> Slopes) -> Op
     Some(DVector::from_vec(slope.collect::<Option<_>>()?))
 }
 
+/// Returns a vector of length `count` with `sign` at index `j` and zeros elsewhere.
 fn unit(count: usize, j: usize, sign: f64) -> DVector<f64> {
     let mut unit = DVector::zeros(count);
     unit[j] = sign;
     unit
 }
 
-/// Computes non-negative multipliers that balance `objective`, by least squares.
+/// Computes the non-negative multipliers that balance the gradient `objective`, by least squares.
 ///
-/// Limits with a negative multiplier are dropped. Returns `None` if they leave more than the
-/// fraction `unbalanced` of the gradient.
+/// `columns` are the gradients of the margins. Limits with a negative multiplier are dropped, and
+/// their multipliers are 0. Returns `None` if the multipliers leave more than the fraction
+/// `unbalanced` of the gradient.
 fn multipliers(
     columns: &[DVector<f64>],
     objective: &DVector<f64>,
     unbalanced: f64,
 ) -> Option<Vec<f64>> {
-    // Normalised, so that each limit counts the same in any unit.
+    // Normalise the columns, so that the result does not depend on the units of the limits.
     let norms: Vec<f64> = columns.iter().map(DVector::norm).collect();
     let mut open: Vec<usize> = (0..columns.len()).filter(|&k| norms[k] > 0.0).collect();
     loop {
@@ -294,10 +308,11 @@ fn multipliers(
         } else {
             let scaled: Vec<_> = open.iter().map(|&k| &columns[k] / norms[k]).collect();
             let matrix = DMatrix::from_columns(&scaled);
-            // SVD, because gradients of binding limits may be linearly dependent.
+            // Solve by SVD, because gradients of binding limits may be linearly dependent.
             let solved = matrix.clone().svd(true, true).solve(&-objective, 1e-12).ok()?;
             let least = (0..open.len()).min_by(|&a, &b| solved[a].total_cmp(&solved[b]))?;
-            // Drop one limit at a time: the others may become positive without it.
+            // Drop only the most negative multiplier: the other multipliers may then become
+            // positive.
             if solved[least] < 0.0 {
                 open.remove(least);
                 continue;

@@ -1,7 +1,7 @@
 //! Progress of a search, for display.
 //!
-//! Work is counted in units; a sample of the space is one unit. Units only need the right ratios:
-//! the time of one unit is measured.
+//! Work is counted in units. One unit is the work for a space-filling point. Only the ratios of
+//! work matter, because the display measures the time for a unit.
 
 use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -9,29 +9,29 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use run::WorkMeter;
 
-/// Part of a search.
+/// Part of a search that the progress display names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SearchPart {
-    /// Evaluating space-filling points.
+    /// Evaluation of space-filling points.
     #[default]
     Sample,
     /// Local searches from the best space-filling points.
     LocalSearches,
-    /// Restarts near the best, because the local searches disagree.
+    /// Restart near the best design, because the local searches disagree.
     Restart,
-    /// Searching the points of a front.
+    /// Searches for points of a front.
     Front,
-    /// Sampling the best nominal designs.
+    /// First samples of the best nominal designs.
     Samples,
-    /// Local searches near the best, with more samples.
+    /// Local searches from the best designs with more samples.
     Refine,
-    /// Checking the best designs with independent samples.
+    /// Check of the best designs with independent samples.
     Check,
-    /// Rounding the best design.
+    /// Rounding of the best design.
     Round,
 }
 
-/// Progress of a search: written by the search, read by the display.
+/// Progress of a search, which the search updates and the display reads.
 #[derive(Debug, Default)]
 pub struct SearchProgress {
     parts: Mutex<Parts>,
@@ -39,52 +39,57 @@ pub struct SearchProgress {
     done: AtomicUsize,
     /// Completed units of the current part.
     units: AtomicU64,
+    /// Number of evaluated designs.
     designs: AtomicUsize,
+    /// Number of local searches.
     starts: AtomicUsize,
     slow: WorkMeter,
 }
 
-/// Parts of a search with their work in units, and the current part.
+/// Parts of a search with their work in units, and the index of the current part.
 #[derive(Debug, Default)]
 struct Parts {
-    /// Completed work of the parts before the current one, expected work of the others.
+    /// Work of each part: completed work of earlier parts, expected work of the other parts.
     work: Vec<(SearchPart, u64)>,
+    /// Index of the current part.
     at: usize,
     /// Number of tasks in the current part.
     tasks: usize,
 }
 
-/// Returns the sum of the work of parts, in units.
+/// Returns the total work of parts in units.
 fn units(work: &[(SearchPart, u64)]) -> f64 {
     work.iter().map(|part| part.1).sum::<u64>() as f64
 }
 
-/// A task of the current part, with its expected units.
+/// A task of the current part, e.g. a local search, with its expected units of work.
 ///
-/// Further units are not counted, and missing ones are added when the task ends.
+/// Units beyond the expected number are not counted. Units that are missing when the task ends are
+/// added.
 pub(crate) struct SearchTask<'p> {
     progress: &'p SearchProgress,
+    /// Expected units that have not been counted.
     left: Cell<u64>,
 }
 
 impl SearchPart {
-    /// Returns the description of the part.
+    /// Returns the description of the part for the display.
     pub fn words(self) -> &'static str {
         match self {
             Self::Sample => "space-filling points",
-            Self::LocalSearches => "local searches from the best",
-            Self::Restart => "restarts near the best",
+            Self::LocalSearches => "local searches from the best points",
+            Self::Restart => "restarts near the best design",
             Self::Front => "points of the front",
             Self::Samples => "first samples",
             Self::Refine => "local searches with more samples",
             Self::Check => "checking with independent samples",
-            Self::Round => "rounding the best",
+            Self::Round => "rounding the best design",
         }
     }
 }
 
 impl SearchProgress {
-    /// Returns the current part, its finished tasks and its number of tasks.
+    /// Returns the current part, the number of its finished tasks and the number of its tasks.
     pub fn progress(&self) -> (SearchPart, usize, usize) {
         let parts = self.parts();
         let part = parts.work.get(parts.at).map_or_else(SearchPart::default, |part| part.0);
@@ -93,16 +98,17 @@ impl SearchProgress {
 
     /// Returns the completed fraction of the expected work, from 0 to 1.
     ///
-    /// It decreases if a part starts that was not expected.
+    /// The fraction decreases if a part starts that was not expected.
     pub fn share(&self) -> f64 {
         let parts = self.parts();
         let own = parts.work.get(parts.at).map_or(0, |part| part.1);
         let done = units(&parts.work[..parts.at.min(parts.work.len())])
             + self.units.load(Ordering::Relaxed).min(own) as f64;
-        // `max` turns the NaN of zero work into 0.
+        // Without work the quotient is NaN, and `max` returns 0.
         (done / units(&parts.work)).max(0.0)
     }
 
+    /// Locks the parts.
     fn parts(&self) -> MutexGuard<'_, Parts> {
         self.parts.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -112,7 +118,7 @@ impl SearchProgress {
         self.designs.load(Ordering::Relaxed)
     }
 
-    /// Returns the meter on which slow designs report their progress.
+    /// Returns the meter that reports designs with a long solution time.
     pub fn slow(&self) -> &WorkMeter {
         &self.slow
     }
@@ -127,28 +133,30 @@ impl SearchProgress {
         self.starts.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Starts a search with these parts and their expected units.
+    /// Sets the expected parts of the search with their units of work.
     pub(crate) fn expect(&self, work: Vec<(SearchPart, u64)>) {
         *self.parts() = Parts { work, ..Parts::default() };
     }
 
-    /// Starts the next part of this kind, with its tasks and their units in total.
+    /// Starts the next part of kind `part` with this number of tasks and total `units` of work.
     ///
-    /// Expected parts in between are dropped. An unexpected part is added. A front is searched in
-    /// several turns, so a turn leaves the rest of its expected units to the following ones.
+    /// Expected parts before it are dropped. A part that was not expected is added. The part
+    /// `Front` is started several times, and each time the remaining expected units stay for the
+    /// next time.
     pub(crate) fn begin(&self, part: SearchPart, tasks: usize, units: u64) {
         let mut parts = self.parts();
         let done = self.units.swap(0, Ordering::Relaxed);
         self.done.store(0, Ordering::Relaxed);
         let at = parts.at;
-        // Before its first part a search has completed nothing.
+        // Before the first part there is no completed part.
         let is_first = parts.tasks == 0;
         let next = if is_first { 0 } else { at + 1 };
         if let Some(own) = parts.work.get_mut(at).filter(|_| !is_first) {
             own.1 = own.1.min(done);
         }
         let ahead = parts.work.get(next..).unwrap_or_default();
-        // An expected restart belongs to the local searches just before it.
+        // Use an expected restart only if it directly follows the current part. Otherwise it
+        // belongs to later local searches.
         let skipped = ahead.iter().position(|of| of.0 == part);
         match skipped.filter(|&skipped| part != SearchPart::Restart || skipped == 0) {
             Some(skipped) => drop(parts.work.drain(next..next + skipped)),
@@ -161,7 +169,7 @@ impl SearchProgress {
         (parts.at, parts.tasks) = (next, tasks);
     }
 
-    /// Starts a task of the current part.
+    /// Starts a task of the current part with these expected units of work.
     pub(crate) fn task(&self, units: u64) -> SearchTask<'_> {
         SearchTask { progress: self, left: Cell::new(units) }
     }
@@ -173,7 +181,7 @@ impl SearchProgress {
 }
 
 impl SearchTask<'_> {
-    /// Counts completed units.
+    /// Counts completed units of work.
     pub fn count(&self, units: u64) {
         let units = units.min(self.left.get());
         self.left.set(self.left.get() - units);
@@ -194,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tasks_are_counted_per_part_and_units_over_all_parts() {
+    fn tasks_are_counted_for_each_part_and_units_for_all_parts() {
         let progress = SearchProgress::default();
         assert_eq!(progress.share(), 0.0);
         progress.expect(vec![
@@ -237,19 +245,19 @@ mod tests {
     }
 
     #[test]
-    fn the_fraction_follows_parts_that_end_early_or_were_not_expected() {
+    fn fraction_adapts_to_parts_that_end_early_or_were_not_expected() {
         let progress = SearchProgress::default();
         progress.expect(vec![(Sample, 10), (LocalSearches, 40), (Restart, 50), (Check, 20)]);
         progress.begin(Sample, 1, 10);
         drop(progress.task(10));
         progress.begin(LocalSearches, 2, 40);
         drop(progress.task(20));
-        // Restarts that are not needed and local searches that are skipped do not count as work.
+        // Unnecessary restarts and skipped local searches do not count as work.
         progress.begin(Check, 1, 20);
         assert_eq!(progress.share(), 30.0 / 50.0);
         progress.begin(Restart, 1, 30);
         assert_eq!(progress.share(), 30.0 / 60.0);
-        // Expected restarts of later local searches are not used up by an unexpected restart.
+        // An unexpected restart does not replace the expected restart of later local searches.
         let progress = SearchProgress::default();
         progress.expect(vec![(LocalSearches, 20), (LocalSearches, 40), (Restart, 50)]);
         progress.begin(LocalSearches, 1, 20);

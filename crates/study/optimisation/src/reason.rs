@@ -1,4 +1,4 @@
-//! States in one sentence why a best design is best.
+//! Composes the sentence that states why a best design is best.
 
 use std::fmt::Write as _;
 
@@ -11,26 +11,27 @@ use crate::goal::DesignGoal;
 use crate::judgement::Judgement;
 use crate::price::{Binding, Limit};
 
-/// Change of a limit that the sentence states, as a fraction.
+/// Relative change of a limit, for which the sentence states the gain.
 const CHANGE: f64 = 0.01;
 
-/// A limit with the gain of the objective if it is relaxed.
+/// Effect of relaxing a limit on the objective.
 struct Effect {
+    /// Name of the limit.
     name: String,
     is_requirement: bool,
-    /// The relaxed limit, e.g. `1 % less required coverage`.
+    /// Description of the relaxed limit, e.g. `1 % less required coverage`.
     ///
-    /// `None` where a percentage of the limit has no meaning.
+    /// `None` if a percentage of the limit has no meaning.
     relaxed: Option<String>,
-    /// Gain over the value of the objective; `None` if the multiplier is unknown.
+    /// Gain divided by the objective; `None` if the multiplier is unknown.
     gain: Option<f64>,
 }
 
-/// Returns a sentence with the limits of a best design.
+/// Returns a sentence that names the binding limits of the design `best`.
 ///
-/// It also states the gain from a relaxation of the costliest limit.
-///
-/// `goal` has the limits of the search, for nominal designs if `bindings` are rough.
+/// The sentence also states the gain if the most expensive limit is relaxed by 1 %. `goal` is the
+/// goal of the search. If `is_rough` is true, the multipliers in `bindings` are approximate, and
+/// `goal` is the goal for nominal designs. Returns `None` if the reason is unknown.
 pub(crate) fn reason(
     goal: &DesignGoal,
     best: &BestDesign,
@@ -50,11 +51,11 @@ pub(crate) fn reason(
     let mut effects: Vec<Effect> =
         bindings.iter().map(|binding| effect(goal, &words, binding, best, value)).collect();
     if effects.iter().any(|effect| effect.gain.is_some_and(|gain| gain > 0.0)) {
-        // The multipliers prove that these limits cost nothing.
+        // Omit limits with a multiplier of 0, which do not affect the objective.
         effects.retain(|effect| effect.gain != Some(0.0));
     }
-    // Requirements first, because a user may relax them. Stable, so that limits without a
-    // multiplier keep the order of the goal.
+    // Name requirements first, because a user may relax them. The sort is stable, so limits without
+    // a multiplier keep the order of the goal.
     effects.sort_by(|a, b| {
         let by_gain = b.gain.unwrap_or(0.0).total_cmp(&a.gain.unwrap_or(0.0));
         b.is_requirement.cmp(&a.is_requirement).then(by_gain)
@@ -79,6 +80,9 @@ pub(crate) fn reason(
     Some(sentence + ".")
 }
 
+/// Returns the effect of relaxing the limit of `binding` by 1 %.
+///
+/// `objective` is the absolute value of the objective of the design `best`.
 fn effect(
     goal: &DesignGoal,
     words: &BindingText<'_>,

@@ -1,12 +1,13 @@
-//! Restarts of a search if its local searches disagree.
+//! Restarts a search if its local searches end at different objectives.
 //!
-//! A measure such as `max_stiffness` is an extremum over a path. It jumps where the path gains or
-//! loses a contact, so it is a step function of the variables with sloping steps. Derivatives
-//! describe a single step, and local searches end on any of many steps. If the searches of a target
-//! end at different values, restarts sample a box around the best design, centre it on the best
-//! sample and shrink it. Differences over the width of the box describe the overall trend. Samples
-//! are moved onto the limits that bind at the centre, because away from them the objective changes
-//! more than from step to step.
+//! A measure such as `max_stiffness` is an extremum over a path. It jumps if a contact appears on
+//! the path or disappears, so it is a step function of the variables with sloping steps.
+//! Derivatives describe a single step, and a local search may end on any of many steps.
+//!
+//! A restart therefore evaluates points in a box around the best design, centres the box on the
+//! best of these points and shrinks the box. Differences across the box describe the overall trend.
+//! The points are first moved onto the limits that bind at the centre. Otherwise the distance from
+//! these limits would change the objective more than the jumps.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
@@ -22,19 +23,19 @@ use crate::slopes::Slopes;
 use crate::space::SpacePoint;
 use crate::space_filling::Sequence;
 
-/// Relative difference of objectives up to which searches agree.
+/// Relative difference of objectives up to which two searches agree.
 pub(crate) const AGREED: f64 = 1e-3;
 
-/// Relative difference of the best two searches at which restarts end.
+/// Relative difference of the best two searches up to which no further restart is needed.
 const SETTLED: f64 = 1e-4;
 
 /// Relative gain of a round below which the box shrinks.
 const GAIN: f64 = 1e-4;
 
-/// Number of samples in a round, per variable.
+/// Number of points evaluated in a round, for each variable.
 const EACH: usize = 5;
 
-/// Expected number of evaluations of a restart per variable, for the progress of the search.
+/// Expected number of evaluations in the boxes of a restart, for each variable.
 const EVALUATIONS: u64 = 100;
 
 /// Half-widths of the first and the smallest box, as fractions of the intervals.
@@ -46,33 +47,34 @@ const SHRUNK: f64 = 0.5;
 /// Maximum number of rounds of a restart.
 const ROUNDS: usize = 40;
 
-/// Relative margin at the centre of a box up to which a limit binds.
+/// Relative margin at the centre of a box up to which a limit counts as binding.
 const NEAR: f64 = 1e-3;
 
-/// Margin by which samples satisfy binding limits, despite round-off.
+/// Margin to binding limits that points are moved to, so that they meet the limits despite
+/// round-off.
 const INSIDE: f64 = 1e-6;
 
-/// Maximum number of steps onto limits that require a solution.
+/// Maximum number of steps of a point onto limits that require a solution of the design.
 const SOLVED_STEPS: usize = 3;
 
-/// Maximum number of steps onto limits in closed form.
+/// Maximum number of steps of a point onto limits that are known in closed form.
 const FREE_STEPS: usize = 30;
 
-/// Agreement of the local searches for a target.
-///
-/// It is a measure of confidence in the best design.
+/// Agreement of the local searches for a target, a measure of confidence in the best design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Agreement {
-    /// Number of feasible local searches: the full ones, and those that they continue.
+    /// Number of local searches that ended at feasible designs.
+    ///
+    /// Full searches and the gradient searches that precede them count.
     pub searches: usize,
-    /// Number of searches with an objective within 0.1 % of the best.
+    /// Number of searches with an objective within 0.1 % of the best objective.
     pub agreeing: usize,
-    /// Relative difference between the best two; `None` for fewer than two searches.
+    /// Relative difference of the best two objectives; `None` for fewer than two searches.
     pub spread: Option<f64>,
 }
 
 impl Agreement {
-    /// Compares searches that ended at these objectives, to be maximised.
+    /// Compares searches that ended at the objectives `ends`, which are to be maximised.
     pub(crate) fn of(ends: &[f64]) -> Self {
         let mut ends = ends.to_vec();
         ends.sort_by(|a, b| b.total_cmp(a));
@@ -83,6 +85,7 @@ impl Agreement {
         }
     }
 
+    /// Returns true if the best two searches agree, so that no further restart is needed.
     fn is_settled(self) -> bool {
         self.spread.is_some_and(|spread| spread <= SETTLED)
     }
@@ -94,7 +97,9 @@ fn difference(one: f64, other: f64) -> f64 {
     if size > 0.0 { (one - other).abs() / size } else { 0.0 }
 }
 
-/// Returns the objective of a feasible design, with the sign to be maximised.
+/// Returns the objective of a feasible design, with changed sign if it is to be minimised.
+///
+/// `None` for an infeasible design.
 pub(crate) fn met(search: &Search<'_>, candidate: &Candidate, target: &Target) -> Option<f64> {
     match search.merit(candidate, target) {
         Merit::Met(objective) => Some(objective),
@@ -102,12 +107,10 @@ pub(crate) fn met(search: &Search<'_>, candidate: &Candidate, target: &Target) -
     }
 }
 
-/// Restarts near the best design of `history` until the best two searches agree.
+/// Runs at most `most` restarts near the best design of `history`.
 ///
-/// At most `most` times.
-///
-/// `ends` contains the objectives of earlier searches; objectives of restarts are appended. Returns
-/// all evaluated designs.
+/// No further restart follows if the best two searches agree. `ends` contains the objectives of
+/// earlier searches; objectives of restarts are appended. Returns all evaluated designs.
 pub(crate) fn restarted(
     search: &Search<'_>,
     history: &[Candidate],
@@ -127,7 +130,7 @@ pub(crate) fn restarted(
             break;
         }
         let units = restart_evaluations(best.point.shares.len()) * search.evaluation_units(target);
-        // Samples of boxes, then a full search.
+        // A restart has two tasks: points in boxes, and a full local search.
         search.progress.begin(SearchPart::Restart, 2, units);
         let walk = Restart { search, target, best, number: restart as u64 }.run()?;
         ends.extend(search.best(walk.iter(), target).and_then(|end| met(search, end, target)));
@@ -136,17 +139,17 @@ pub(crate) fn restarted(
     Ok(evaluated)
 }
 
-/// Returns the expected number of evaluations of a restart.
+/// Returns the expected number of evaluations of a restart with this number of variables.
 pub(crate) fn restart_evaluations(variables: usize) -> u64 {
     EVALUATIONS * variables as u64 + Effort::WHOLE.evaluations
 }
 
-/// A search by samples of shrinking boxes, starting near the best design.
+/// A search by points in shrinking boxes around the best design, then by a full local search.
 struct Restart<'a> {
     search: &'a Search<'a>,
     target: &'a Target,
     best: &'a Candidate,
-    /// Number of the restart. Each restart draws other samples.
+    /// Number of the restart, which selects its points.
     number: u64,
 }
 
@@ -177,8 +180,8 @@ impl Restart<'_> {
             let is_first = drawn == count;
             let Some(top) = search.best(evaluated.iter(), target).cloned() else { break };
             let gain = match [&centre, &top].map(|design| met(search, design, target)) {
-                // Count the first round as a gain. The restart begins at a sample instead of the
-                // best design, so reaching the best design again is evidence.
+                // Always move the box to the best point of the first round. If the restart then
+                // finds the design with which it began, this confirms the design.
                 _ if is_first => f64::INFINITY,
                 [Some(before), Some(after)] if after > before => difference(before, after),
                 [None, Some(_)] => f64::INFINITY,
@@ -200,19 +203,20 @@ impl Restart<'_> {
     }
 }
 
-/// Surface of the binding limits of a design, linearised at the design.
+/// Surface on which the binding limits of a design are met with equality, linearised at the design.
 struct BindingSurface {
     limits: Vec<Limit>,
-    /// Pseudo-inverse of the gradients of the margins.
+    /// Pseudo-inverse of the gradients of the margins, which gives steps onto the surface.
     ///
-    /// `None` without limits, or with as many limits as variables.
+    /// `None` without limits, with at least as many limits as variables, or without gradients.
     step: Option<DMatrix<f64>>,
 }
 
 impl BindingSurface {
+    /// Returns the surface of the limits that bind at `centre`.
     fn at(search: &Search<'_>, centre: &Candidate, target: &Target) -> Result<Self, Halt> {
         let mut limits = near_limits(search, centre, target, NEAR);
-        // Clamping the samples to the intervals handles their ends.
+        // Ends of intervals need no step, because points are clamped to the intervals.
         limits.retain(|limit| matches!(limit, Limit::Requirement(_) | Limit::Touch));
         if limits.is_empty() {
             return Ok(Self { limits, step: None });
@@ -240,7 +244,7 @@ impl BindingSurface {
         Ok(Self { limits, step })
     }
 
-    /// Moves a point onto the surface and evaluates it.
+    /// Moves a point onto the surface by a few steps, and evaluates it.
     fn evaluate(&self, search: &Search<'_>, mut point: SpacePoint) -> Result<Candidate, Halt> {
         let stage = SearchStage::Polish;
         let Some(step) = &self.step else { return Ok(search.compared(stage, &point, false)?.0) };
@@ -255,7 +259,7 @@ impl BindingSurface {
                 },
                 _ => Some(contact_margin(&search.space.case(&point))),
             });
-            // A design without margins cannot be moved, so evaluate the unmoved point.
+            // A design without a valid judgement has no margins, so its point is not moved farther.
             let Some(margins) = margins.collect::<Option<Vec<f64>>>() else { break };
             let missing = DVector::from_iterator(margins.len(), margins.iter().map(|m| INSIDE - m));
             if missing.amax() < 0.9 * INSIDE {
@@ -274,7 +278,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn agreement_is_measured_from_the_best_search() {
+    fn agreement_is_relative_to_the_best_search() {
         let none = Agreement { searches: 0, agreeing: 0, spread: None };
         assert_eq!(Agreement::of(&[]), none);
         assert_eq!(Agreement::of(&[2.0]), Agreement { searches: 1, agreeing: 1, spread: None });

@@ -1,8 +1,9 @@
-//! Rounds a best design to sizes that a machine can make.
+//! Rounds a best design to sizes that can be manufactured.
 //!
-//! The designs with all sizes in multiples of their steps form a lattice. The search starts with
-//! the corners of the cell around the best design, and moves to a neighbour while it is better. The
-//! best feasible designs are then checked like a best design.
+//! Designs with sizes that are multiples of steps form a lattice. The search evaluates the corners
+//! of the lattice cell around the best design. Then it moves from the best point of the lattice to
+//! a neighbour as long as the neighbour is better. The best feasible designs are checked like a
+//! best design.
 
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
@@ -17,22 +18,23 @@ use crate::progress::SearchPart;
 use crate::sampled::confirmation::confirm;
 use crate::space::{Interval, SpacePoint};
 
-/// Maximum number of variables that are rounded in both directions, and moved in pairs.
+/// Maximum number of variables that are rounded in both directions, and changed in pairs.
 const BOTH_WAYS: usize = 6;
 
 /// Maximum number of moves on the lattice.
 const MOVES: usize = 8;
 
-/// Maximum number of rounded designs that are solved with more samples, and that are checked.
+/// Maximum number of rounded designs that are solved with more samples.
 const FINER: usize = 12;
+/// Maximum number of rounded designs that are checked with finer models.
 const CHECKED: usize = 4;
 
-/// Rounding of a best design.
+/// Result of rounding a best design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounding {
     /// Step of the lengths, in `unit`.
     pub step: f64,
-    /// `mm`, or `t` if the thickness is unknown.
+    /// Unit of the step: `mm`, or `t` if the thickness in mm is unknown.
     pub unit: &'static str,
     /// Objective of the best design before rounding.
     pub exact: f64,
@@ -40,13 +42,13 @@ pub struct Rounding {
     pub rounded: Option<f64>,
 }
 
-/// Evaluated points of the lattice, as factors of the steps.
+/// Evaluated points of the lattice: factors of the steps, and the design.
 type Known = Vec<(Vec<i64>, Candidate)>;
 
-/// Rounds `best` in place if the goal requests it.
+/// Replaces `best` by its rounded design if `goal` requests rounding.
 ///
-/// If no rounded design meets all requirements, `best` stays. `search` and `finer` judge by the
-/// limits of the search, `finer` with more samples. Adds the evaluated designs to `history`.
+/// `best` is unchanged if no rounded design meets all requirements. `finer` is like `search`, but
+/// with more samples. Evaluated designs are added to `history`. Returns `None` without rounding.
 pub(crate) fn round(
     goal: &DesignGoal,
     [search, finer]: [&Search<'_>; 2],
@@ -76,10 +78,9 @@ pub(crate) fn round(
     Ok(Some(Rounding { step, unit, exact, rounded: None }))
 }
 
-/// Verifies a rounded design like a best design.
+/// Verifies a rounded design: solves more samples and independent samples, and runs the checks.
 ///
-/// That is, evaluates it on more samples, confirms it on independent samples, and runs the checks.
-/// `None` if it violates a requirement on the larger number of samples.
+/// `None` if the design violates a requirement on the larger number of samples.
 fn refined(
     goal: &DesignGoal,
     finer: &Search<'_>,
@@ -103,24 +104,25 @@ fn refined(
     Ok(Some(rounded))
 }
 
+/// Returns true if `candidate` is feasible for the target of `best`.
 fn is_met(search: &Search<'_>, candidate: &Candidate, best: &BestDesign) -> bool {
     matches!(search.merit(candidate, &best.target), Merit::Met(_))
 }
 
-/// Returns the first objective of a judged design.
+/// Returns the first objective of a design; `None` without a valid judgement.
 fn objective(candidate: &Candidate) -> Option<f64> {
     let Judgement::Judged(worth) = &candidate.verdict else { return None };
     worth.objectives.first().copied()
 }
 
-/// Sorts designs by merit, the best first.
+/// Returns the designs of the lattice sorted by merit, the best first.
 fn feasible_first(search: &Search<'_>, known: Known, target: &Target) -> Vec<Candidate> {
     let mut designs: Vec<Candidate> = known.into_iter().map(|(_, candidate)| candidate).collect();
     designs.sort_by(|a, b| search.merit(b, target).compare(search.merit(a, target)));
     designs
 }
 
-/// Evaluates rounded designs around `best`.
+/// Evaluates points of the lattice around `best`, and returns them.
 fn evaluated(search: &Search<'_>, best: &BestDesign) -> Result<Known, Halt> {
     let (start, target) = (&best.candidate.point, &best.target);
     let mut known = Known::new();
@@ -139,14 +141,14 @@ fn evaluated(search: &Search<'_>, best: &BestDesign) -> Result<Known, Halt> {
     Ok(known)
 }
 
-/// Returns the index of the best evaluated point.
+/// Returns the index of the best evaluated point; `None` without a valid judgement.
 fn best_of(search: &Search<'_>, known: &[(Vec<i64>, Candidate)], target: &Target) -> Option<usize> {
     best(known.iter().map(|(_, candidate)| search.merit(candidate, target)))
 }
 
-/// Evaluates points of the lattice.
+/// Evaluates `points` of the lattice, and adds them to `known`.
 ///
-/// Variables that are not rounded keep their values in `start`.
+/// Variables that are not rounded keep the values of `start`.
 fn add(
     search: &Search<'_>,
     start: &SpacePoint,
@@ -168,12 +170,14 @@ fn add(
     Ok(())
 }
 
-/// Returns the corners of the cell of the lattice around a point.
+/// Returns the corners of the lattice cell around `start`, as factors of the steps.
+///
+/// After `BOTH_WAYS` variables, further variables are only rounded down.
 fn corners(search: &Search<'_>, start: &SpacePoint) -> Vec<Vec<i64>> {
     let mut corners: Vec<Vec<i64>> = vec![Vec::new()];
     let mut both_ways = 0;
     for (interval, share) in search.space.intervals().iter().zip(&start.shares) {
-        // A variable without a step has a single, meaningless factor.
+        // The factor of a variable without a step is not used.
         let [below, above] = interval.multiples_around(*share).unwrap_or([0, 0]);
         let mut factors = vec![below];
         if above != below && both_ways < BOTH_WAYS {
@@ -189,7 +193,9 @@ fn corners(search: &Search<'_>, start: &SpacePoint) -> Vec<Vec<i64>> {
     corners
 }
 
-/// Returns the points of the lattice with one or two factors changed by one.
+/// Returns the points of the lattice that differ from `at` by 1 in one or two factors.
+///
+/// With more than `BOTH_WAYS` rounded variables only one factor changes.
 fn neighbours(search: &Search<'_>, at: &[i64]) -> Vec<Vec<i64>> {
     let ranges: Vec<_> = search.space.intervals().iter().map(Interval::multiples).collect();
     let rounded: Vec<usize> = (0..at.len()).filter(|&j| ranges[j].is_some()).collect();

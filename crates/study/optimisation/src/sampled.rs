@@ -1,15 +1,15 @@
-//! Goals about samples: statistics over the random deviations of a design.
+//! Searches for goals with quantiles or yields, i.e. statistics over samples of a design.
 //!
-//! The deviations of sample `i` are drawn once and are the same for every design (common random
-//! numbers). Quantiles and yields are therefore deterministic functions of the design:
+//! Sample `i` has the same random numbers in each design (common random numbers). So quantiles and
+//! yields are deterministic functions of the design:
 //!
 //! ```text
 //! yield ≥ y   ⇔   m₍ₖ₎ ≥ 0,   k = n − ⌈y n⌉ + 1                                          (O6)
 //! ```
 //!
-//! Here `m₍₁₎ ≤ … ≤ m₍ₙ₎` are the sorted margins of the samples. The margin of a sample is its
-//! least margin over all requirements, relative to their limits. A yield is a step function of the
-//! design, but the margin `m₍ₖ₎` is continuous.
+//! Here `m₍₁₎ ≤ … ≤ m₍ₙ₎` are the sorted margins of the `n` samples. The margin of a sample is its
+//! smallest margin over all requirements, relative to their limits. A yield is a step function of
+//! the design, but the margin `m₍ₖ₎` is continuous.
 
 pub(crate) mod confirmation;
 pub(crate) mod search;

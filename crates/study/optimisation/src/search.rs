@@ -1,4 +1,4 @@
-//! Runs a search: sample the space, improve the best samples, collect the results.
+//! Runs a search: evaluates space-filling points, improves the best, and collects the results.
 
 use std::collections::BTreeMap;
 use std::iter;
@@ -43,24 +43,26 @@ use crate::space_filling;
 /// Settings of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct SearchOptions<'a> {
-    /// Number of designs solved at the same time.
+    /// Number of threads, i.e. of designs that are solved at the same time.
     pub threads: usize,
-    /// Whether existing results are refused, continued or discarded.
+    /// States whether existing results are refused, continued or discarded.
     pub start: Start,
-    /// Set to request a stop; the journal keeps every design solved so far.
+    /// Flag that another thread sets to `true` to request a stop.
+    ///
+    /// The journal then contains all designs solved so far.
     pub stop: &'a AtomicBool,
-    /// Receives the progress of the search.
+    /// Progress, which the search updates.
     pub progress: &'a SearchProgress,
 }
 
-/// The outcome of a search.
+/// Result of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// Every evaluated design, in an order independent of the number of threads.
+    /// All evaluated designs. Their order does not depend on the number of threads.
     pub history: Vec<Candidate>,
-    /// The answer.
+    /// Answer to the goal: best design, front, or nearest infeasible design.
     pub answer: Answer,
-    /// Numbers of designs without a valid judgement.
+    /// Counts of designs without a valid judgement.
     pub left_out: LeftOutDesigns,
     /// Number of local searches.
     pub starts: usize,
@@ -70,35 +72,37 @@ pub struct Found {
     pub regions: usize,
     /// Number of evaluations, with and without derivatives.
     pub evaluations: usize,
-    /// Ends used to rescale the criteria of the fitness.
+    /// Ends between which the criteria of the fitness were rescaled.
     pub rescaled: Vec<CriterionEnds>,
-    /// Requirements with the limits of the last search; they differ from the goal if it confirms.
+    /// Requirements with the limits of the last search.
+    ///
+    /// With `confirm = true` they may be tighter than the limits of the goal.
     pub searched: Vec<Requirement>,
-    /// Requirements that samples of the nearest design miss, if no design is feasible.
+    /// Requirements that samples of the nearest design miss; empty if a design is feasible.
     pub missed: Vec<MissedRequirement>,
-    /// Rounding of the best design, if the goal wants it.
+    /// Rounding of the best design; `None` if the goal does not request it.
     pub rounding: Option<Rounding>,
 }
 
-/// Designs without a valid judgement, by reason.
+/// Counts of designs without a valid judgement, by reason.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LeftOutDesigns {
-    /// Designs that failed in some measure.
+    /// Number of designs with a failed measure, by outcome.
     pub failed: BTreeMap<Outcome, usize>,
-    /// Designs with a folded surface.
+    /// Number of designs with a folded surface.
     pub folded: usize,
-    /// Designs without a number in a column of the goal, by column.
+    /// Number of designs without a value in a column of the goal, by column.
     pub missing: BTreeMap<String, usize>,
 }
 
-/// Searches for the best designs of `goal`, with the journal in `folder`.
+/// Searches for the best designs of `goal`. The journal of the search is in `folder`.
 ///
 /// Returns `None` if a stop was requested.
 ///
 /// # Errors
 ///
-/// If the folder holds other results, the journal cannot be written, or no design has a number in
-/// some column of the goal.
+/// If the folder contains other results, the journal cannot be written, or a column of the goal is
+/// empty for all designs.
 pub fn optimise(
     goal: &DesignGoal,
     folder: &Path,
@@ -112,10 +116,10 @@ pub fn optimise(
         count: options.threads,
         reason: error.to_string(),
     })?;
-    // A separate pool uses exactly the requested number of threads, whatever the rest of the
-    // process uses.
+    // Use a separate pool with the requested number of threads. The global pool of the process may
+    // have another number.
     let found = pool.install(|| find(goal, &evaluations, options.progress));
-    // Also after a stop request: the next session continues from these evaluations.
+    // Flush the journal also after a stop request, because the next session continues from it.
     evaluations.sync()?;
     match found {
         Ok(found) => {
@@ -128,6 +132,7 @@ pub fn optimise(
     }
 }
 
+/// Runs the steps of a search.
 fn find(
     goal: &DesignGoal,
     evaluations: &Evaluations<'_>,
@@ -135,7 +140,8 @@ fn find(
 ) -> Result<Found, Halt> {
     progress.expect(expected(goal));
     let points = space_filling::points(&goal.space, goal.samples, goal.seed);
-    // Solved before the judge exists, because the fitness is rescaled over these rows.
+    // Solve these points before the judge is created: the fitness is rescaled between their worst
+    // and best values.
     let rows = sample_rows(evaluations, &points, progress)?;
     let rescaled = ends(goal, rows);
     let judge = Judge::rescaling(&goal.nominal(), &rescaled);
@@ -153,7 +159,7 @@ fn find(
         rounding = limits.round(&nominal, best, &mut history)?;
         best.checks = DesignChecks::solve(goal, &best.row.case);
     }
-    // The search measures only the columns of the goal.
+    // Solve the best designs again with all columns. The search computed only columns of the goal.
     answer.best_mut().par_iter_mut().try_for_each(|best| {
         best.row = evaluations.reported_row(&best.candidate.point)?;
         Ok(())
@@ -181,7 +187,7 @@ fn first_candidates(
     points: Vec<SpacePoint>,
     seed: u64,
 ) -> Result<Vec<Candidate>, Halt> {
-    // Goals about parameters and mass alone have no contacts and no kinks, so peaks do not matter.
+    // Coverage peaks do not matter for a goal that contains only parameters and masses.
     let on_peaks = if nominal.judge.has_regions() {
         points_on_peaks(nominal.space, nominal.judge, seed)
     } else {
@@ -189,7 +195,7 @@ fn first_candidates(
     };
     nominal.progress.begin(SearchPart::Sample, on_peaks.len(), on_peaks.len() as u64);
     let known = points.len();
-    // The journal holds the space-filling points already: only points on peaks are solved here.
+    // Space-filling points have been solved, so only points on peaks count as work.
     [points, on_peaks]
         .concat()
         .into_par_iter()
@@ -201,7 +207,7 @@ fn first_candidates(
         .collect()
 }
 
-/// Counts the regions of the space that hold candidates.
+/// Counts the regions of the space that contain designs of `history`.
 fn region_count(search: &Search<'_>, history: &[Candidate]) -> usize {
     let mut regions: Vec<Region> = Vec::new();
     for candidate in history {
@@ -213,22 +219,24 @@ fn region_count(search: &Search<'_>, history: &[Candidate]) -> usize {
     regions.len()
 }
 
-/// Number of searches with tighter limits after the first.
+/// Maximum number of searches with tightened limits, after the first search.
 const TIGHTER: usize = 3;
 
-/// The limits of the requirements in a search.
+/// A goal with the limits of the user, and with the tightened limits of the search.
 struct Limits<'a> {
-    /// The goal with the limits of the user.
+    /// Goal with the limits of the user.
     goal: &'a DesignGoal,
-    /// The goal with the limits of the search.
+    /// Goal with the limits of the search.
     tightened: DesignGoal,
+    /// Ends between which the criteria of a fitness are rescaled.
     rescaled: &'a [CriterionEnds],
 }
 
 impl Limits<'_> {
-    /// Returns the answer by nominal designs.
+    /// Searches nominal designs for the answer to the goal.
     ///
-    /// If the goal confirms, limits are tightened until the checks of the best design pass.
+    /// With `confirm = true`, limits are tightened and the search is repeated until the best design
+    /// passes its checks, at most `TIGHTER` times.
     fn nominal_answer(
         &mut self,
         search: &Search<'_>,
@@ -253,7 +261,7 @@ impl Limits<'_> {
         Ok(best)
     }
 
-    /// Searches nominal designs again, with the limits of `goal`.
+    /// Searches nominal designs again with the limits of `goal`, from the designs in `history`.
     fn nominal_again(
         &self,
         goal: &DesignGoal,
@@ -270,7 +278,9 @@ impl Limits<'_> {
         answer(&search, history, Plan::AGAIN, points)
     }
 
-    /// Returns the answer by sampled designs; see [`Self::nominal_answer`].
+    /// Searches designs with samples for the answer, like [`Self::nominal_answer`].
+    ///
+    /// `first` is the answer by nominal designs.
     fn sampled_answer(
         &mut self,
         search: &Search<'_>,
@@ -282,7 +292,7 @@ impl Limits<'_> {
         for _ in 0..TIGHTER {
             let Some(wider) = self.tighten(&mut best) else { break };
             let mut again = nominal.clone();
-            // No known design may meet the tightened limits.
+            // Search nominal designs again, because known designs may miss the tightened limits.
             let first = self.nominal_again(&self.tightened, search, &mut again, NOMINAL_POINTS)?;
             let next = self.sampled(search, &mut again, first, Plan::AGAIN)?;
             if matches!(next, Answer::Infeasible(_)) {
@@ -294,6 +304,7 @@ impl Limits<'_> {
         Ok(best)
     }
 
+    /// Runs one search over samples with the current limits, starting from the answer `first`.
     fn sampled(
         &self,
         search: &Search<'_>,
@@ -302,7 +313,7 @@ impl Limits<'_> {
         plan: Plan,
     ) -> Result<Answer, Halt> {
         let goal = &self.tightened;
-        // All three judges share one set of ends: other ends define another fitness.
+        // The judges must rescale between the same ends, because the ends define the fitness.
         let judges = [&goal.nominal(), goal, &goal.finer()]
             .map(|goal| Judge::rescaling(goal, self.rescaled));
         let [nominal, sampled, finer] = judges.each_ref().map(|judge| Search { judge, ..*search });
@@ -310,10 +321,10 @@ impl Limits<'_> {
         searches.answer(goal, history, first, plan)
     }
 
-    /// Returns why a best design is best, by its limits and their multipliers.
+    /// Returns the sentence that states why `best` is best; `None` if the reason is unknown.
     fn reason(&self, search: &Search<'_>, best: &BestDesign) -> Result<Option<String>, Halt> {
         let goal = &self.tightened;
-        // A yield has no multiplier, but the requirements that define the yield have.
+        // A yield has no multiplier, so use multipliers of the requirements on columns.
         let Some(made) = best.confirmation.as_ref().filter(|_| goal.requires_yield()) else {
             return Ok(reason(goal, best, &best.bindings, false));
         };
@@ -325,7 +336,7 @@ impl Limits<'_> {
         Ok(reason(&goal, best, &bindings, true))
     }
 
-    /// Rounds a best design, if the goal wants it.
+    /// Replaces `best` by its rounded design, if the goal requests rounding.
     fn round(
         &self,
         search: &Search<'_>,
@@ -339,6 +350,8 @@ impl Limits<'_> {
     }
 
     /// Returns the requirements that samples of the nearest infeasible design miss.
+    ///
+    /// Empty if a design is feasible, or if the nearest design has no samples.
     fn missed(
         &self,
         search: &Search<'_>,
@@ -348,16 +361,16 @@ impl Limits<'_> {
         let Answer::Infeasible(Some(nearest)) = answer else { return Ok(Vec::new()) };
         let Candidate { point, verdict, .. } = &history[*nearest];
         let judge = Judge::rescaling(&self.tightened, self.rescaled);
-        // A nominal design has no samples.
+        // The nearest design may be a nominal design without samples.
         let judge = judge.samples().filter(|_| matches!(verdict, Judgement::Judged(_)));
         let Some(judge) = judge else { return Ok(Vec::new()) };
         let samples = search.evaluations.samples(point, 1, judge.count, judge)?;
         Ok(judge.missed(&samples))
     }
 
-    /// Tightens the limits by the checks of an optimum.
+    /// Checks an optimum, and tightens limits that the checks contradict.
     ///
-    /// Returns the earlier limits if they changed.
+    /// Returns the goal with the previous limits if a limit changed, otherwise `None`.
     fn tighten(&mut self, answer: &mut Answer) -> Option<DesignGoal> {
         let Answer::Optimum(best) = answer else { return None };
         self.goal.confirm.then_some(())?;
@@ -367,7 +380,7 @@ impl Limits<'_> {
     }
 }
 
-/// Estimates the units of work of each part of the search.
+/// Estimates the work of each part of a search, in units of a space-filling point.
 fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
     let mut parts = vec![(SearchPart::Sample, goal.samples as u64)];
     if !goal.is_about_samples() {
@@ -387,9 +400,9 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
     parts
 }
 
-/// Estimates the units of work of the search for an optimum or a front of `points` designs.
+/// Estimates the work of a search for an optimum, or for a front of `points` designs.
 ///
-/// Each design is evaluated at `samples` samples.
+/// `samples` is the number of samples of each design.
 fn expected_answer(
     goal: &DesignGoal,
     plan: Plan,
@@ -401,16 +414,16 @@ fn expected_answer(
     let mut parts = Vec::new();
     for objective in &goal.objectives {
         parts.push((SearchPart::LocalSearches, plan.evaluations() * each));
-        // Local searches seldom agree on the largest slope of a path. For other objectives
-        // restarts are the exception.
+        // Local searches for the maximum stiffness seldom agree, so restarts are expected. For
+        // other objectives restarts are rare.
         if &*objective.column == name::MAX_STIFFNESS {
             let restart = (SearchPart::Restart, restart_evaluations(variables) * each);
             parts.extend(iter::repeat_n(restart, plan.restarts));
         }
     }
     if goal.objectives.len() > 1 {
-        // The first half of the points is searched from many designs, the second half between
-        // them.
+        // The first half of the points is searched from many designs, the second half from
+        // neighbouring points.
         let half = points.div_ceil(2) as u64;
         let plans = [plan.of_a_point(), plan.between_points()];
         parts.extend(plans.map(|plan| (SearchPart::Front, half * plan.evaluations() * each / 2)));
@@ -436,16 +449,20 @@ fn sample_rows(
         .collect()
 }
 
-/// Determines the ends used to rescale the criteria, which define the fitness.
+/// Determines the ends between which the criteria of the fitness are rescaled.
+///
+/// `rows` are the space-filling points. Empty if the goal does not use the fitness.
 fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     let Some(fitness) = &goal.fitness else { return Vec::new() };
     let judge = Judge::rescaling(&goal.nominal(), &fitness.ends);
-    // Invalid designs would extend the ends beyond the values that a search can reach.
+    // Use complete, unfolded designs only: other designs may have values that a search cannot
+    // reach.
     rows.retain(|row| judge.is_whole(row));
     ends_over(fitness, goal.space.sweep(), &rows)
 }
 
 impl LeftOutDesigns {
+    /// Counts the designs of `history` without a valid judgement.
     fn of(search: &Search<'_>, history: &[Candidate]) -> Self {
         let mut left_out = Self::default();
         for candidate in history {
@@ -455,8 +472,8 @@ impl LeftOutDesigns {
                     *left_out.missing.entry(column.clone()).or_default() += 1;
                 }
                 Judgement::Folded => left_out.folded += 1,
-                // A design folded at the end is judged as infeasible, and counted here as folded
-                // too.
+                // A design that is folded at the end of its path is judged as infeasible. Count it
+                // as folded, too.
                 Judgement::Judged(_) | Judgement::Nominal(_)
                     if search.judge.requires_unfolded() =>
                 {
@@ -470,10 +487,9 @@ impl LeftOutDesigns {
     }
 }
 
-/// Returns an error if no design has a number in some column of the goal.
+/// Returns an error if a column of the goal is empty for all designs.
 fn check_columns(found: &Found) -> Result<(), OptimisationError> {
-    // Designs that lack a value are left out and reported by column; only a column without any
-    // value is an error.
+    // It is no error if some designs lack a value. They are counted in `left_out`.
     let is_left_out =
         |c: &Candidate| matches!(c.verdict, Judgement::Failed(_) | Judgement::Missing(_));
     if !found.history.iter().all(is_left_out) {

@@ -1,17 +1,17 @@
-//! Design space: variables, points, and their cases.
+//! Design space of a search: variables, points, and the cases of points.
 
 use std::ops::RangeInclusive;
 
 use sweep::{Case, Parameter, Scalar, Sweep, VariableValues};
 use text::number;
 
-/// Step of rounded angles, degrees.
+/// Step to which angles of a design are rounded, in degrees.
 const ANGLE_STEP_DEG: f64 = 1.0;
 
-/// Round-off of a quotient of a value and its step.
+/// Tolerance for round-off of a value divided by its step.
 const ROUND_OFF: f64 = 1e-9;
 
-/// A parameter that varies between two numbers.
+/// Continuous variable: a parameter that varies between two numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// Parameter.
@@ -20,11 +20,11 @@ pub struct Interval {
     pub from: f64,
     /// Largest value.
     pub to: f64,
-    /// Step of the values of a rounded design; `None` if they are not rounded.
+    /// Step to which values are rounded; `None` if the parameter is not rounded.
     pub step: Option<f64>,
 }
 
-/// A parameter that takes one of a few values.
+/// Discrete variable: a parameter that has one of a few values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     /// Parameter.
@@ -33,26 +33,25 @@ pub struct Choice {
     pub values: Vec<Scalar>,
 }
 
-/// Point of the space.
-///
-/// It has a fraction of each interval, from 0 (lower end) to 1, and an index for each choice.
+/// Point of the design space, with a coordinate for each variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpacePoint {
-    /// Fractions of the intervals.
+    /// Fraction of each interval, from 0 (lower end) to 1 (upper end).
     pub shares: Vec<f64>,
-    /// Indices of the choices.
+    /// For each choice, the index of its value.
     pub chosen: Vec<usize>,
 }
 
 impl SpacePoint {
-    /// Returns a copy with this fraction of one interval.
+    /// Returns a copy of the point with the fraction `share` of the interval with index `interval`.
     pub(crate) fn with_share(&self, interval: usize, share: f64) -> Self {
         let mut moved = self.clone();
         moved.shares[interval] = share;
         moved
     }
 }
-/// Space of the variables, with the values shared by all designs.
+
+/// Space of the variables, and the values of all other parameters.
 #[derive(Clone, Debug)]
 pub struct DesignSpace {
     sweep: Sweep,
@@ -61,34 +60,37 @@ pub struct DesignSpace {
 }
 
 impl Interval {
-    /// Returns the value at a fraction of the interval; exactly its ends at 0 and 1.
+    /// Returns the value at the fraction `share` of the interval.
+    ///
+    /// The value is exactly an end of the interval at 0 and 1.
     pub fn value(&self, share: f64) -> f64 {
         let value = self.from + share * (self.to - self.from);
-        // Round-off could show as 59.99999999999999 instead of 60 in tables.
+        // Avoid round-off: tables should not show 59.99999999999999 instead of 60.
         let value = if share >= 1.0 { self.to } else { value.clamp(self.from, self.to) };
-        // Nor may a rounded design show as 0.35000000000000003.
+        // A rounded design should not show 0.35000000000000003 instead of 0.35.
         let multiple = self.step.map(|step| multiple((value / step).round(), step));
         let size = self.from.abs().max(self.to.abs());
         multiple.filter(|m| (m - value).abs() <= 4.0 * f64::EPSILON * size).unwrap_or(value)
     }
 
-    /// Returns the fraction of the interval at a value.
+    /// Returns the fraction of the interval at `value`, limited to 0 to 1.
     pub(crate) fn share(&self, value: f64) -> f64 {
         ((value - self.from) / self.length()).clamp(0.0, 1.0)
     }
 
-    /// Returns the multiples of the step in the interval, as factors of the step.
+    /// Returns the multiples of the step inside the interval, as factors of the step.
     ///
-    /// `None` without a step.
+    /// `None` if the parameter is not rounded.
     pub(crate) fn multiples(&self) -> Option<RangeInclusive<i64>> {
         let step = self.step?;
         let first = (self.from / step - ROUND_OFF).ceil() as i64;
         Some(first..=(self.to / step + ROUND_OFF).floor() as i64)
     }
 
-    /// Returns the multiples of the step below and above the value at a fraction of the interval.
+    /// Returns the multiples of the step below and above a value, as factors of the step.
     ///
-    /// They are equal at a multiple and beyond the last one. `None` without a multiple.
+    /// The value is at the fraction `share` of the interval. Both factors are equal if the value is
+    /// a multiple, or is not between two multiples. `None` if the interval contains no multiple.
     pub(crate) fn multiples_around(&self, share: f64) -> Option<[i64; 2]> {
         let (first, last) = self.multiples()?.into_inner();
         let quotient = self.value(share) / self.step?;
@@ -96,7 +98,7 @@ impl Interval {
         (first <= last).then(|| around.map(|k| (k as i64).clamp(first, last)))
     }
 
-    /// Returns the fraction of the interval at a multiple of the step.
+    /// Returns the fraction of the interval at `factor` times the step; `None` without a step.
     pub(crate) fn share_of_multiple(&self, factor: i64) -> Option<f64> {
         Some(self.share(multiple(factor as f64, self.step?)))
     }
@@ -107,15 +109,15 @@ impl Interval {
     }
 }
 
-/// Returns a multiple of a step as the decimal number that is meant.
+/// Returns `factor * step` without round-off in the decimal digits, e.g. 0.35.
 fn multiple(factor: f64, step: f64) -> f64 {
     number::short_decimal(factor * step, factor * step)
 }
 
-/// Returns the step of a rounded parameter; `None` if it is neither a length nor an
-/// angle.
+/// Returns the step to which a parameter is rounded, in the unit of the parameter.
 ///
-/// `round` is the step of lengths in mm, or over the thickness if that is unknown.
+/// `round` is the step of lengths in mm, or divided by the thickness of a scale if the thickness in
+/// mm is unknown. `None` for a parameter that is neither a length nor an angle.
 fn step(parameter: &Parameter, round: f64, thickness: Option<f64>) -> Option<f64> {
     match parameter.unit {
         "mm" => Some(round),
@@ -126,9 +128,9 @@ fn step(parameter: &Parameter, round: f64, thickness: Option<f64>) -> Option<f64
 }
 
 impl SpacePoint {
-    /// Returns the largest difference in any interval; infinite if choices differ.
+    /// Returns the largest difference of fractions over all intervals; infinite if choices differ.
     pub(crate) fn distance(&self, other: &Self) -> f64 {
-        // Choices are unordered, so a search does not step between them.
+        // The values of a choice have no order, so points with different choices are not near.
         if self.chosen != other.chosen {
             return f64::INFINITY;
         }
@@ -138,12 +140,14 @@ impl SpacePoint {
 }
 
 impl DesignSpace {
-    /// Returns the intervals that only scale columns in physical units, not measures.
+    /// Returns the indices of the intervals that only change the scale of physical columns.
+    ///
+    /// They do not change dimensionless measures.
     pub(crate) fn scaling_intervals(&self) -> Vec<usize> {
         let measures = self.sweep().measures();
         let intervals = self.intervals().iter().enumerate();
-        // A thickness also matters if lengths are in mm, and a modulus beside the modulus of the
-        // scales.
+        // The thickness changes the measures if lengths are in mm. A modulus changes the measures
+        // if the modulus of the scales is given. `has_followers` is true in these cases.
         let scaling = intervals.filter(|(_, Interval { parameter, .. })| {
             !(measures.iter().any(|m| m.sections().contains(&parameter.section))
                 || self.sweep().has_followers(parameter))
@@ -151,9 +155,10 @@ impl DesignSpace {
         scaling.map(|(j, _)| j).collect()
     }
 
-    /// Creates the space of the variables of `sweep`.
+    /// Creates the space of the variables of `sweep`. All other axes must have one value.
     ///
-    /// Its other axes have one value each. Sizes of rounded designs are multiples of `round`.
+    /// `round` is the step of lengths: in mm, or divided by the thickness if the thickness in mm is
+    /// unknown; `None` without rounding.
     pub(crate) fn new(sweep: Sweep, round: Option<f64>) -> Self {
         let (mut intervals, mut choices) = (Vec::new(), Vec::new());
         let thickness = sweep.grid().case(0).material.thickness_mm;
@@ -187,18 +192,18 @@ impl DesignSpace {
         &self.choices
     }
 
-    /// Returns the parameters of all variables.
+    /// Returns the parameters of the continuous variables, then of the discrete variables.
     pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> {
         let intervals = self.intervals.iter().map(|interval| interval.parameter);
         intervals.chain(self.choices.iter().map(|choice| choice.parameter))
     }
 
-    /// Returns the number of combinations of choices, at least one.
+    /// Returns the number of combinations of values of the discrete variables, at least one.
     pub(crate) fn combinations(&self) -> usize {
         self.choices.iter().map(|choice| choice.values.len()).fold(1, usize::saturating_mul)
     }
 
-    /// Returns the choices of the combination `index`.
+    /// Returns the values of the discrete variables in combination `index`, as indices.
     pub(crate) fn combination(&self, mut index: usize) -> Vec<usize> {
         self.choices
             .iter()
@@ -210,9 +215,9 @@ impl DesignSpace {
             .collect()
     }
 
-    /// Returns the case of a point.
+    /// Returns the case of the design at `point`.
     pub fn case(&self, point: &SpacePoint) -> Case {
-        // The first design of the grid holds all shared values.
+        // The first design of the grid contains the values of all parameters that do not vary.
         let mut case = self.sweep.grid().case(0);
         for (interval, share) in self.intervals.iter().zip(&point.shares) {
             case = interval.parameter.put(&case, Scalar::Number(interval.value(*share)));

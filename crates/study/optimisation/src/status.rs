@@ -1,4 +1,4 @@
-//! Status of a search: numbers of solved designs, and whether it is complete.
+//! Status of a search: number of solved designs, best design so far, completeness.
 
 use std::path::Path;
 use std::time::Duration;
@@ -11,7 +11,7 @@ use crate::goal::DesignGoal;
 use crate::judge::Judge;
 use crate::judgement::Judgement;
 
-/// Status of a search.
+/// Status of a search, read from its files.
 #[derive(Clone, Debug)]
 pub struct SearchStatus {
     /// Name of the goal.
@@ -22,43 +22,44 @@ pub struct SearchStatus {
     pub is_complete: bool,
     /// Number of solved designs, including samples that are solved with derivatives.
     pub designs: usize,
-    /// Number of sets of samples.
+    /// Number of sampled designs; a design counts once for each set of its samples.
     pub sample_sets: usize,
-    /// Time from the first to the last entry of the journal, with pauses.
+    /// Time from the creation of the journal to its last entry, including interruptions.
     ///
     /// `None` if unknown.
     pub time: Option<Duration>,
-    /// The goal, if this version reads it.
+    /// Goal for nominal designs; `None` if this version of squama cannot read the goal.
     pub definition: Option<DesignGoal>,
     /// Nominal designs in the order in which they were solved.
     ///
-    /// Empty for a search for a fitness, and if a variable only scales the results.
+    /// Empty if the goal uses the fitness, or if a variable only changes the scale of the results.
     pub evaluations: Vec<EvaluatedDesign>,
-    /// Version and revision of the program.
+    /// Version and revision of the program that wrote the journal.
     pub program: String,
     /// SHA-256 of the goal.
     pub goal_sha256: String,
-    /// Problems with the files of the search, one line each.
+    /// Descriptions of problems with the files of the search, one line each.
     pub problems: Vec<String>,
 }
 
 /// A nominal design that a search has solved, judged without samples.
 #[derive(Clone, Debug)]
 pub struct EvaluatedDesign {
-    /// Values of the variables; `None` for words.
+    /// Values of the variables; `None` for a value that is not a number.
     pub variables: Vec<Option<f64>>,
-    /// Values of the objectives and of the requirements.
+    /// Values of the objectives, then of the columns of the requirements.
     pub values: Vec<f64>,
-    /// True if the design meets every requirement on nominal designs.
+    /// True if the design meets each requirement on nominal designs.
     pub is_met: bool,
-    /// Largest shortfall, relative to the limit.
+    /// Largest shortfall relative to the limit.
     pub shortfall: f64,
 }
 
 impl SearchStatus {
-    /// Returns the index of the best design so far.
+    /// Returns the index of the best design so far in [`Self::evaluations`].
     ///
-    /// The best by the first objective, or if none is feasible the nearest to the limits.
+    /// This is the best feasible design by the first objective. If no design is feasible, it is the
+    /// design with the smallest shortfall.
     pub fn best(&self) -> Option<usize> {
         let goal = self.definition.as_ref()?;
         let sign = if goal.objectives[0].goal == ranking::Goal::Maximize { 1.0 } else { -1.0 };
@@ -73,7 +74,7 @@ impl SearchStatus {
         best.map(|(index, _)| index)
     }
 
-    /// Returns true if `folder` holds the journal of a search.
+    /// Returns true if `folder` contains the journal of a search.
     pub fn is_search(folder: &Path) -> bool {
         folder.join(ResultsFolder::EVALUATIONS).is_file()
     }
@@ -82,12 +83,12 @@ impl SearchStatus {
     ///
     /// # Errors
     ///
-    /// If there is no search, or its journal is damaged.
+    /// If the folder contains no search, or if the journal is damaged.
     pub fn read(folder: &Path) -> Result<Self, JournalError> {
         let folder = ResultsFolder::new(folder);
         let path = folder.file(ResultsFolder::EVALUATIONS);
-        // Query the lock before reading. If the search ends in between, it is reported as in
-        // progress.
+        // Test the lock before reading the journal. A search that ends between both steps is then
+        // reported as in progress, not as stopped.
         let in_use = journal::in_use(&path);
         let known = read_journal(&path)?;
         let known = known.ok_or_else(|| JournalError::Missing(folder.path().to_owned()))?;
@@ -98,7 +99,7 @@ impl SearchStatus {
             definition.as_ref().map_or_else(Vec::new, |goal| evaluations(&goal.nominal(), &known));
         let definition = definition.map(|goal| goal.nominal());
         let made = Derivation::read(&folder, Maker::Search.key());
-        // A command records empty checksums before it writes its files.
+        // A checksum is empty if the command was interrupted before it wrote the file.
         let mut digests = made.iter().flat_map(|made| made.files.values());
         let is_complete = !in_use && made.is_some() && digests.all(|digest| !digest.is_empty());
         let names = made.iter().filter(|_| is_complete).flat_map(|made| made.files.keys());
@@ -122,9 +123,10 @@ impl SearchStatus {
     }
 }
 
-/// Judges the solved designs of a search, without samples.
+/// Judges the solved nominal designs of a search by `goal`, the goal for nominal designs.
 fn evaluations(goal: &DesignGoal, known: &Known) -> Vec<EvaluatedDesign> {
-    // The journal has one entry for all designs that differ by scaling only.
+    // A fitness needs ends that are not in the journal. With scaling intervals the journal has one
+    // entry for many designs.
     if goal.fitness.is_some() || !goal.space.scaling_intervals().is_empty() {
         return Vec::new();
     }
@@ -146,7 +148,7 @@ fn evaluations(goal: &DesignGoal, known: &Known) -> Vec<EvaluatedDesign> {
     evaluations
 }
 
-/// Returns the time from the creation to the last change of a file.
+/// Returns the time from the creation of a file to its last change; `None` if unknown.
 fn time(path: &Path) -> Option<Duration> {
     let file = path.metadata().ok()?;
     file.modified().ok()?.duration_since(file.created().ok()?).ok()

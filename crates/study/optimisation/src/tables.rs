@@ -1,4 +1,4 @@
-//! Writes the tables of a search: best designs and all evaluated designs.
+//! Writes the files of a search: the goal, the best designs, and all evaluated designs.
 
 use journal::JournalError;
 use results::columns::{Cell, design_columns};
@@ -18,30 +18,33 @@ use crate::requirement_bounds::has_folded;
 use crate::search::Found;
 use crate::statistic::Statistic;
 
-/// Table of the best design.
+/// File name of the table of the best design.
 pub const OPTIMUM: &str = "optimum.csv";
-/// Definition of the best design, readable by every command.
+/// File name of the definition of the best design, which all commands can read.
 pub const OPTIMUM_DEFINITION: &str = "optimum.toml";
-/// Definition of the nearest design, if none is feasible.
+/// File name of the definition of the nearest design, if no design is feasible.
 pub const NEAREST_DEFINITION: &str = "nearest.toml";
-/// Table of the non-dominated designs.
+/// File name of the table of non-dominated designs.
 pub const FRONT: &str = "front.csv";
-/// Table of every evaluated design.
+/// File name of the table of all evaluated designs.
 pub const HISTORY: &str = "history.csv";
-/// Column of requirements that a check of the best design contradicts, separated by `; `.
+/// Name of the column with requirements that a check of the best design contradicts.
+///
+/// Requirements are separated by `; `.
 pub const FAILED_CHECKS: &str = "failed_checks";
-/// The goal, including overrides.
+/// File name of the goal, including settings that override keys.
 pub const GOAL: &str = "goal.toml";
 
 const FITNESS_MEANING: &str =
-    "weighted geometric mean of the rescaled criteria (Eq. 7), if the goal names it";
+    "weighted geometric mean of the rescaled criteria (Eq. 7), if the goal uses the fitness";
 
-/// A row of cells.
+/// Cells of a row of a table.
 type Cells = Vec<Cell>;
 
 /// Returns the columns of `optimum.csv` and `front.csv`.
 ///
-/// They are the columns of `designs.csv`, the fitness if used, then limits and prices.
+/// They are the columns of `designs.csv`, the fitness (if used), binding limits, prices, failed
+/// checks, and statistics over samples (if used).
 pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let known = design_columns(goal.space.sweep()).into_iter();
     let known = known.map(|column| (column.name.to_string(), column.unit, column.meaning));
@@ -50,12 +53,12 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         (
             "binding",
             "-",
-            "binding limits, which keep the design from being better: requirements, ends of variables, lower bounds of other objectives",
+            "binding limits, which prevent a better design: requirements, ends of the ranges of variables, lower bounds of other objectives",
         ),
         (
             "prices",
             "-",
-            "cost of each of these limits, by its multiplier; empty where no multipliers balance the slopes, as on a kink",
+            "cost of each binding limit, from its multiplier; empty if no multipliers balance the gradients, e.g. on a kink",
         ),
         (
             FAILED_CHECKS,
@@ -67,9 +70,9 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     cells(known.chain(own).chain(statistic_columns(goal)))
 }
 
-/// Returns the columns of the check with independent samples.
+/// Returns the columns with statistics over independent samples.
 ///
-/// Empty if the goal is not about samples.
+/// Empty if the goal contains no statistics over samples.
 fn statistic_columns(goal: &DesignGoal) -> Vec<ColumnText> {
     let known = design_columns(goal.space.sweep());
     let mut columns = Vec::new();
@@ -77,19 +80,19 @@ fn statistic_columns(goal: &DesignGoal) -> Vec<ColumnText> {
         let unit = unit_of(&known, &name);
         columns.extend([
             (name.clone(), unit, statistic.meaning()),
-            (format!("{name}_low"), unit, "lower end of its 95 % interval, if there is one"),
-            (format!("{name}_high"), unit, "upper end of that interval, if there is one"),
-            (format!("{name}_seen"), unit, "estimate of the search, from the samples that it used"),
+            (format!("{name}_low"), unit, "lower end of the 95 % interval of the statistic"),
+            (format!("{name}_high"), unit, "upper end of the 95 % interval of the statistic"),
+            (format!("{name}_seen"), unit, "estimate from the samples of the search"),
         ]);
     }
     if !columns.is_empty() {
-        let fresh = "number of independent samples behind these values";
+        let fresh = "number of independent samples for the statistics and their intervals";
         columns.push(("fresh_samples".to_owned(), "-", fresh));
     }
     columns
 }
 
-/// Returns the cells of the columns of [`statistic_columns`].
+/// Returns the cells of a best design in the columns of [`statistic_columns`].
 fn statistic_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
     let mut cells: Cells = Vec::new();
     let confirmation = best.confirmation.as_ref();
@@ -106,7 +109,7 @@ fn statistic_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
     cells
 }
 
-/// Returns the unit of a statistic, from its base column.
+/// Returns the unit of the statistic `name`, which is the unit of its column.
 fn unit_of(known: &[Column<DesignRow>], name: &str) -> &'static str {
     let base = Statistic::base(name);
     known.iter().find(|column| column.name == base).map_or("-", |column| column.unit)
@@ -115,7 +118,7 @@ fn unit_of(known: &[Column<DesignRow>], name: &str) -> &'static str {
 /// Name, unit and meaning of a column.
 type ColumnText = (String, &'static str, &'static str);
 
-/// Returns the column of an objective: of a design, a statistic or the fitness.
+/// Returns the column of an objective: a column of `designs.csv`, a statistic or the fitness.
 fn objective_column(
     goal: &DesignGoal,
     known: &[Column<DesignRow>],
@@ -130,7 +133,7 @@ fn objective_column(
     }
 }
 
-/// Returns the fitness column, if the goal uses it.
+/// Returns the column of the fitness, if the goal uses the fitness.
 fn fitness_column(goal: &DesignGoal) -> Option<ColumnText> {
     goal.fitness.is_some().then(|| (NumberColumn::FITNESS.to_owned(), "-", FITNESS_MEANING))
 }
@@ -141,7 +144,7 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         plain("evaluation", "number of the evaluation, in the order of the search"),
         plain(
             "stage",
-            "sample: space-filling point; gradient: step along derivatives; ridge: step along the derivatives on both sides of a kink; polish: derivative-free step; tolerance: first samples of a design; rounded: sizes in multiples of `goal.round`",
+            "sample: space-filling point; gradient: step of the gradient search; ridge: step of the bundle method along a kink; polish: derivative-free step; tolerance: first samples of a design; rounded: sizes in multiples of `goal.round`",
         ),
     ];
     let parameters = goal.space.parameters().map(|p| (p.key.to_owned(), p.unit, p.meaning));
@@ -151,25 +154,26 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let last = [
         plain(
             "shortfall",
-            "largest shortfall, relative to the limit; 0 where every requirement is met",
+            "largest shortfall, relative to the limit; 0 if every requirement is met",
         ),
         plain(
             "verdict",
-            "met, short (it misses a requirement), folded, nominal (it was not sampled), or why it cannot be judged",
+            "met; short: the design misses a requirement; folded; nominal: the design was not sampled; otherwise the reason why the design cannot be judged",
         ),
         plain(
             "best",
-            "best value of the first objective so far among the designs that meet every requirement",
+            "best value of the first objective so far, over designs that meet every requirement",
         ),
     ];
     cells(first.into_iter().chain(parameters).chain(objectives).chain(last))
 }
 
-/// Returns a column without a unit.
+/// Returns name, unit and meaning of a column without a unit.
 fn plain(name: &str, meaning: &'static str) -> ColumnText {
     (name.to_owned(), "-", meaning)
 }
 
+/// Creates columns that take their values from rows of cells in the same order.
 fn cells(columns: impl Iterator<Item = ColumnText>) -> Vec<Column<Cells>> {
     columns
         .enumerate()
@@ -179,13 +183,14 @@ fn cells(columns: impl Iterator<Item = ColumnText>) -> Vec<Column<Cells>> {
         .collect()
 }
 
-/// Writes the results into `folder`.
+/// Writes the results of a search into `folder`, and returns the names of the files.
 ///
-/// The files are the goal, the history, the optimum or front, and `figures` by name. Returns the
-/// names of the files.
+/// The files are the goal, the history, the optimum or front with its definition, and the `figures`
+/// (name and SVG text).
 ///
 /// # Errors
-/// If a file cannot be written, or a table has been changed since squama wrote it.
+///
+/// If a file cannot be written, or if the journal was edited after earlier tables were written.
 pub fn write_found(
     folder: &ResultsFolder,
     goal: &DesignGoal,
@@ -196,7 +201,7 @@ pub fn write_found(
     let tables = found_tables(goal, found);
     refuse_edited(folder, &tables)?;
     let mut files = vec![GOAL];
-    // First, because the claim removes tables of an earlier search.
+    // Claim the folder before writing, because the claim removes tables of an earlier search.
     let mut claim = Claim::take(folder, Maker::Search)?;
     folder.write_text(GOAL, goal.to_toml())?;
     for FoundTable { name, columns, rows } in &tables {
@@ -224,14 +229,14 @@ pub fn write_found(
     Ok(files)
 }
 
-/// A table of results.
+/// A table of a search: file name, columns and rows.
 struct FoundTable {
     name: &'static str,
     columns: Vec<Column<Cells>>,
     rows: Vec<Cells>,
 }
 
-/// Returns the history, and the best designs if there are any.
+/// Returns the table of all evaluated designs, and the table of the best designs, if any.
 fn found_tables(goal: &DesignGoal, found: &Found) -> Vec<FoundTable> {
     let rows = history(goal, found).collect();
     let history = FoundTable { name: HISTORY, columns: history_columns(goal), rows };
@@ -244,14 +249,16 @@ fn found_tables(goal: &DesignGoal, found: &Found) -> Vec<FoundTable> {
     vec![history, FoundTable { name, columns, rows }]
 }
 
-/// Returns an error if intact earlier tables of this journal have other values.
+/// Returns an error if the new `tables` differ from intact tables written from the same journal.
+///
+/// A difference means that somebody edited the journal.
 fn refuse_edited(folder: &ResultsFolder, tables: &[FoundTable]) -> Result<(), JournalError> {
     let Some(stated) = Claim::stated(folder, Maker::Search) else { return Ok(()) };
     for FoundTable { name, columns, rows } in tables {
         let Some(table) = WrittenTable::as_stated(folder, name, &stated) else { continue };
         let mut rows = rows.iter();
         let changed: Result<Vec<String>, JournalError> = table.changed(columns, |_| {
-            // A missing row counts as empty.
+            // If the new table has fewer rows, the missing rows count as empty.
             let row = rows.next().cloned();
             Ok(Some(row.unwrap_or_else(|| vec![Cell::Empty; columns.len()])))
         });
@@ -276,8 +283,8 @@ fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
         .iter()
         .enumerate()
         .map(|(index, best)| {
-            // Numbered by position in the front, so that `--design 3` selects a design of the
-            // folder.
+            // The number of a design is its position in the front, so that `--design 3` selects the
+            // third design.
             let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };
             let mut cells: Cells = known.iter().map(|column| column.cell(&row)).collect();
             cells.extend(
@@ -322,19 +329,20 @@ fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = C
     })
 }
 
-/// Returns the value of a design in a column of the goal.
+/// Returns the value of a design in a column of the goal; empty without a valid judgement.
 fn value(goal: &DesignGoal, candidate: &Candidate, column: &str) -> Cell {
     let Judgement::Judged(worth) = &candidate.verdict else { return Cell::Empty };
     goal.values(worth).find(|(name, _)| *name == column).map(|(_, value)| value).into()
 }
 
+/// Returns the row of a nominal design.
 fn row(goal: &DesignGoal, candidate: &Candidate) -> DesignRow {
     let number = goal.space.sweep().grid().number(0);
     let case = goal.space.case(&candidate.point);
     DesignRow { number, case, result: candidate.result.as_ref().clone() }
 }
 
-/// Returns the shortfall and the verdict of a design.
+/// Returns the cells `shortfall` and `verdict` of a design.
 fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
     match &candidate.verdict {
         Judgement::Judged(worth) => {
@@ -343,7 +351,7 @@ fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
                 (false, true) => "folded",
                 (false, false) => "short",
             };
-            // The shortfall is infinite if samples fail.
+            // The shortfall is infinite if too many samples have no value.
             [finite(if worth.met { 0.0 } else { worth.shortfall() }).into(), word.into()]
         }
         Judgement::Nominal(worth) => {

@@ -1,7 +1,7 @@
 //! Journal of a search, with one line for each solved point or set of samples.
 //!
-//! The state of the search is not stored. A resumed search repeats its decisions, and reads results
-//! from the journal until it reaches points that have not been solved.
+//! The state of the search is not stored. A resumed search starts again and makes the same
+//! decisions, but reads results from the journal until it reaches points without a stored result.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -18,12 +18,15 @@ use crate::error::OptimisationError;
 use crate::sample::Samples;
 use crate::space::SpacePoint;
 
-/// A line of the journal after the header.
+/// Content of a line of the journal after the header.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum JournalLine {
+    /// A solved point.
     Solved(Box<SolvedLine>),
+    /// Samples of a point.
     Samples(SamplesLine),
+    /// A point that must be solved from rest.
     Far(FarLine),
 }
 
@@ -45,7 +48,7 @@ impl Positions {
     }
 }
 
-/// A solved point.
+/// Result of a solved point.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SolvedLine {
@@ -54,12 +57,14 @@ pub(crate) struct SolvedLine {
     /// Load positions of the puncture.
     #[serde(default, skip_serializing_if = "Positions::is_all")]
     pub positions: Positions,
-    /// Fractions of the intervals of a similar design, if the puncture starts from its end.
+    /// Fractions of the intervals of the similar design at which the puncture path started.
+    ///
+    /// `None` for a path from rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near: Option<Vec<f64>>,
     /// Number of the sample; `None` for the nominal design.
     ///
-    /// The sample has the batch deviations only, without scatter between scales.
+    /// The sample has only batch deviations, without scatter between scales.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample: Option<u64>,
     /// Fractions of the intervals.
@@ -70,19 +75,19 @@ pub(crate) struct SolvedLine {
     pub result: DesignResult,
 }
 
-/// A point that cannot be solved from the path end at another point.
+/// Pair of points: the first point cannot be solved from the path end at the second point.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FarLine {
-    /// Fractions of the intervals.
+    /// Fractions of the intervals at the first point.
     pub shares: Vec<f64>,
-    /// Fractions of the intervals at the other point.
+    /// Fractions of the intervals at the second point.
     pub near: Vec<f64>,
     /// Indices of the choices, equal at both points.
     pub chosen: Vec<usize>,
 }
 
-/// Samples of the design at a point.
+/// Values of consecutive samples of the design at a point.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SamplesLine {
@@ -92,58 +97,61 @@ pub(crate) struct SamplesLine {
     pub shares: Vec<f64>,
     /// Indices of the choices.
     pub chosen: Vec<usize>,
-    /// Values of each sample in the columns by which it is judged.
+    /// Values of each sample in the columns that the goal needs.
     pub values: Samples,
 }
 
-/// Identifies a solved point.
+/// Key that identifies the result of a solved point.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct EvaluationKey {
+    /// True if the result includes derivatives.
     pub differentiated: bool,
     pub positions: Positions,
-    /// Point of a similar design, if the puncture starts from its end.
+    /// Point of the similar design at which the puncture path started; `None` for a path from rest.
     pub near: Option<PointKey>,
     /// Number of the sample; `None` for the nominal design.
     pub sample: Option<u64>,
     pub point: PointKey,
 }
 
-/// Identifies a point by the bits of its fractions.
+/// Key that identifies a point by the bits of its fractions and by its choices.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct PointKey {
     shares: Vec<u64>,
     chosen: Vec<usize>,
 }
 
-/// A point, the number of its first sample and the count.
+/// Key of samples: the point, the number of the first sample, and the number of samples.
 type SamplesKey = (PointKey, u64, usize);
 
 impl PointKey {
+    /// Returns the key of `point`.
     pub fn of(point: &SpacePoint) -> Self {
         Self::new(&point.shares, &point.chosen)
     }
 
     fn new(shares: &[f64], chosen: &[usize]) -> Self {
-        // Exact, because a repeated search requests exactly the same points.
+        // No tolerance is needed: a resumed search requests exactly the same points.
         let shares = shares.iter().map(|share| share.to_bits()).collect();
         Self { shares, chosen: chosen.to_vec() }
     }
 }
 
-/// Results in the journal.
+/// Content of the journal: results of points and samples.
 pub(crate) struct Known {
     header: JournalHeader,
     pub solved: HashMap<EvaluationKey, Arc<DesignResult>>,
-    /// Points of nominal designs in the order in which they were solved, each once.
+    /// Nominal designs in the order in which they were solved; each point is listed once.
     pub order: Vec<(SpacePoint, Arc<DesignResult>)>,
+    /// Keys of the points in `order`.
     points: HashSet<PointKey>,
-    /// Pairs of points: the first one cannot be solved from the path end at the second one.
+    /// Pairs of points: the first point cannot be solved from the path end at the second point.
     far: HashSet<[PointKey; 2]>,
     pub sampled: HashMap<SamplesKey, Arc<Samples>>,
 }
 
 impl Known {
-    /// Returns true if a point is known to be too far from the path end at another point.
+    /// Returns true if the point in `key` is known to be too far from the path end in `key`.
     pub fn is_far(&self, key: &EvaluationKey) -> bool {
         let near = key.near.as_ref();
         near.is_some_and(|near| self.far.contains(&[key.point.clone(), near.clone()]))
@@ -180,8 +188,8 @@ impl Records for Known {
                     point: of_point.clone(),
                 };
                 self.solved.insert(key, Arc::clone(&result));
-                // The journal may contain several results of one point: with and without
-                // derivatives, solved from rest or from a neighbouring end. List the point once.
+                // The journal may contain several results of one point: with or without
+                // derivatives, from rest or from another path end. List the point only once.
                 if sample.is_none() && self.points.insert(of_point) {
                     self.order.push((point, result));
                 }
@@ -206,14 +214,14 @@ impl Records for Known {
     }
 }
 
-/// Reads the journal at `path` without a lock; a search may be writing to it.
+/// Reads the journal at `path` without a lock, so a search may be writing to it.
 ///
 /// Returns `None` if the first line is incomplete.
 pub(crate) fn read_journal(path: &Path) -> Result<Option<Known>, JournalError> {
     journal::read(path)
 }
 
-/// Opens the journal in `folder` for the search of `goal`.
+/// Creates or continues the journal in `folder` for the search of `goal`.
 pub(super) fn begin(
     folder: &Path,
     goal: &str,
@@ -222,14 +230,14 @@ pub(super) fn begin(
 ) -> Result<Journal<Known>, OptimisationError> {
     let folder = ResultsFolder::new(folder);
     folder.require_own(Maker::Search, start)?;
-    // Refuse existing files that have the names of results but were not written by a search: one of
-    // them may be the goal itself.
+    // Refuse a folder with files that have the names of results but were not written by a search.
+    // Such a file may be the goal itself.
     Claim::check(&folder, Maker::Search)?;
     folder.make()?;
     let path = folder.file(ResultsFolder::EVALUATIONS);
     if start == Start::Fresh {
-        // Remove the tables before the journal. Otherwise a kill in between would leave the optimum
-        // of one goal beside the journal of another.
+        // Remove the tables before the journal. If the process is killed between both steps, the
+        // folder never contains tables of one goal and the journal of another.
         let _alone = lock_journal(&path)?;
         Claim::release(&folder, Maker::Search);
     }

@@ -1,7 +1,7 @@
 //! Refuses requirements that exceed bounds known in closed form.
 //!
-//! Scales occupy the fraction `1 − d/p` of the pitch, and only the gaps bend. The coverage is at
-//! most `1 − d/p` and the compliance at most `d/p` (O8).
+//! For gap `d` and pitch `p`, scales occupy the fraction `1 − d/p` of the pitch, and only the gaps
+//! bend. So the coverage is at most `1 − d/p`, and the compliance at most `d/p` (O8).
 
 use ranking::Requirement;
 use results::columns::name;
@@ -13,7 +13,7 @@ use super::section::GoalSection;
 use crate::coverage_piece::{COMPLIANCES, open_share};
 use crate::space::{DesignSpace, SpacePoint};
 
-/// Maximum number of intervals for which all corners are evaluated.
+/// Maximum number of continuous variables for which all corners of the space are evaluated.
 const CORNERED: usize = 12;
 
 /// Returns true for a lower bound of one of `columns`.
@@ -21,7 +21,7 @@ fn is_lower_bound(requirement: &Requirement, columns: &[&str]) -> bool {
     columns.contains(&requirement.column.as_str()) && requirement.direction() > 0.0
 }
 
-/// Returns errors for requirements on coverage and compliance that cannot be met.
+/// Returns errors for requirements on coverage and compliance that no design in `space` can meet.
 pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<InvalidDefinition> {
     let Some((least, most)) = open_shares(space) else { return Vec::new() };
     let mut refused = Vec::new();
@@ -41,14 +41,14 @@ pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<Inva
             is_lower_bound(other, &COMPLIANCES) && requirement.limit + other.limit > 1.0
         });
         let expected = if !requirement.is_met(bound) {
-            format!("at most {} between these ends of the variables: {why}", number::text(bound))
+            format!("at most {} within the ranges of the variables: {why}", number::text(bound))
         } else if let Some(other) = beside.next()
             && is_on_coverage
             && !requirement.is_met(1.0 - other.limit)
         {
             let remaining = number::text(rounded(1.0 - other.limit));
             format!(
-                "at most {remaining} beside {other}: scales occupy 1 - d/p of the pitch, which bounds coverage, and gaps d/p, which bounds compliance"
+                "at most {remaining} together with {other}: coverage is at most 1 - d/p and compliance at most d/p, the fractions of the pitch that scales and gaps occupy"
             )
         } else {
             continue;
@@ -58,14 +58,15 @@ pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<Inva
     refused
 }
 
-/// Removes the round-off of a difference of limits.
+/// Rounds a difference of limits to 12 decimals, which removes round-off.
 fn rounded(value: f64) -> f64 {
     (value * 1e12).round() * 1e-12
 }
 
-/// Returns the smallest and largest `d/p` of the space.
+/// Returns the smallest and the largest `d/p` of the designs in `space`.
 ///
-/// They are at corners, because `d/p` is monotonic in gap and length. `None` for too many corners.
+/// Both are at corners of the space, because `d/p` is monotonic in gap and length. `None` if there
+/// are too many corners.
 fn open_shares(space: &DesignSpace) -> Option<(f64, f64)> {
     let intervals = space.intervals().len();
     if intervals > CORNERED || space.combinations() > 1 << CORNERED {

@@ -1,4 +1,4 @@
-//! Keys of the fitness in `[goal]`: weights and ends of its criteria.
+//! Reads the keys of the fitness in `[goal]`: weights, and worst and best values of its criteria.
 
 use ranking::{CRITERIA, Criterion, CriterionEnds, FitnessGoal, Goal, Scale, Weights};
 use serde_json::{Value as Json, json};
@@ -10,7 +10,7 @@ use super::refusal::{no_effect, not_accepted};
 const WEIGHTS: &str = "weights of at least 0, one of them positive, of columns for which large or small values are known to be better, e.g. { coverage = 1, critical_force = 2 }";
 const RESCALE: &str = "the worst and the best value of each column, e.g. { coverage = [0, 0.9] }";
 
-/// Values of the keys read so far.
+/// Values of the keys `weights` and `rescale` read so far.
 #[derive(Default)]
 pub(super) struct FitnessSection {
     weights: Option<(Vec<Criterion>, Weights, Place)>,
@@ -60,7 +60,10 @@ impl FitnessSection {
         Ok(())
     }
 
-    /// Returns the fitness, if the goal names it.
+    /// Returns the fitness if the goal refers to it.
+    ///
+    /// `is_named` is true if an objective or requirement is `fitness`. Otherwise the keys of the
+    /// fitness have no effect, which is an error.
     pub fn goal(&self, is_named: bool) -> Result<Option<FitnessGoal>, InvalidDefinition> {
         if !is_named {
             return self.unused().map_or(Ok(None), Err);
@@ -76,7 +79,7 @@ impl FitnessSection {
         Ok(Some(FitnessGoal { criteria, weights, ends }))
     }
 
-    /// Returns the error for keys without effect because the goal has no fitness.
+    /// Returns the error for a key that has no effect because the goal has no fitness.
     fn unused(&self) -> Option<InvalidDefinition> {
         let of_weights = self.weights.iter().map(|(.., place)| ("goal.weights", place));
         let of_ends = self.ends.iter().map(|(_, place)| ("goal.rescale", place));
@@ -85,6 +88,7 @@ impl FitnessSection {
     }
 }
 
+/// Returns the keys of a non-empty table; `None` for other values.
 fn table(value: &Value) -> Option<&KeyValues> {
     match value {
         Value::Table(inner) if !inner.is_empty() => Some(inner),
@@ -92,7 +96,9 @@ fn table(value: &Value) -> Option<&KeyValues> {
     }
 }
 
-/// Reads a weight of a column; `None` if it is not a number of a known criterion.
+/// Reads the weight of a column.
+///
+/// `None` if the value is not a number, or if the column is not a criterion.
 fn weight(entry: &KeyValue) -> Option<(Criterion, f64)> {
     match &entry.value {
         Value::Number(text) if !entry.key.contains(':') => {
@@ -113,7 +119,7 @@ fn criterion_ends(entry: &KeyValue) -> Option<(CriterionEnds, Place)> {
     (worst.is_finite() && best.is_finite()).then(|| (ends, entry.place.clone()))
 }
 
-/// Refuses ends of columns that are not criteria, and ends in the wrong order.
+/// Checks that `ends` belong to one of the `criteria`, and that the worst value precedes the best.
 fn check(
     ends: &CriterionEnds,
     criteria: &[Criterion],

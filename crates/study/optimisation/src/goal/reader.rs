@@ -1,4 +1,4 @@
-//! Reads a goal from keys and values.
+//! Reads a goal from the keys and values of a file, and checks it.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -26,12 +26,12 @@ impl DesignGoal {
     ///
     /// # Errors
     ///
-    /// If the file cannot be read or is not a goal. The error lists all problems.
+    /// If the file cannot be read or does not define a goal. The error lists all problems.
     pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
         Self::read_with(path, settings, &[])
     }
 
-    /// Reads a goal with further requirements; see [`Self::read`].
+    /// Reads a goal like [`Self::read`], and adds the requirements in `required`.
     ///
     /// # Errors
     ///
@@ -48,27 +48,27 @@ impl DesignGoal {
         Self::of_section(&entries, &path.display().to_string(), required)
     }
 
-    /// Reads the goal in `text` and applies `settings`; `name` is the file name.
+    /// Reads the goal in `text` and applies `settings`; messages contain the file name `name`.
     ///
     /// # Errors
     ///
-    /// If the text is not a goal.
+    /// If the text does not define a goal. The error lists all problems.
     pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
         Self::of_entries(&entries(text, name, settings)?, name)
     }
 
-    /// Creates the goal from `entries` of the file `name`.
+    /// Creates the goal from `entries`, the keys and values of the file `name`.
     ///
     /// # Errors
     ///
-    /// If they are not a goal.
+    /// If the entries do not define a goal. The error lists all problems.
     pub fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
         Self::of_section(entries, name, &[])
     }
 
-    /// Creates the goal from `entries`; see [`Self::of_entries`].
+    /// Creates the goal like [`Self::of_entries`].
     ///
-    /// The requirements in `required` come from the command line.
+    /// `entries` already contain the requirements in `required`, which come from the command line.
     fn of_section(
         entries: &KeyValues,
         name: &str,
@@ -79,7 +79,7 @@ impl DesignGoal {
         let mut refused = Vec::new();
         let mut section = goal_section(entries, &file, &mut refused);
         for (requirement, place) in &mut section.requirements {
-            // Errors in requirements of the command line must not name a line of the file.
+            // Errors in requirements of the command line must not state a line of the file.
             if required.contains(requirement) {
                 *place = argument(requirement);
             }
@@ -126,16 +126,16 @@ impl DesignGoal {
     }
 }
 
-/// Returns the position of a requirement on the command line.
+/// Returns the position that messages state for a requirement of the command line.
 fn argument(requirement: &Requirement) -> Place {
     Place::Argument(format!("--require '{requirement}'").into())
 }
 
-/// Adds a requirement to the goal in `entries`.
+/// Adds a requirement to the key `require` of the section `[goal]` in `entries`.
 fn require(entries: &mut KeyValues, requirement: &Requirement) {
     let (name, text, place) = ("require", requirement.to_string(), argument(requirement));
     let goal = entries.iter_mut().find(|entry| entry.key == "goal");
-    // A definition without a goal is refused later.
+    // A definition without a section `[goal]` is refused later.
     let Some(KeyValue { value: Value::Table(goal), .. }) = goal else { return };
     let own = goal.iter_mut().find(|entry| entry.key == name).map(|entry| &mut entry.value);
     match own {
@@ -145,7 +145,7 @@ fn require(entries: &mut KeyValues, requirement: &Requirement) {
     }
 }
 
-/// Returns the entries of a section.
+/// Returns the entries of the section `name`; empty if there is no such section.
 fn section<'e>(entries: &'e KeyValues, name: &str) -> &'e [KeyValue] {
     match entries.iter().find(|entry| entry.key == name).map(|entry| &entry.value) {
         Some(Value::Table(inner)) => inner,
@@ -153,6 +153,7 @@ fn section<'e>(entries: &'e KeyValues, name: &str) -> &'e [KeyValue] {
     }
 }
 
+/// Reads the section `[goal]`. Errors are added to `refused`.
 fn goal_section(
     entries: &KeyValues,
     file: &Place,
@@ -169,9 +170,9 @@ fn goal_section(
     goal
 }
 
-/// Returns the reasons why a space cannot be searched.
+/// Returns errors for variables and parameters that do not define a space to search.
 ///
-/// Reasons are missing variables, intervals of parameters that are not continuous, and parameters
+/// These are missing variables, intervals of parameters that are not continuous, and parameters
 /// that have several values but are not variables.
 fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<InvalidDefinition> {
     if sweep.variables().is_empty() {
@@ -203,15 +204,16 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
     vague.chain(open).collect()
 }
 
-/// Returns the position of a key in a section.
+/// Returns the position in the file of a key in the section `section_name`.
 fn entry_place<'e>(entries: &'e KeyValues, section_name: &str, key: &str) -> Option<&'e Place> {
     let mut section = section(entries, section_name).iter();
     section.find(|entry| entry.key == key).map(|entry| &entry.place)
 }
 
-/// Returns errors for meaningless keys of a goal.
+/// Returns errors for keys of a goal that have no meaning.
 ///
-/// They are unknown columns, incomparable objectives and contradictory requirements.
+/// These are unknown columns, objectives that cannot be compared between designs, requirements that
+/// no design can meet, and yields without meaning.
 fn meaningless_keys(
     goal: &GoalSection,
     fitness: Option<&FitnessGoal>,
@@ -225,8 +227,8 @@ fn meaningless_keys(
         let is_nominal = Statistic::named(named.column).is_none() || known.contains(&named.column);
         unavailable.or_else(|| missing_column(named, &known, sweep).filter(|_| is_nominal))
     });
-    // Only objectives compare designs: with a variable tilt a force may be required, but not
-    // maximised.
+    // This check is for objectives only, because requirements do not compare designs. For example,
+    // if the critical tilt is a variable, a force may be required but not maximised.
     let objectives = named.iter().filter(|named| named.key != "goal.require");
     let incomparable = objectives.flat_map(|Written { column, key, place }| {
         sweep
@@ -244,7 +246,7 @@ fn meaningless_keys(
     found.chain(out_of_reach(goal, sweep)).chain(statistics::meaningless_keys(goal)).collect()
 }
 
-/// Returns the columns of a goal, with the criteria in place of the fitness.
+/// Returns the columns of a goal. The fitness is replaced by the columns of its criteria.
 fn named<'a>(goal: &'a GoalSection, fitness: Option<&'a FitnessGoal>) -> Vec<Written<'a>> {
     let (of_fitness, mut named): (Vec<_>, Vec<_>) =
         goal.columns().partition(|named| named.column == NumberColumn::FITNESS);
@@ -259,6 +261,9 @@ fn named<'a>(goal: &'a GoalSection, fitness: Option<&'a FitnessGoal>) -> Vec<Wri
     named
 }
 
+/// Returns the error for a column that does not exist or is not computed.
+///
+/// `known` are the columns of `designs.csv`.
 fn missing_column(named: &Written, known: &[&str], sweep: &Sweep) -> Option<InvalidDefinition> {
     let Written { column, key, place } = *named;
     if known.contains(&column) {
@@ -270,7 +275,7 @@ fn missing_column(named: &Written, known: &[&str], sweep: &Sweep) -> Option<Inva
         (Some(quantiles), _) => quantiles,
         (None, Some(near)) => format!("a column of designs.csv; did you mean {near}?"),
         (None, None) => {
-            "a column of designs.csv, e.g. critical_force; those in mm, N and kg need a [material]"
+            "a column of designs.csv, e.g. critical_force; columns in mm, N and kg need a section [material]"
                 .to_owned()
         }
     };
@@ -290,7 +295,8 @@ fn contradictions(goal: &GoalSection) -> Vec<InvalidDefinition> {
     found
 }
 
-/// Returns true if a lower bound exceeds an upper bound of the same column.
+/// Returns true if `lower` is a lower bound that exceeds the upper bound `upper` of the same
+/// column.
 fn exclude(lower: &Requirement, upper: &Requirement) -> bool {
     let is_lower = matches!(lower.relation, Relation::AtLeast | Relation::Above);
     let is_upper = matches!(upper.relation, Relation::AtMost | Relation::Below);
@@ -299,7 +305,7 @@ fn exclude(lower: &Requirement, upper: &Requirement) -> bool {
     same && (lower.limit > upper.limit || (strict && lower.limit >= upper.limit))
 }
 
-/// Returns errors for requirements on variables that no value can meet.
+/// Returns errors for requirements on variables that no value in the variable's range can meet.
 fn out_of_reach<'a>(
     goal: &'a GoalSection,
     sweep: &'a Sweep,
@@ -319,7 +325,7 @@ fn out_of_reach<'a>(
     })
 }
 
-/// Returns the reason why a best design cannot be rounded.
+/// Returns the error if the key `round` cannot be applied to the best design.
 fn not_rounded(goal: &GoalSection, space: &DesignSpace) -> Option<InvalidDefinition> {
     let (round, place) = goal.round.as_ref()?;
     let name = "goal.round";
@@ -344,9 +350,9 @@ fn not_rounded(goal: &GoalSection, space: &DesignSpace) -> Option<InvalidDefinit
     Some(not_accepted(place, name, round, expected))
 }
 
-/// Formats keys and values as TOML.
+/// Formats the keys and values of a goal as TOML.
 fn to_toml(entries: &KeyValues) -> String {
-    // Values precede tables, because TOML would count later ones as part of a table.
+    // Write values before tables, because in TOML a value after a table belongs to the table.
     let (tables, values): (Vec<_>, Vec<_>) =
         entries.iter().partition(|entry| matches!(entry.value, Value::Table(_)));
     let mut text = String::new();

@@ -5,6 +5,7 @@ use std::fmt::Display;
 use sweep::{InvalidDefinition, WrongValue, refuse};
 use text::toml_source::Place;
 
+/// Returns the error for a value `found` of `key` where `expected` was expected.
 pub(super) fn not_accepted(
     place: &Place,
     key: &str,
@@ -14,6 +15,7 @@ pub(super) fn not_accepted(
     refuse(place, key, WrongValue::not_accepted(found, expected))
 }
 
+/// Returns the error for a `key` that has no effect for this `reason`.
 pub(super) fn no_effect(place: &Place, key: &str, reason: &str) -> InvalidDefinition {
     refuse(place, key, WrongValue::NoEffect(reason.to_owned()))
 }

@@ -1,4 +1,4 @@
-//! Section `[goal]`: objectives, requirements, and the size of the search.
+//! Reads the section `[goal]`: objectives, requirements, and the size of the search.
 
 use std::str::FromStr;
 
@@ -20,7 +20,7 @@ const KEYS: [&str; 13] = [
     "round", "samples", "points", "skins", "seed",
 ];
 
-/// A column, with the key and the position in the file.
+/// A column in the goal, with the key that names it and the position in the file.
 pub(super) struct Written<'a> {
     pub column: &'a str,
     pub key: &'static str,
@@ -43,22 +43,22 @@ pub(super) struct GoalSection {
     pub seed: u64,
 }
 
-/// Largest accepted step of rounded lengths.
+/// Largest accepted step for rounding lengths.
 const COARSEST: f64 = 100.0;
-/// Accepted numbers of space-filling points.
+/// Smallest and largest accepted number of space-filling points.
 const SAMPLES: [usize; 2] = [2, 10_000_000];
-/// Accepted numbers of points of a front.
+/// Smallest and largest accepted number of points of a front.
 const POINTS: [usize; 2] = [2, 1000];
-/// Accepted numbers of samples of each design.
+/// Smallest and largest accepted number of samples of each design.
 const SKINS: [usize; 2] = [20, 100_000];
-/// Accepted seeds.
+/// Smallest and largest accepted seed.
 const SEEDS: [usize; 2] = [0, 1_000_000_000];
 
 /// Returns the JSON schema of the section `[goal]`.
 pub fn goal_schema() -> Json {
     let default = GoalSection::default();
     let protects = format!("levels of standards: {}", Standard::levels());
-    // In the order of `KEYS`. A key without a schema does not compile.
+    // Schemas in the order of `KEYS`. If one is missing, this array does not compile.
     let about: [Json; KEYS.len()] = [
         texts_schema("columns of designs.csv to be maximised, e.g. \"critical_force\""),
         texts_schema("columns of designs.csv to be minimised"),
@@ -72,11 +72,11 @@ pub fn goal_schema() -> Json {
         }),
         json!({
             "type": "boolean", "default": default.confirm,
-            "description": "meet the requirements with full substrate coupling and at eleven load positions, too",
+            "description": "the best design must also meet the requirements with full substrate coupling and at eleven load positions",
         }),
         json!({
             "type": "number", "exclusiveMinimum": 0, "maximum": COARSEST,
-            "description": "round the lengths of the best design to multiples of this step in mm, or of the thickness if that is unknown, and angles to whole degrees",
+            "description": "round the lengths of the best design to multiples of this step, in mm or, without material.thickness_mm, in units of the thickness; round angles to whole degrees",
         }),
         count_schema(SAMPLES, default.samples, "number of space-filling points"),
         count_schema(POINTS, default.points, "number of points of a front"),
@@ -131,7 +131,7 @@ impl Default for GoalSection {
 }
 
 impl GoalSection {
-    /// Reads one key.
+    /// Reads one key of the section. The error states the position in the file.
     pub fn entry(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         match entry.key.as_str() {
             "maximize" => self.objectives(entry, Goal::Maximize)?,
@@ -162,7 +162,7 @@ impl GoalSection {
         Ok(())
     }
 
-    /// Returns the columns of objectives and requirements.
+    /// Returns the columns of objectives, then of requirements, with their positions in the file.
     pub fn columns(&self) -> impl Iterator<Item = Written<'_>> {
         let objectives = self.objectives.iter().map(|(criterion, place)| Written {
             column: &criterion.column,
@@ -180,11 +180,12 @@ impl GoalSection {
         objectives.chain(required)
     }
 
+    /// Reads the columns of `entry`, which are all maximised or all minimised.
     fn objectives(&mut self, entry: &KeyValue, goal: Goal) -> Result<(), InvalidDefinition> {
         for column in texts(entry, "a column, e.g. \"critical_force\"")? {
             let criterion = Criterion::new(column, goal);
             if self.objectives.iter().any(|(other, _)| other.column == criterion.column) {
-                return Err(wrong(entry, column, "each column as one objective"));
+                return Err(wrong(entry, column, "each column only once as an objective"));
             }
             self.objectives.push((criterion, entry.place.clone()));
         }
@@ -196,7 +197,7 @@ impl GoalSection {
         Ok(())
     }
 
-    /// Reads levels of standards, which are requirements.
+    /// Reads levels of standards, e.g. `needle 2`, and adds them as requirements.
     fn levels(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let expected = format!("a level of a standard: {}", Standard::levels());
         for text in texts(entry, &expected)? {
@@ -208,8 +209,9 @@ impl GoalSection {
         Ok(())
     }
 
+    /// Reads requirements such as `coverage >= 0.5`.
     fn requirements(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        let expected = "COLUMN OP NUMBER, OP being >=, <=, > or <, e.g. \"coverage >= 0.5\"; a parameter that is to have one value is fixed in its section";
+        let expected = "COLUMN OP NUMBER, OP being >=, <=, > or <, e.g. \"coverage >= 0.5\"; to fix a parameter, state its value in its section";
         for text in texts(entry, "a requirement, e.g. \"coverage >= 0.5\"")? {
             match Requirement::from_str(text) {
                 Ok(read) if read.relation != Relation::Equal => {
@@ -222,7 +224,7 @@ impl GoalSection {
     }
 }
 
-/// Returns the error for a value of `entry`.
+/// Returns the error for the value `found` in `entry` where `expected` was expected.
 fn wrong(
     entry: &KeyValue,
     found: impl std::fmt::Display,
@@ -231,7 +233,9 @@ fn wrong(
     not_accepted(&entry.place, &format!("goal.{}", entry.key), found, expected)
 }
 
-/// Returns the texts of a list, or a single text.
+/// Returns the texts in a value that is a list of texts or a single text.
+///
+/// The last argument describes an expected text; it appears in the error.
 fn texts<'v>(entry: &'v KeyValue, what: &str) -> Result<Vec<&'v str>, InvalidDefinition> {
     let items = match &entry.value {
         Value::List(items) => items.as_slice(),
@@ -246,6 +250,7 @@ fn texts<'v>(entry: &'v KeyValue, what: &str) -> Result<Vec<&'v str>, InvalidDef
         .collect()
 }
 
+/// Reads the value `true` or `false`.
 fn switch(entry: &KeyValue) -> Result<bool, InvalidDefinition> {
     match &entry.value {
         Value::Other(text) if text == "true" => Ok(true),
@@ -254,7 +259,7 @@ fn switch(entry: &KeyValue) -> Result<bool, InvalidDefinition> {
     }
 }
 
-/// Reads the step of rounded lengths.
+/// Reads the step for rounding lengths.
 fn step(entry: &KeyValue) -> Result<f64, InvalidDefinition> {
     let read = match &entry.value {
         Value::Number(text) => text.parse().ok().filter(|step| *step > 0.0 && *step <= COARSEST),
@@ -265,6 +270,7 @@ fn step(entry: &KeyValue) -> Result<f64, InvalidDefinition> {
     })
 }
 
+/// Reads an integer from `low` to `high`.
 fn count(entry: &KeyValue, [low, high]: [usize; 2]) -> Result<usize, InvalidDefinition> {
     let read = match &entry.value {
         Value::Number(text) => text.parse().ok().filter(|count| (low..=high).contains(count)),

@@ -1,6 +1,6 @@
-//! Checks statistics over samples in a goal: quantiles and yields.
+//! Checks the statistics over samples in a goal: quantiles and yields.
 //!
-//! Both need deviations.
+//! A statistic needs deviations, i.e. a section `[tolerance]`.
 
 use ranking::{Goal, Relation};
 use results::columns::{Cell, design_columns, measure_of, name};
@@ -11,13 +11,15 @@ use super::refusal::{no_effect, not_accepted};
 use super::section::{GoalSection, Written};
 use crate::statistic::Statistic;
 
-const DEVIATIONS: &str = "a [tolerance] beside it, e.g. gap_over_t = { batch_sd = 0.02 }";
+/// Expected text for a statistic in a goal without deviations.
+const DEVIATIONS: &str = "a section [tolerance], e.g. gap_over_t = { batch_sd = 0.02 }";
+/// Expected text for a statistic in a goal with deviations and with a section `[imperfection]`.
 const ONE_SCATTER: &str =
     "scatter from scale to scale as scale_sd in [tolerance], without [imperfection]";
 
-/// Returns the reason why a sweep has no such statistic.
+/// Returns the error for a statistic that `sweep` cannot have.
 ///
-/// `None` if it has, or if the column is not a statistic.
+/// `None` if the sweep has the statistic, or if the column is not a statistic.
 pub(super) fn unavailable(named: &Written, sweep: &Sweep) -> Option<InvalidDefinition> {
     let Written { column, key, place } = *named;
     let statistic = Statistic::named(column)?;
@@ -32,9 +34,9 @@ pub(super) fn unavailable(named: &Written, sweep: &Sweep) -> Option<InvalidDefin
     Some(not_accepted(place, key, column, expected))
 }
 
-/// Returns the expected text in place of a quantile of `column`.
+/// Returns the text that describes accepted names, if a quantile of `column` is not accepted.
 ///
-/// `None` if the column is numeric.
+/// `None` if the column has numbers, so that its quantiles exist.
 fn not_of_numbers(column: &str, sweep: &Sweep) -> Option<String> {
     let columns = design_columns(sweep);
     let Some(known) = columns.iter().find(|known| known.name == column) else {
@@ -54,12 +56,14 @@ fn not_of_numbers(column: &str, sweep: &Sweep) -> Option<String> {
     })
 }
 
-/// Lists the quantiles of a column.
+/// Lists the names of the quantiles of a column, separated by commas.
 fn quantiles(column: &str) -> String {
     QUANTILES.map(|(ending, _)| format!("{column}_{ending}")).join(", ")
 }
 
-/// Returns true if a column contains text for a design without a path.
+/// Returns true if a column contains text.
+///
+/// The column is evaluated for a design without paths.
 fn holds_text(column: &Column<DesignRow>, sweep: &Sweep) -> bool {
     let (number, case) = (sweep.grid().number(0), sweep.grid().case(0));
     let result = DesignResult {
@@ -70,14 +74,16 @@ fn holds_text(column: &Column<DesignRow>, sweep: &Sweep) -> bool {
     matches!(column.cell(&DesignRow { number, case, result }), Cell::Text(_))
 }
 
-/// Suggests quantiles for a name such as `critical_force_p5`.
+/// Suggests the quantiles of a column for a wrong name such as `critical_force_p5`.
+///
+/// `None` if `column` does not look like a quantile of one of the `known` columns.
 pub(super) fn nearly(column: &str, known: &[&str]) -> Option<String> {
     let (base, ending) = column.rsplit_once("_p")?;
     let is_nearly = known.contains(&base) && ending.starts_with(|c: char| c.is_ascii_digit());
     is_nearly.then(|| format!("one of the quantiles {}", quantiles(base)))
 }
 
-/// Returns errors for meaningless yields and for an unused number of samples.
+/// Returns errors for yields without meaning, and for a number of samples without effect.
 pub(super) fn meaningless_keys(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let mut refused = Vec::new();
     for (requirement, place) in &goal.requirements {
@@ -91,13 +97,13 @@ pub(super) fn meaningless_keys(goal: &GoalSection) -> Vec<InvalidDefinition> {
     }
     for (criterion, place) in &goal.objectives {
         if criterion.column == Statistic::YIELD && criterion.goal == Goal::Minimize {
-            refused.push(not_accepted(place, "goal.minimize", "yield", "it in maximize"));
+            refused.push(not_accepted(place, "goal.minimize", "yield", "yield in maximize"));
         }
     }
     let has_bounds = goal.requirements.iter().any(|(r, _)| Statistic::named(&r.column).is_none());
     let mut yields = goal.columns().filter(|named| named.column == Statistic::YIELD && !has_bounds);
     refused.extend(yields.next().map(|Written { column, key, place }| {
-        let expected = "a requirement on the samples beside it, e.g. \"coverage >= 0.5\"";
+        let expected = "also a requirement on the samples, e.g. \"coverage >= 0.5\"";
         not_accepted(place, key, column, expected)
     }));
     let is_sampled = goal.columns().any(|named| Statistic::named(named.column).is_some());

@@ -12,24 +12,27 @@ use crate::sample::{SampleJudge, UsedStatistic};
 use crate::statistic::Statistic;
 
 impl Judge {
-    /// Creates a judge by `goal`, with the ends of criteria that the goal states.
+    /// Creates the judge for `goal`.
+    ///
+    /// Criteria of a fitness are rescaled between the ends that the goal states.
     pub fn new(goal: &DesignGoal) -> Self {
         Self::rescaling(goal, goal.fitness.as_ref().map_or(&[], |fitness| &fitness.ends))
     }
 
-    /// Creates a judge by `goal`, with these ends of the criteria of its fitness.
+    /// Creates the judge for `goal`. Criteria of a fitness are rescaled between these `ends`.
     pub fn rescaling(goal: &DesignGoal, ends: &[CriterionEnds]) -> Self {
         JudgeParts { goal, ends }.judge()
     }
 }
 
-/// A goal with the ends of the criteria of its fitness.
+/// Builder of a judge: a goal, and the ends of the criteria of its fitness.
 struct JudgeParts<'a> {
     goal: &'a DesignGoal,
     ends: &'a [CriterionEnds],
 }
 
 impl JudgeParts<'_> {
+    /// Builds the judge.
     fn judge(&self) -> Judge {
         let mut statistics = self.statistics();
         let objectives = self.goal.objectives.iter().filter_map(|objective| {
@@ -55,9 +58,9 @@ impl JudgeParts<'_> {
         Judge { objectives, requirements, soundness, measures: self.measures(), samples }
     }
 
-    /// Returns the source of the values of `name`.
+    /// Returns the source of the values of the column or statistic `name`.
     ///
-    /// `large` states whether large values of a statistic are good.
+    /// `large` is true if large values are better. `None` for an unknown name.
     fn source(&self, name: &str, large: bool, statistics: &[UsedStatistic]) -> Option<Source> {
         let mut used = statistics.iter();
         used.position(|used| used.name == name && used.large == large)
@@ -66,7 +69,7 @@ impl JudgeParts<'_> {
             .or_else(|| self.column(name).map(Source::Nominal))
     }
 
-    /// Returns the nominal column `name`.
+    /// Returns the column `name` of nominal designs.
     fn column(&self, name: &str) -> Option<NumberColumn> {
         let sweep = self.goal.space.sweep();
         match &self.goal.fitness {
@@ -77,7 +80,7 @@ impl JudgeParts<'_> {
         }
     }
 
-    /// Returns the requirements on columns, then an unfolded surface if required.
+    /// Returns the requirements on columns, then the requirement of an unfolded surface, if any.
     fn bounds(&self) -> Bounds {
         let plain = self.goal.requirements.iter();
         let plain = plain.filter(|requirement| self.goal.statistic(&requirement.column).is_none());
@@ -89,19 +92,21 @@ impl JudgeParts<'_> {
         Bounds { all, soundness }
     }
 
+    /// Returns the requirement with its column; `None` for an unknown column.
     fn bound(&self, requirement: Requirement) -> Option<Bound<NumberColumn>> {
         let column = self.column(&requirement.column)?;
         Some(Bound { requirement, column })
     }
 
+    /// Returns the requirement of an unfolded surface; `None` if the goal does not require it.
     fn soundness(&self) -> Option<Requirement> {
         soundness(self.goal.space.sweep()).filter(|_| self.goal.sound)
     }
 
-    /// Returns the requirement of an unfolded surface, if the goal has it.
+    /// Returns the requirement of an unfolded surface with its source; `None` if not required.
     ///
-    /// If the goal contains quantiles, it applies to a quantile of the samples, which becomes
-    /// another statistic.
+    /// If the goal contains quantiles, the requirement applies to a quantile of the samples. This
+    /// quantile is added to `statistics`.
     fn open(&self, statistics: &mut Vec<UsedStatistic>) -> Option<Bound<Source>> {
         let requirement = self.soundness()?;
         let column = match UsedStatistic::of_soundness(&requirement.column, statistics) {
@@ -114,7 +119,7 @@ impl JudgeParts<'_> {
         Some(Bound { requirement, column })
     }
 
-    /// Returns the statistics of the goal, and the yield if there are bounds.
+    /// Returns the statistics of the goal. The yield is added if columns have requirements.
     fn statistics(&self) -> Vec<UsedStatistic> {
         let goal = self.goal;
         let objectives = goal.objectives.iter();
@@ -126,13 +131,14 @@ impl JudgeParts<'_> {
             named.filter_map(|(name, large)| Some(self.used(name, goal.statistic(name)?, large)));
         let mut used: Vec<UsedStatistic> = used.collect();
         let has_bounds = goal.requirements.iter().any(|r| goal.statistic(&r.column).is_none());
-        // The yield is reported in addition, because the samples are solved anyway.
+        // Report the yield even if the goal does not contain it: the samples are solved anyway.
         if !used.is_empty() && has_bounds && !used.iter().any(UsedStatistic::is_yield) {
             used.push(self.used(Statistic::YIELD, Statistic::Yield, true));
         }
         used
     }
 
+    /// Returns a statistic with its column; `large` is true if large values are better.
     fn used(&self, name: &str, statistic: Statistic, large: bool) -> UsedStatistic {
         let column = match &statistic {
             Statistic::Quantile { column, .. } => self.column(column),

@@ -1,22 +1,23 @@
 //! Bundle method with a trust region, for piecewise smooth problems.
 //!
-//! To minimise a piecewise smooth cost `f` under limits `c_k ≤ 0`: the minimum often lies on kinks,
-//! such as the edge along a valley floor, where a gradient points across the kink instead of along
-//! it. Tangents collected at points `x_i` near the best point define the direction along it. Each
-//! step `d` is optimal for all of them:
+//! The method minimises a piecewise smooth cost `f` under limits `c_k ≤ 0`. The minimum is often on
+//! a kink, such as the sharp bottom of a valley, and gradients point across the kink instead of
+//! along it. The tangents at several points `x_i` near the best point `x` together define the
+//! direction along the kink. The step `d` is optimal for all these tangents:
 //!
 //! ```text
 //! min s    subject to    f(x_i) + ∇f(x_i)·(x + d − x_i) ≤ s,                             (O5)
 //!                        c_k(x_i) + ∇c_k(x_i)·(x + d − x_i) ≤ 0,    |d| ≤ r
 //! ```
 //!
-//! A step is accepted if it achieves enough of the predicted gain; a rejected step adds a tangent.
-//! If no step is left, points from a space-filling sequence complete a simplex in the ball of
-//! radius `r` before it shrinks. This is the bundle method with a trust region (Schramm & Zowe
-//! 1992, doi 10.1137/0802008) with the points of gradient sampling (Burke, Lewis & Overton 2005,
-//! doi 10.1137/030601296) and linearised limits as in Curtis & Overton 2012 (doi
-//! 10.1137/090780201): its limit points are Clarke-stationary. While no point is feasible, the
-//! largest excess over a limit is the cost.
+//! A step is accepted if it achieves a sufficient part of the predicted gain. A rejected step adds
+//! a tangent. If the tangents predict no gain, points of a space-filling sequence are evaluated in
+//! the ball of radius `r` until it contains the points of a simplex; then the radius shrinks.
+//!
+//! This is the bundle method with a trust region (Schramm & Zowe 1992, doi 10.1137/0802008) with
+//! points of gradient sampling (Burke, Lewis & Overton 2005, doi 10.1137/030601296) and linearised
+//! limits as in Curtis & Overton 2012 (doi 10.1137/090780201). Its limit points are
+//! Clarke-stationary. While no point is feasible, the cost is the largest excess over a limit.
 
 #[cfg(test)]
 mod tests;
@@ -26,35 +27,39 @@ use std::iter;
 use super::linear_model::{Cut, Model, Piece};
 use crate::space_filling::Sequence;
 
-/// Fraction of the predicted gain from which a step is accepted.
+/// Minimum fraction of the predicted gain for which a step is accepted.
 const ENOUGH: f64 = 0.1;
 
-/// Fraction of the predicted gain from which the radius grows.
+/// Minimum fraction of the predicted gain for which the radius grows.
 const PLENTY: f64 = 0.5;
 
 /// Predicted gain that counts as zero, for a cost of about 1.
 const NEGLIGIBLE: f64 = 1e-10;
 
-/// Factor by which the radius shrinks if no step is left.
+/// Factor by which the radius shrinks if no step predicts a gain.
 const SHRUNK: f64 = 0.1;
 
-/// Maximum points of the bundle, per corner of a simplex.
+/// Maximum number of points of the bundle, for each corner of a simplex.
 const KEPT: usize = 4;
 
 /// Values and gradients of cost and limits at a point.
 #[derive(Clone, Debug)]
 pub(super) struct Pieces {
+    /// Cost to be minimised.
     pub cost: Piece,
+    /// Excess over each limit; at most 0 if the limit is met.
     pub limits: Vec<Piece>,
     /// True if the point counts as feasible.
     pub met: bool,
 }
 
-/// A piecewise smooth cost with limits over the unit cube, all scaled to about 1.
+/// Problem with a piecewise smooth cost and limits over the unit cube.
+///
+/// Cost and limits have values of about 1.
 pub(super) trait PiecewiseSmooth {
     type Error;
 
-    /// Evaluates cost and limits at a point; `None` if the cost is undefined.
+    /// Evaluates cost and limits at `point`; `None` if the cost is undefined.
     fn pieces(&self, point: &[f64]) -> Result<Option<Pieces>, Self::Error>;
 }
 
@@ -69,9 +74,9 @@ pub(super) struct BundleOptions {
     pub points: usize,
 }
 
-/// Minimises the cost of `problem` from `start`.
+/// Minimises the cost of `problem`, starting from `start`.
 ///
-/// The problem logs the evaluations itself.
+/// Returns no result: `problem` keeps the best point that it has evaluated.
 pub(super) fn descend<P: PiecewiseSmooth>(
     problem: &P,
     start: &[f64],
@@ -97,22 +102,28 @@ pub(super) fn descend<P: PiecewiseSmooth>(
     Ok(())
 }
 
+/// An evaluated point.
 struct Seen {
     point: Vec<f64>,
     pieces: Pieces,
 }
 
+/// State of the bundle method.
 struct Bundle<'p, P> {
     problem: &'p P,
+    /// All evaluated points with a defined cost.
     seen: Vec<Seen>,
-    /// Index of the best point.
+    /// Index of the best point, which is the centre of the ball.
     centre: usize,
+    /// Radius of the ball.
     radius: f64,
+    /// Number of evaluations left.
     left: usize,
-    /// Rejected steps since the last accepted step or change of radius.
+    /// Number of rejected steps since the last accepted step or change of radius.
     misses: usize,
     /// True if the ball was filled since the last accepted step or change of radius.
     filled: bool,
+    /// Space-filling sequence, of which `drawn` points have been used.
     sequence: Sequence,
     drawn: usize,
 }
@@ -128,32 +139,32 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         }))
     }
 
-    /// Makes one step, or fills the ball, or shrinks it.
+    /// Attempts one step. If no step predicts a gain, fills the ball with points, or shrinks it.
     fn advance(&mut self) -> Result<(), P::Error> {
         if let Some((to, gain)) = self.step().filter(|(_, gain)| *gain > NEGLIGIBLE) {
             return self.attempt(to, gain);
         }
-        // A simplex in n dimensions has n + 1 corners: fewer tangents leave a direction
+        // A simplex in n dimensions has n + 1 corners. With fewer tangents a direction remains
         // undetermined.
         let lacking = (self.dimensions() + 1).saturating_sub(self.near(1.0).count());
         if lacking == 0 || self.filled {
             self.shrink(SHRUNK);
             return Ok(());
         }
-        // Once for each ball: points at kinks have no tangents, so the ball would be filled
-        // forever.
+        // Fill each ball only once. Points at kinks have no tangents, so tangents may still be
+        // missing after filling the ball.
         self.filled = true;
         (0..lacking.min(self.left)).try_for_each(|_| self.fill())
     }
 
-    /// Evaluates the next point of the sequence in the ball.
+    /// Evaluates the next point of the space-filling sequence in the ball.
     fn fill(&mut self) -> Result<(), P::Error> {
         self.drawn += 1;
         let unit = self.sequence.point(self.drawn);
         let centre = &self.seen[self.centre].point;
         let shifted = centre.iter().zip(unit).map(|(x, u)| x + self.radius * (2.0 * u - 1.0));
-        // Points beyond the cube move to its face instead of being skipped, so that the ball is
-        // filled.
+        // Points outside the cube are moved to its surface, not skipped, because the simplex needs
+        // enough points.
         let point: Vec<f64> = shifted.map(|x| x.clamp(0.0, 1.0)).collect();
         let merit = self.merit(self.centre);
         if let Some(index) = self.evaluate(point)?
@@ -164,11 +175,12 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         Ok(())
     }
 
-    /// Evaluates a step with this predicted gain, and accepts or rejects it.
+    /// Evaluates the step to the point `to`, and accepts or rejects it by the `predicted` gain.
     fn attempt(&mut self, to: Vec<f64>, predicted: f64) -> Result<(), P::Error> {
-        // A step inside the ball was limited by tangents: a larger radius would not lengthen it.
+        // Tangents limit a step that ends inside the ball, so a larger radius would not lengthen
+        // it.
         let far = distance(&to, &self.seen[self.centre].point) > 0.9 * self.radius;
-        // Without a cost no tangent is added, so only a smaller radius avoids the same step.
+        // A point without a cost adds no tangent. Only a smaller radius then avoids the same step.
         let Some(index) = self.evaluate(to)? else {
             self.shrink(0.5);
             return Ok(());
@@ -181,30 +193,36 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
             return Ok(());
         }
         self.misses += 1;
-        // Each rejection added a tangent. If a full simplex of tangents does not help, the radius
-        // is too large.
+        // Each rejected step has added a tangent. If the tangents of a whole simplex do not help,
+        // the radius is too large.
         if self.misses > self.dimensions() {
             self.shrink(0.5);
         }
         Ok(())
     }
 
+    /// Multiplies the radius by `factor`, and resets the counters of the ball.
     fn shrink(&mut self, factor: f64) {
         self.radius *= factor;
         (self.misses, self.filled) = (0, false);
     }
 
+    /// Returns the number of variables.
     fn dimensions(&self) -> usize {
         self.seen[self.centre].point.len()
     }
 
-    /// Returns feasibility, and the cost (if feasible) or the excess to be minimised.
+    /// Returns whether a point is feasible, and the value to be minimised.
+    ///
+    /// The value is the cost of a feasible point, and the largest excess of an infeasible point.
     fn merit(&self, index: usize) -> (bool, f64) {
         let pieces = &self.seen[index].pieces;
         (pieces.met, if pieces.met { pieces.cost.value } else { pieces.excess() })
     }
 
-    /// Iterates over points with a tangent within `radii` of the centre, newest first.
+    /// Iterates over the points with a tangent near the centre, newest first.
+    ///
+    /// Their distance from the centre is at most `radii` times the radius.
     fn near(&self, radii: f64) -> impl Iterator<Item = &Seen> {
         let centre = &self.seen[self.centre].point;
         // Include points on the border of the ball despite round-off in their distance.
@@ -214,15 +232,15 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         near.filter(|seen| seen.pieces.have_tangents())
     }
 
-    /// Returns the end of the best step, and its predicted gain.
+    /// Returns the end point of the best step, and its predicted gain.
     fn step(&self) -> Option<(Vec<f64>, f64)> {
         let Seen { point, pieces } = &self.seen[self.centre];
         let (met, worst) = self.merit(self.centre);
         let mut model = Model::new(point, self.radius, worst);
         let kept = KEPT * (self.dimensions() + 1);
-        // Twice the radius, so that a halved ball keeps its tangents. The centre may be older than
-        // the kept points and is always included: without it, the model could predict a gain where
-        // there is none.
+        // Use points within twice the radius, so that a halved ball keeps its tangents. Always
+        // include the centre, which may be older than the newest points. Without the tangent of the
+        // centre, the model could predict a gain where there is none.
         let near = self.near(2.0).take(kept).chain([&self.seen[self.centre]]);
         for seen in near {
             if met {
@@ -238,23 +256,24 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
 }
 
 impl Pieces {
-    /// Returns true if the cost or any limit has a gradient.
+    /// Returns true if the cost or at least one limit has a gradient.
     fn have_tangents(&self) -> bool {
         iter::once(&self.cost).chain(&self.limits).any(|piece| piece.gradient.is_some())
     }
 
-    /// Returns the largest excess over a limit.
+    /// Returns the largest excess over a limit, at least 0.
     fn excess(&self) -> f64 {
         self.limits.iter().map(|limit| limit.value).fold(0.0, f64::max)
     }
 }
 
-/// Returns the gain of one merit over another.
+/// Returns the improvement from the second merit to the first merit.
 ///
-/// Infinite if only the first is feasible.
+/// A merit states whether a point is feasible, and the value to be minimised. The improvement is
+/// infinite if only the first point is feasible.
 fn better((met, value): (bool, f64), (other_met, other): (bool, f64)) -> f64 {
     match (met, other_met) {
-        // Feasibility comes first: a step to the first feasible point is always accepted.
+        // A step to the first feasible point is always accepted.
         (true, false) => f64::INFINITY,
         (false, true) => f64::NEG_INFINITY,
         _ => other - value,

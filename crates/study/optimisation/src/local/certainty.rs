@@ -1,9 +1,9 @@
-//! Certificate of a local optimum by derivatives.
+//! Proves by derivatives that a design is a local optimum.
 //!
 //! At an optimum the gradients of the binding limits balance the gradient of the objective (O1). By
-//! weak duality, the objective of the linearised problem can then rise at most by the sum of the
-//! multipliers times the margins that are left. If this is nothing and no value has a kink, ridge
-//! search and polish can only confirm the design.
+//! weak duality, the linearised objective can then increase at most by `Σ μ_k (g_k − l_k)`, the sum
+//! of multipliers times remaining margins. If this sum is negligible and no value has a kink, ridge
+//! search and derivative-free search cannot improve the design.
 
 use super::LocalSearch;
 use crate::candidate::{Candidate, Merit, SearchStage};
@@ -15,22 +15,22 @@ use crate::space::SpacePoint;
 /// Largest first-order gain of a certain optimum, relative to the objective.
 const GAIN: f64 = 1e-8;
 
-/// Distance of a design just beyond first contact in bending from the border of contact, as slack.
+/// Negative slack (O2) of the design that is evaluated just beyond first contact in bending.
 const BEHIND: f64 = 1e-4;
 
-/// Relative shortfall up to which the design behind the border counts as feasible.
+/// Relative shortfall up to which the design just beyond first contact counts as feasible.
 const NEARLY: f64 = 1e-2;
 
 impl LocalSearch<'_> {
-    /// Returns true if derivatives show that the best design is a local optimum.
+    /// Returns true if derivatives prove that the best design is a local optimum.
     pub(super) fn is_certain(&self) -> Result<bool, Halt> {
         let (search, best) = (self.search, self.best.borrow().clone());
-        // A statistic over samples is not smooth.
+        // Statistics over samples are not smooth.
         if search.judge.samples().is_some() || !matches!(self.best_merit(), Merit::Met(_)) {
             return Ok(false);
         }
-        // The gradient search has already evaluated the design at which it ended, so this is
-        // cached.
+        // This evaluation is cached: the gradient search has evaluated the design at which it
+        // ended.
         let (_, row) = self.evaluate(SearchStage::Gradient, &best.point, true)?;
         match first_order_gain(search, &best, &row, self.target) {
             Some((gain, is_beside_contact)) if gain <= GAIN => {
@@ -40,11 +40,10 @@ impl LocalSearch<'_> {
         }
     }
 
-    /// Returns true if designs just beyond first contact in bending are infeasible or cannot be
-    /// judged.
+    /// Returns true if the design just beyond first contact in bending is not feasible.
     ///
-    /// The compliance jumps at contact. If it remains large enough there, the design behind the
-    /// border may be as good.
+    /// The compliance jumps at first contact. If the design beyond the jump is still feasible,
+    /// designs with contact may be as good as `best`. Returns false if there is no such design.
     fn ends_at_contact(&self, best: &Candidate) -> Result<bool, Halt> {
         let Some(behind) = self.behind_contact(best) else { return Ok(false) };
         let candidate = self.evaluate(SearchStage::Polish, &behind, false)?.0;
@@ -53,7 +52,9 @@ impl LocalSearch<'_> {
         Ok(!matches!(merit, Merit::Met(_)))
     }
 
-    /// Returns the nearest point behind the border of contact in bending.
+    /// Returns the nearest point at which scales are just in contact at the end of bending.
+    ///
+    /// `None` if there is no such point in the space.
     fn behind_contact(&self, best: &Candidate) -> Option<SpacePoint> {
         let case = self.search.space.case(&best.point);
         let intervals = self.search.space.intervals();

@@ -1,11 +1,11 @@
-//! Points of a local search with punctures that were followed from rest.
+//! Points of a local search with puncture paths that were followed from rest.
 
 use crate::candidate::{Candidate, SearchStage};
 use crate::space::SpacePoint;
 
-/// Largest distance over which a puncture starts from the end of another one.
+/// Maximum distance of two designs for a start from the path end of one of them.
 ///
-/// It is a fraction of the intervals. Starts from farther ends seldom succeed.
+/// The distance is a fraction of the intervals. Starts from farther path ends seldom succeed.
 const NEAR: f64 = 0.05;
 
 /// Points with punctures that were followed from rest.

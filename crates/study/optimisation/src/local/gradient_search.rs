@@ -1,6 +1,6 @@
 //! Gradient search by SLSQP (sequential least-squares programming).
 //!
-//! At kinks it uses one-sided derivatives.
+//! At a kink the search uses the one-sided derivative of steepest ascent.
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintJacobian, ConstraintSet, ConstraintSolveError,
@@ -18,14 +18,14 @@ use crate::coverage_piece::CoveragePiece;
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
 
-/// Tolerance on constraints and objective; both are scaled to about 1.
+/// Tolerance of SLSQP on constraints and objective, which have values of about 1.
 const ACCURACY: f64 = 1e-11;
 
 impl LocalSearch<'_> {
     /// Runs a gradient search from the best design.
     ///
-    /// If the result is infeasible, it minimises the shortfall alone, and then returns to the
-    /// objective.
+    /// If the search ends infeasible, a second search minimises the largest shortfall (O9). If that
+    /// search ends feasible, a third search improves the objective.
     pub(super) fn gradient_search(&self, effort: Effort) -> Result<(), Halt> {
         self.search_branches(effort, false)?;
         if self.is_short() {
@@ -37,19 +37,22 @@ impl LocalSearch<'_> {
         Ok(())
     }
 
+    /// Returns true if the best design has a valid judgement but is infeasible.
     fn is_short(&self) -> bool {
         matches!(self.best_merit(), Merit::Short(_))
     }
 
     /// Runs gradient searches in successive coverage branches.
     ///
-    /// Continues while the best design is on a border of another branch.
+    /// The next search starts if the best design is on the border of a branch without a search so
+    /// far. `is_elastic` selects the largest shortfall as the cost (O9).
     fn search_branches(&self, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
         let mut visited: Vec<Option<CoveragePiece>> = Vec::new();
         while visited.len() < effort.pieces {
-            // Recomputed each time: the best design may have reached the border of another branch.
+            // The best design may have reached the border of another branch, so find its branches
+            // again.
             let pieces = self.pieces();
-            // Visit each branch once; otherwise the search could alternate between two adjacent
+            // Visit each branch only once, so that the search does not alternate between two
             // branches.
             let Some(&piece) = pieces.iter().find(|piece| !visited.contains(piece)) else { break };
             self.climb_in(piece, effort, is_elastic)?;
@@ -58,12 +61,13 @@ impl LocalSearch<'_> {
         Ok(())
     }
 
-    /// Returns the coverage branches of the best design.
+    /// Returns the coverage branches that contain the best design.
     ///
-    /// A single `None` if coverage does not matter.
+    /// The only element is `None` if the search is not restricted to a branch.
     fn pieces(&self) -> Vec<Option<CoveragePiece>> {
         let judge = self.search.judge;
-        // The samples of one design lie in several branches.
+        // Branches are not used for a goal without coverage. They are not used with samples either,
+        // because the samples of a design are in several branches.
         if !judge.is_about(Measure::Coverage) || judge.samples().is_some() {
             return vec![None];
         }
@@ -71,6 +75,9 @@ impl LocalSearch<'_> {
         CoveragePiece::beside(&case).into_iter().map(Some).collect()
     }
 
+    /// Runs one gradient search from the best design, restricted to the coverage branch `piece`.
+    ///
+    /// `is_elastic` selects the largest shortfall as the cost (O9).
     fn climb_in(
         &self,
         piece: Option<CoveragePiece>,
@@ -79,11 +86,11 @@ impl LocalSearch<'_> {
     ) -> Result<(), Halt> {
         let missed = match self.best_merit() {
             Merit::Short(missed) if is_elastic => Some(missed),
-            // The search in an earlier branch found a feasible design.
+            // The best design is already feasible, so there is no shortfall to minimise.
             _ if is_elastic => return Ok(()),
             _ => None,
         };
-        // A design without a value for a requirement has no finite shortfall to minimise.
+        // An infinite shortfall cannot be minimised. It occurs if a requirement has no value.
         if missed.is_some_and(|missed: f64| !missed.is_finite()) {
             return Ok(());
         }
@@ -98,8 +105,8 @@ impl LocalSearch<'_> {
             Err(ConstraintSolveError::Evaluation(halt)) if !matches!(halt, Halt::Stalled) => {
                 Err(halt)
             }
-            // Stalled or converged. Other errors cannot occur: bounds and constraint count match
-            // the problem.
+            // The search converged or stalled. Other errors cannot occur, because bounds and number
+            // of constraints match the problem.
             Ok(_) | Err(_) => Ok(()),
         }
     }
@@ -112,7 +119,7 @@ impl CostFunction for LocalProblem<'_> {
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
         let evaluated = self.evaluate(shares)?;
-        // A design without a valid judgement is worse than any other.
+        // A design without a valid judgement is worse than all other designs.
         Ok(evaluated.map_or(f64::INFINITY, |evaluated| match self.missed(shares) {
             Some(missed) => missed,
             None => self.cost_of(&evaluated.worth),
@@ -128,7 +135,7 @@ impl Gradient for LocalProblem<'_> {
             return Ok((1..=shares.len()).map(|k| f64::from(k == shares.len())).collect());
         }
         let evaluated = self.evaluate(shares)?;
-        // Without a derivative no direction is defined: SLSQP stops at a non-finite number.
+        // Without derivatives the gradient is NaN, at which SLSQP stops.
         let gradient = evaluated.and_then(|l| self.cost_gradient(shares, &l, Slopes::uphill));
         Ok(gradient.unwrap_or_else(|| vec![f64::NAN; shares.len()]))
     }
@@ -157,7 +164,7 @@ impl NonlinearInequalityValues for LocalProblem<'_> {
         &self,
         shares: &Vec<f64>,
     ) -> Result<Vec<f64>, ConstraintSolveError<Halt>> {
-        // A design without a valid judgement violates every limit.
+        // A design without a valid judgement violates each limit.
         let mut limits = self.evaluate(shares)?.map_or_else(
             || vec![f64::INFINITY; self.limit_count()],
             |evaluated| self.limits(&evaluated),

@@ -1,4 +1,4 @@
-//! Cutting-plane model; its best step solves a linear program, by SLSQP.
+//! Cutting-plane model. The best step is the solution of a linear program.
 
 use std::convert::Infallible;
 
@@ -8,79 +8,86 @@ use basin::{
     SelectedFirstOrderState, Slsqp, State as _,
 };
 
-/// Weight of the linear cost against the quadratic term with which SLSQP starts.
+/// Weight of the linear cost relative to the quadratic term of the first SLSQP iteration.
 const WEIGHT: f64 = 1e3;
 
-/// Margin of steps to limits, so that residual curvature does not violate them.
+/// Distance from a limit at which steps end, so that small curvature does not violate the limit.
 const MARGIN: f64 = 1e-10;
 
-/// Maximum iterations for the linear program.
+/// Maximum number of SLSQP iterations for the linear program.
 const ITERATIONS: u64 = 20;
 
-/// Value with gradient; the gradient is `None` at a kink.
+/// Value and gradient of a function at a point. The gradient is `None` at a kink.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     pub value: f64,
     pub gradient: Option<Vec<f64>>,
 }
 
-/// Function to which a tangent belongs.
+/// Kind of function to which a tangent belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
-    /// The cost, or the excess over limits while the centre is infeasible.
+    /// The cost. If the centre is infeasible, this is the excess over a limit.
     Cost,
     /// A limit.
     Limit,
 }
 
-/// Cutting-plane model around a centre: constraints `slope·u ≤ right + s` on the step `u`.
+/// Cutting-plane model around a centre.
 ///
-/// `u` is relative to the trust radius.
+/// The model contains constraints `slope·u ≤ right + s` on the step `u`, which is divided by the
+/// trust radius. `s` is the cost relative to the centre; constraints of limits do not contain `s`.
 pub(super) struct Model<'c> {
     centre: &'c [f64],
     radius: f64,
-    /// Cost or excess at the centre.
+    /// Cost or largest excess at the centre.
     worst: f64,
+    /// Kind, `slope` and `right` of each constraint.
     cuts: Vec<(Cut, Vec<f64>, f64)>,
 }
 
 impl<'c> Model<'c> {
+    /// Creates a model without constraints.
+    ///
+    /// `worst` is the cost, or the largest excess, at the centre.
     pub fn new(centre: &'c [f64], radius: f64, worst: f64) -> Self {
         Self { centre, radius, worst, cuts: Vec::new() }
     }
 
-    /// Adds the tangent of a function at `point`.
+    /// Adds the tangent at `point` of a function with the value `here` at the centre.
     ///
-    /// It is limited to the value `here` of the function at the centre.
+    /// `piece` is value and gradient of the function at `point`. A tangent above `here` at the
+    /// centre is lowered to `here`.
     pub fn add(&mut self, cut: Cut, piece: &Piece, here: f64, point: &[f64]) {
         let Some(gradient) = &piece.gradient else { return };
         let along =
             gradient.iter().zip(self.centre.iter().zip(point)).map(|(g, (x, y))| g * (x - y));
-        // For a non-convex function the tangent may exceed the value at the centre, and exclude the
-        // centre.
+        // A tangent of a non-convex function may exceed the function at the centre. Without `min`
+        // the tangent would then exclude the centre.
         let value = (piece.value + along.sum::<f64>()).min(here);
-        // An undefined value gives an infinite excess, which no tangent describes.
+        // Skip infinite values: the excess is infinite if a value is undefined.
         if !(value.is_finite() && self.worst.is_finite()) {
             return;
         }
         let right = match cut {
             Cut::Cost => self.worst - value,
-            // Not below 0: a zero step must remain feasible, also on a limit.
+            // At least 0, so that a step of length 0 remains feasible if the centre is on a limit.
             Cut::Limit => (-MARGIN - value).max(0.0),
         };
         self.push(cut, gradient, right);
     }
 
-    /// Adds the constraint `gradient·d ≤ right + s` on the step `d`, without `s` for a limit.
+    /// Adds the constraint `gradient·d ≤ right + s` on the step `d`; without `s` for a limit.
     pub fn push(&mut self, cut: Cut, gradient: &[f64], right: f64) {
         let slope = gradient.iter().map(|g| g * self.radius).collect();
         self.cuts.push((cut, slope, right));
     }
 
-    /// Returns the end of the best step, and the gain predicted by the tangents.
+    /// Returns the end point of the best step, and the gain that the tangents predict.
+    ///
+    /// `None` if all tangents of the cost are flat, or the linear program has no solution.
     pub fn step(&self) -> Option<(Vec<f64>, f64)> {
         let scale = self.costs().map(|(_, slope, _)| absolute_sum(slope)).fold(0.0, f64::max);
-        // All tangents are flat, so no step predicts a gain.
         if scale <= 0.0 {
             return None;
         }
@@ -88,25 +95,29 @@ impl<'c> Model<'c> {
         let rises = self.costs().map(|(_, slope, right)| {
             slope.iter().zip(&step).map(|(g, u)| g * u).sum::<f64>() - right
         });
-        // Computed from the tangents, because the last variable of the linear program is scaled and
-        // only as accurate as its solver.
+        // Compute the gain from the tangents. The last variable of the linear program also states
+        // it, but less accurately.
         let gain = -rises.fold(f64::NEG_INFINITY, f64::max);
         let moved =
             self.centre.iter().zip(&step).map(|(x, u)| (x + self.radius * u).clamp(0.0, 1.0));
         Some((moved.collect(), gain))
     }
 
+    /// Returns the tangents of the cost.
     fn costs(&self) -> impl Iterator<Item = &(Cut, Vec<f64>, f64)> {
         self.cuts.iter().filter(|(cut, ..)| *cut == Cut::Cost)
     }
 
+    /// Solves the linear program, and returns the step divided by the radius.
+    ///
+    /// Tangents of the cost are divided by `scale`.
     fn solve(&self, scale: f64) -> Option<Vec<f64>> {
         let n = self.centre.len();
         let mut rows = Vec::new();
         let mut right = Vec::new();
         for (cut, slope, limit) in &self.cuts {
-            // Tangents of the cost need a common scale to keep their order; limits can be scaled
-            // individually.
+            // Tangents of the cost need a common scale, because the largest of them counts. Limits
+            // can be scaled individually.
             let size = match cut {
                 Cut::Cost => scale,
                 Cut::Limit => absolute_sum(slope),
@@ -117,7 +128,8 @@ impl<'c> Model<'c> {
                 right.push(limit / size);
             }
         }
-        // Bounds of the cube in radii, where they are nearer than the border of the ball.
+        // Ends of each coordinate of the step: the border of the ball, or the face of the cube if
+        // it is nearer.
         let ends = self
             .centre
             .iter()
@@ -137,11 +149,12 @@ impl<'c> Model<'c> {
     }
 }
 
+/// Returns the sum of the absolute values.
 fn absolute_sum(slope: &[f64]) -> f64 {
     slope.iter().map(|x| x.abs()).sum()
 }
 
-/// Linear program: minimise the last coordinate under rows and bounds.
+/// Linear program: minimise the last coordinate of `x` under `rows·x ≤ right` and bounds on `x`.
 struct LinearProgram {
     rows: DenseMatrix,
     right: Vec<f64>,

@@ -1,6 +1,6 @@
-//! Derivative-free polish by mesh adaptive direct search (`OrthoMADS`).
+//! Derivative-free search ("polish") by mesh adaptive direct search (`OrthoMADS`).
 //!
-//! A few of its steps can cross jumps.
+//! A few steps of this search can cross jumps.
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints,
@@ -12,15 +12,16 @@ use crate::candidate::{Merit, SearchStage};
 use crate::evaluations::Halt;
 
 impl LocalSearch<'_> {
-    /// Polishes the best design with at most `most` evaluations.
+    /// Improves the best design by a direct search with at most `most` evaluations.
     ///
-    /// The first steps are at most `reach` long. While no design is feasible, the largest shortfall
-    /// is minimised; afterwards infeasible designs are rejected.
+    /// The first steps have a length of at most `reach`, as a fraction of the intervals. If the
+    /// best design is infeasible, the search minimises the largest shortfall until a design is
+    /// feasible. A second search then improves the objective and rejects infeasible designs.
     pub(super) fn polish(&self, reach: f64, most: usize) -> Result<(), Halt> {
         loop {
             let start = self.best_shares();
             let before = self.best_merit();
-            // No step can be compared if the best design cannot be judged.
+            // Without a valid judgement of the best design, steps cannot be compared with it.
             if before == Merit::None {
                 return Ok(());
             }
@@ -41,7 +42,7 @@ impl LocalSearch<'_> {
             if let Err(ConstraintSolveError::Evaluation(halt)) = polished {
                 return Err(halt);
             }
-            // After the first feasible design, repeat for the objective.
+            // Repeat for the objective if this search has found the first feasible design.
             if !(only_short && matches!(self.best_merit(), Merit::Met(_))) {
                 return Ok(());
             }
@@ -49,9 +50,9 @@ impl LocalSearch<'_> {
     }
 }
 
-/// Problem with an extreme barrier.
+/// Problem with an extreme barrier: infeasible designs have an infinite cost.
 ///
-/// Infeasible designs have infinite cost once a feasible one is known.
+/// If `only_short` is true, the cost is the largest shortfall, and infeasible designs are compared.
 struct Barrier<'a> {
     walk: &'a LocalSearch<'a>,
     only_short: bool,
@@ -65,11 +66,10 @@ impl CostFunction for Barrier<'_> {
     type Error = Halt;
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
-        // Derivatives cost more than the value, and do not help at a jump.
+        // A direct search does not use derivatives, which are expensive.
         let (candidate, _) = self.walk.at(SearchStage::Polish, shares, false)?;
         Ok(match self.walk.search.merit(&candidate, self.walk.target) {
-            // A shortfall of 0 cannot be improved, so this run ends and the next one uses the
-            // objective.
+            // A shortfall of 0 cannot be improved, so the search soon ends.
             Merit::Met(_) if self.only_short => 0.0,
             Merit::Met(objective) => -objective,
             Merit::Short(short) if self.only_short => short,

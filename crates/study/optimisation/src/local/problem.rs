@@ -1,7 +1,7 @@
-//! Problem of a gradient or ridge search: cost and limits over the intervals.
+//! Problem that a gradient search or ridge search solves.
 //!
-//! Variables are fractions of the intervals. Cost (to be minimised) and limits are scaled to about
-//! 1.
+//! The variables are fractions of the intervals. The cost is minimised. Cost and limits have values
+//! of about 1.
 
 use std::cell::RefCell;
 use std::iter;
@@ -19,28 +19,28 @@ use crate::evaluations::Halt;
 use crate::judgement::Judgement;
 use crate::slopes::Slopes;
 
-/// Largest step that counts as stalled, as a fraction of the intervals.
+/// Length below which a step counts as stalled, as a fraction of the intervals.
 const STILL: f64 = 1e-7;
 
 /// Number of successive stalled steps that ends a gradient search.
 const STALLED: usize = 3;
 
-/// Slack before contact that the search keeps in bending.
+/// Slack (O2) that a search among strips without contact keeps before first contact.
 ///
-/// A gradient search ends up to about 1e-9 beyond its limits, and the compliance jumps at contact.
+/// A gradient search may exceed its limits by about 1e-9, and the compliance jumps at contact.
 pub(crate) const CLEAR: f64 = 1e-7;
 
-/// Scaling of the objective to a cost of about 1.
+/// Function that converts the objective to a cost of about 1.
 #[derive(Clone, Copy)]
 enum CostScale {
-    /// Logarithm, because objectives vary by powers of ten.
+    /// Logarithm of a positive objective, which may vary by powers of ten.
     Logarithm,
-    /// Division by a reference size, for an objective that is not positive.
+    /// Objective divided by this size, for an objective that is not positive.
     Linear(f64),
 }
 
 impl CostScale {
-    /// Returns the cost and its derivative, for an objective to be minimised.
+    /// Returns the cost for an objective `value` to be minimised, and the derivative of the cost.
     fn cost(self, value: f64) -> (f64, f64) {
         match self {
             Self::Logarithm if value > 0.0 => (value.ln(), value.recip()),
@@ -53,12 +53,12 @@ impl CostScale {
     }
 }
 
-/// Returns true if bending causes no contact.
+/// Returns true if the scales have no contact at the end of bending.
 fn is_open(result: &DesignResult) -> bool {
     result.flexure.is_some_and(|flexure| flexure.measures.contact == Some(false))
 }
 
-/// Problem of a local search that starts from its best design.
+/// Problem of a gradient search or ridge search from the best design of a local search.
 pub(super) struct LocalProblem<'a> {
     walk: &'a LocalSearch<'a>,
     stage: SearchStage,
@@ -69,13 +69,15 @@ pub(super) struct LocalProblem<'a> {
     stays_open: bool,
     /// Coverage branch to which the search is restricted.
     piece: Option<CoveragePiece>,
-    /// True if the last variable is the cost, a slack on the limits (O9).
+    /// True if the last variable is the largest shortfall, which is also the cost (O9).
     ///
-    /// The slack applies to requirements and lower bounds.
+    /// The variable relaxes requirements and lower bounds of objectives.
     pub is_elastic: bool,
-    /// Last evaluated fractions, and the number of successive stalled steps.
+    /// Fractions at the last evaluation, and the number of successive stalled steps.
     still: RefCell<(Vec<f64>, usize)>,
+    /// Lower bounds of the variables.
     pub lower: Vec<f64>,
+    /// Upper bounds of the variables.
     pub upper: Vec<f64>,
 }
 
@@ -88,10 +90,10 @@ pub(super) struct EvaluatedPoint {
 }
 
 impl<'a> LocalProblem<'a> {
-    /// Builds the problem at the best design of `walk`.
+    /// Creates the problem for the best design of `walk`.
     ///
-    /// `None` if this design has no valid judgement. With `missed`, the problem is elastic and its
-    /// slack starts at this shortfall.
+    /// `missed` is the largest shortfall of this design, if the shortfall is to be minimised (O9).
+    /// `None` if the design has no valid judgement.
     pub fn new(
         walk: &'a LocalSearch<'a>,
         stage: SearchStage,
@@ -105,26 +107,27 @@ impl<'a> LocalProblem<'a> {
         Some(Self {
             walk,
             stage,
-            // Fixed for the whole search, because costs on different scales cannot be compared.
+            // The scale stays the same during the search, because costs on different scales cannot
+            // be compared.
             scale: if value > 0.0 { CostScale::Logarithm } else { CostScale::Linear(value.abs()) },
             stays_open: walk.search.judge.is_about(Measure::Flexure) && is_open(&best.result),
             piece,
             is_elastic: missed.is_some(),
             still: RefCell::default(),
             lower: vec![0.0; count + usize::from(missed.is_some())],
-            // The slack may not exceed its initial value.
+            // The shortfall may not exceed its initial value.
             upper: iter::repeat_n(1.0, count).chain(missed).collect(),
         })
     }
 
-    /// Evaluates the design at these fractions of the intervals, with derivatives.
+    /// Evaluates the design at the fractions `shares` of the intervals, with derivatives.
     ///
-    /// `None` if the design cannot be judged.
+    /// `None` if the design has no valid judgement.
     pub fn evaluate(&self, shares: &[f64]) -> Result<Option<EvaluatedPoint>, Halt> {
         let shares = &shares[..self.walk.search.space.intervals().len()];
         let (mut candidate, mut row) = self.walk.at(self.stage, shares, true)?;
-        // Judged before continuation: a continued value may satisfy a limit that the design
-        // violates.
+        // Judge feasibility before values are continued beyond a border: a continued value may meet
+        // a limit that the design misses.
         let met = matches!(self.walk.search.merit(&candidate, self.walk.target), Merit::Met(_));
         self.end_if_stalled(shares)?;
         if let Some(piece) = self.piece {
@@ -133,8 +136,7 @@ impl<'a> LocalProblem<'a> {
         if self.stays_open {
             continue_compliance(&mut row.nominal);
         }
-        // Continuing coverage or compliance smoothly beyond a border applies to nominal designs
-        // only.
+        // Judge the design again by the continued values. Samples have no continued values.
         if self.walk.search.judge.samples().is_none() && (self.piece.is_some() || self.stays_open) {
             candidate.verdict = self.walk.search.judge.verdict(&row.nominal);
         }
@@ -142,22 +144,21 @@ impl<'a> LocalProblem<'a> {
         Ok(Some(EvaluatedPoint { worth, row, met }))
     }
 
-    /// Returns `Halt::Stalled` if a gradient search no longer moves.
+    /// Returns `Halt::Stalled` after several successive short steps of a gradient search.
     ///
-    /// At a kink, gradient steps become ever smaller.
+    /// At a kink the steps of a gradient search become ever shorter.
     fn end_if_stalled(&self, shares: &[f64]) -> Result<(), Halt> {
         let (last, count) = &mut *self.still.borrow_mut();
-        // The solver requests cost, gradient and limits at one point one after the other. Only a
-        // change of the point is a step.
+        // SLSQP requests cost, gradient and limits at one point in succession. A step is a change
+        // of the point.
         if last.as_slice() == shares {
             return Ok(());
         }
-        // Take the maximum over all intervals: a search that still moves along any of them has not
-        // converged.
+        // A step counts as long if at least one variable changes.
         let step = last.iter().zip(shares).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         *count = if !last.is_empty() && step < STILL { *count + 1 } else { 0 };
         shares.clone_into(last);
-        // The ridge search ends by its radius, so small steps near its end are normal.
+        // The ridge search ends when its radius is small enough, so its last steps are short.
         if *count >= STALLED && self.stage == SearchStage::Gradient {
             Err(Halt::Stalled)
         } else {
@@ -165,36 +166,38 @@ impl<'a> LocalProblem<'a> {
         }
     }
 
-    /// Returns the cost to be minimised; infinite if undefined.
+    /// Returns the cost of a design; infinite if the cost is undefined.
     pub fn cost_of(&self, worth: &Worth) -> f64 {
         let objective = self.walk.target.objective;
         let sign = self.walk.search.judge.sign(objective);
         let cost = -sign * self.scale.cost(worth.objectives[objective]).0;
-        // An undefined logarithm counts as infinite cost, for either direction of the objective.
+        // An undefined logarithm means an infinite cost, whether the objective is maximised or
+        // minimised.
         if cost.is_finite() { cost } else { f64::INFINITY }
     }
 
-    /// Returns the slack variable of an elastic problem.
+    /// Returns the last variable if it is the largest shortfall (O9); otherwise `None`.
     pub fn missed(&self, shares: &[f64]) -> Option<f64> {
         shares.last().copied().filter(|_| self.is_elastic)
     }
 
-    /// Returns the number of requirements and lower bounds.
+    /// Returns the number of requirements and lower bounds of objectives.
     ///
-    /// They come first among the limits.
+    /// These are the first limits.
     pub fn asked_count(&self) -> usize {
         self.walk.search.judge.requirements().count() + self.walk.target.floors.len()
     }
 
     /// Returns the number of limits.
     ///
-    /// Limits are requirements, lower bounds, branch borders and the slack before contact.
+    /// Limits are requirements, lower bounds of objectives, borders of the coverage branch, and the
+    /// slack before contact, in this order.
     pub fn limit_count(&self) -> usize {
         let borders = self.piece.map_or(0, |_| CoveragePiece::BORDERS);
         self.asked_count() + borders + usize::from(self.stays_open)
     }
 
-    /// Returns the excess over each limit; at most 0 where the limit is satisfied.
+    /// Returns the excess over each limit; at most 0 if the limit is met.
     pub fn limits(&self, evaluated: &EvaluatedPoint) -> Vec<f64> {
         let EvaluatedPoint { worth, row, .. } = evaluated;
         // The order must match `limit_gradient`.
@@ -215,14 +218,16 @@ impl<'a> LocalProblem<'a> {
             .collect()
     }
 
-    /// Returns the borders of the coverage branch.
+    /// Returns the coverage branch with the index of each border; empty without a branch.
     fn borders(&self) -> impl Iterator<Item = (CoveragePiece, usize)> {
         self.piece
             .into_iter()
             .flat_map(|piece| (0..CoveragePiece::BORDERS).map(move |k| (piece, k)))
     }
 
-    /// Computes the gradient of the cost; `pick` selects one-sided slopes.
+    /// Computes the gradient of the cost with respect to the fractions of the intervals.
+    ///
+    /// `pick` selects one of the one-sided slopes at a kink. `None` if a slope is missing.
     pub fn cost_gradient(
         &self,
         shares: &[f64],
@@ -236,7 +241,7 @@ impl<'a> LocalProblem<'a> {
         self.falling(shares, slopes, pick)
     }
 
-    /// Computes the gradient of limit `k`; `pick` selects one-sided slopes.
+    /// Computes the gradient of the excess over limit `k`, like [`Self::cost_gradient`].
     pub fn limit_gradient(
         &self,
         k: usize,
@@ -272,9 +277,10 @@ impl<'a> LocalProblem<'a> {
         }
     }
 
-    /// Computes the negative gradient of a quantity over fractions of the intervals.
+    /// Computes the negative gradient of a quantity with respect to the fractions of the intervals.
     ///
-    /// `slopes` are its one-sided derivatives. At an end of an interval, the inward one is used.
+    /// `slopes` returns the one-sided derivatives of the quantity. At an end of an interval the
+    /// slope towards the inside is used; elsewhere `pick` selects the slope.
     pub fn falling(
         &self,
         shares: &[f64],
@@ -295,5 +301,5 @@ impl<'a> LocalProblem<'a> {
     }
 }
 
-/// Chooses one slope from the two one-sided slopes of a quantity to be maximised.
+/// Function that selects a slope from the one-sided slopes of a quantity to be maximised.
 pub(super) type Pick = fn(Slopes) -> Option<f64>;

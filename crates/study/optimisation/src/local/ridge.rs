@@ -1,4 +1,4 @@
-//! Ridge search by the bundle method, where the gradient search ends at kinks.
+//! Ridge search: applies the bundle method, because the gradient search stops at kinks.
 
 use super::LocalSearch;
 use super::bundle::{BundleOptions, Pieces, PiecewiseSmooth, descend};
@@ -9,22 +9,22 @@ use crate::evaluated_row::StatisticUse;
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
 
-/// Smallest radius, as a fraction of the intervals.
+/// Smallest radius of the ball of the bundle method, as a fraction of the intervals.
 ///
-/// Kinks are resolved at larger distances.
+/// At this distance the tangents on both sides of a kink are resolved.
 const SMALLEST: f64 = 1e-6;
 
 impl LocalSearch<'_> {
-    /// Searches along the ridge through the best design.
+    /// Searches along the ridge through the best design with at most `most` evaluations.
     ///
-    /// Steps are at most `reach` of the intervals, and evaluations at most `most`.
+    /// The first radius is `reach`, as a fraction of the intervals.
     pub(super) fn follow(&self, reach: f64, most: usize) -> Result<(), Halt> {
         // A yield is a step function, and has no tangents.
         if self.search.judge.is_yield(StatisticUse::Objective(self.target.objective)) {
             return Ok(());
         }
-        // Not restricted to a coverage branch: borders of branches are ridges, and this search
-        // follows them.
+        // Do not restrict this search to a coverage branch: the borders of branches are ridges,
+        // which it can follow.
         let Some(problem) = LocalProblem::new(self, SearchStage::Ridge, None, None) else {
             return Ok(());
         };
@@ -49,7 +49,8 @@ impl PiecewiseSmooth for LocalProblem<'_> {
             gradient: self.limit_gradient(k, shares, &evaluated, Slopes::smooth),
         });
         let limits: Vec<Piece> = limits.collect();
-        // The slack before contact in bending is not a requirement, but limits this search too.
+        // `evaluated.met` covers requirements and lower bounds. The slack before contact in bending
+        // is another limit.
         let met = evaluated.met && limits.iter().all(|limit| limit.value <= 1e-9);
         Ok(Some(Pieces { cost: Piece { value: cost, gradient }, limits, met }))
     }

@@ -1,4 +1,4 @@
-//! Derivatives of statistics over samples, from the derivatives of single samples.
+//! Computes derivatives of statistics over samples from the derivatives of single samples.
 
 use results::DesignRow;
 use sweep::Parameter;
@@ -10,7 +10,7 @@ use crate::sample::{OrderStatistic, SampleJudge, Samples};
 use crate::slopes::Slopes;
 use crate::space::{DesignSpace, SpacePoint};
 
-/// A point with its samples, to be differentiated.
+/// A point and its samples, for which derivatives are computed.
 pub(super) struct SampledPoint<'a> {
     pub space: &'a DesignSpace,
     pub evaluations: &'a Evaluations<'a>,
@@ -20,7 +20,7 @@ pub(super) struct SampledPoint<'a> {
 }
 
 impl SampledPoint<'_> {
-    /// Computes the derivatives of every statistic that `judge` uses.
+    /// Computes the derivatives of each statistic that `judge` uses, with respect to each variable.
     pub fn slopes(&self, judge: &Judge) -> Result<Vec<StatisticSlopes>, Halt> {
         let mut slopes = Vec::new();
         for (of, q) in judge.uses() {
@@ -29,8 +29,8 @@ impl SampledPoint<'_> {
                 StatisticUse::Requirement(k) => judge.requirements().nth(k),
             };
             let mut rows = Vec::new();
-            // A quantile is the value of one sample or interpolates two: only these need
-            // derivatives.
+            // A quantile is the value of one sample, or interpolates the values of two samples.
+            // Only these samples need derivatives.
             for order in self.judge.order_statistics(q, requirement, self.samples) {
                 rows.extend(self.row(order.sample)?.map(|row| (order, row)));
             }
@@ -44,7 +44,10 @@ impl SampledPoint<'_> {
         Ok(slopes)
     }
 
-    /// Computes the gradients of statistic `q` on single samples, by fractions of the intervals.
+    /// Computes the gradient of the quantity behind statistic `q` for each of these `samples`.
+    ///
+    /// Gradients are with respect to the fractions of the intervals. Samples that do not exist are
+    /// omitted.
     pub fn gradients(&self, q: usize, samples: &[u64]) -> Result<Vec<Vec<f64>>, Halt> {
         let mut gradients = Vec::new();
         for &sample in samples {
@@ -60,7 +63,9 @@ impl SampledPoint<'_> {
         Ok(gradients)
     }
 
-    /// Solves a sample with derivatives; `None` if the sample does not exist.
+    /// Solves a sample with derivatives, but without scatter between scales.
+    ///
+    /// `None` if no deviations within the bounds of the parameters are found.
     fn row(&self, sample: u64) -> Result<Option<DesignRow>, Halt> {
         let Some(result) = self.evaluations.even_sample(self.point, sample)? else {
             return Ok(None);
@@ -70,12 +75,13 @@ impl SampledPoint<'_> {
         Ok(case.map(|case| DesignRow { case, ..nominal }))
     }
 
-    /// Computes the contribution of a sample to the derivatives of statistic `q`.
+    /// Computes the contribution of one sample to the derivatives of statistic `q`.
     ///
-    /// The sample moves with the nominal design, at constant deviations.
+    /// `row` is the sample with derivatives. The deviations of the sample are constant while
+    /// `parameter` of the nominal design changes.
     fn part(&self, q: usize, of: OrderStatistic, row: &DesignRow, parameter: &Parameter) -> Slopes {
-        // Uses the judged sample, with scatter between scales: without scatter another bound may be
-        // the tightest.
+        // Use the values with scatter between scales. Without scatter, the sample might have its
+        // smallest margin to another requirement.
         let values = &self.samples.0[of.sample as usize - 1];
         let Some((column, factor)) = self.judge.moving(q, values) else { return Slopes::UNKNOWN };
         let nominal = self.space.case(self.point);

@@ -1,17 +1,17 @@
-//! Search for designs with a required yield, by sampling and discarding.
+//! Search for designs with a required yield: discards samples and keeps the others feasible.
 //!
-//! Of `N` samples, a yield `y` lets `⌊(1 − y)N⌋` miss a requirement. Around a design, the search
-//! linearises the excess of every sample over every requirement with the derivatives of the nominal
-//! design, and discards the samples that are most expensive to keep. The step `d` solves a linear
-//! program, in which `e_k` is the largest excess over requirement `k` among the kept samples:
+//! With a yield `y`, `⌊(1 − y)N⌋` of `N` samples may miss a requirement. Around a design, the
+//! search linearises the excess of each sample over each requirement with the derivatives of the
+//! nominal design, and discards those samples that restrict the objective most. The step `d` solves
+//! a linear program, in which `e_k` is the largest excess of the kept samples over requirement `k`:
 //!
 //! ```text
 //! min ∇f·d    subject to    e_k + ∇c_k·d ≤ 0,    |d| ≤ r                                 (O11)
 //! ```
 //!
 //! This is the scenario approach with discarded constraints (Campi & Garatti 2011, doi
-//! 10.1007/s10957-010-9754-6). A gradient search by the sample at the quantile alone zigzags
-//! instead, because another sample decides after almost every step.
+//! 10.1007/s10957-010-9754-6). A gradient search that uses only the sample at the quantile (O6)
+//! zigzags, because another sample is at the quantile after almost every step.
 
 use super::LocalSearch;
 use super::bundle::distance;
@@ -31,42 +31,42 @@ const SMALLEST: f64 = 1e-3;
 
 /// Predicted gain at which the search ends, for a cost of about 1.
 ///
-/// It is less than the uncertainty of the cost at which a few hundred samples reach a yield.
+/// With a few hundred samples, the cost of the best design is less certain than this.
 const GAIN: f64 = 2e-3;
 
-/// Predicted gain up to which a search that stalls has converged.
+/// Predicted gain up to which a search that stalls counts as converged.
 ///
-/// It stalls where other samples have to be discarded after every step.
+/// The search stalls if different samples must be discarded after each step.
 const STALLED_GAIN: f64 = 1e-2;
 
-/// Fraction of the predicted gain from which a step is accepted.
+/// Minimum fraction of the predicted gain for which a step is accepted.
 const ENOUGH: f64 = 0.1;
 
-/// Fraction of the predicted gain from which the radius grows.
+/// Minimum fraction of the predicted gain for which the trust radius grows.
 const PLENTY: f64 = 0.5;
 
-/// Cost of one unit of excess. Costs and excesses are scaled to about 1.
+/// Penalty on the cost for one unit of excess. Costs and excesses are about 1.
 const PENALTY: f64 = 10.0;
 
-/// Least and largest margin of steps to limits.
+/// Smallest and largest distance inside the limits at which steps aim.
 const MARGINS: [f64; 2] = [1e-6, 1e-3];
 
-/// Margin over the excess at the start of a step, and its growth after a rejected step.
+/// Initial ratio of the margin to the excess, and factor of this ratio after a rejected step.
 ///
-/// The samples at the limits have other derivatives than the nominal design, so without a margin
-/// each step leaves about a quarter of the excess.
+/// Steps aim at a margin inside the limits, because the samples there have other derivatives than
+/// the nominal design. Without a margin each step would leave about a quarter of the excess.
 const OVERSHOOT: [f64; 2] = [0.5, 4.0];
 
-/// Excess of the deciding sample from which the linear model is not used.
+/// Largest excess for which the linear model is used.
 ///
-/// Such samples have usually jumped, as the compliance does at contact.
+/// At a larger excess a value of the samples has usually jumped, e.g. the compliance at contact.
 const FAR: f64 = 0.5;
 
 /// Number of rounds in which samples are discarded.
 const ROUNDS: usize = 10;
 
 impl LocalSearch<'_> {
-    /// Returns the index of the requirement of a yield, if there is one.
+    /// Returns the index of the requirement on the yield; `None` if the goal requires no yield.
     pub(super) fn required_yield(&self) -> Option<usize> {
         let judge = self.search.judge;
         judge.uses().find_map(|(of, _)| match of {
@@ -77,7 +77,8 @@ impl LocalSearch<'_> {
 
     /// Improves the best design with at most `most` evaluations.
     ///
-    /// Returns true if it converged: no step promises a gain.
+    /// `required` is the index of the requirement on the yield. Returns true if the search
+    /// converged, i.e. the predicted gain of the next step is negligible.
     pub(super) fn yield_search(&self, required: usize, most: usize) -> Result<bool, Halt> {
         let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, None, None) else {
             return Ok(false);
@@ -111,7 +112,7 @@ impl LocalSearch<'_> {
                         radius *= 2.0;
                     }
                 }
-                // A larger margin instead of a smaller step, up to the largest margin.
+                // Increase the margin before the steps are shortened.
                 _ if is_nearly_met && overshoot * model.excess() < MARGINS[1] => {
                     overshoot *= OVERSHOOT[1];
                 }
@@ -125,14 +126,17 @@ impl LocalSearch<'_> {
     }
 }
 
-/// Cost, limits and samples of a design, with derivatives by the fractions of the intervals.
+/// Linear model of a design: cost, limits and samples with their gradients.
+///
+/// Gradients are with respect to the fractions of the intervals.
 struct YieldModel {
+    /// Cost of the design, and its gradient.
     cost: (f64, Vec<f64>),
     /// Excess over each limit of the nominal design, and its gradient.
     limits: Vec<(f64, Vec<f64>)>,
-    /// Gradient of the excess over each requirement of the samples.
+    /// Gradient of the excess of the nominal design over each requirement on the samples.
     gradients: Vec<Vec<f64>>,
-    /// Excess of each sample over each requirement.
+    /// Excess of each sample (first index) over each requirement (second index).
     samples: Vec<Vec<f64>>,
     /// Excess of the sample that decides the yield.
     deciding: f64,
@@ -140,14 +144,17 @@ struct YieldModel {
     discards: usize,
 }
 
-/// End of a step, and the predicted merit.
+/// End point of a step, and the merit that the linear model predicts there.
 struct Step {
     to: Vec<f64>,
     merit: f64,
 }
 
 impl YieldModel {
-    /// Evaluates the design at `shares`; `None` if it cannot be judged or lacks derivatives.
+    /// Evaluates the design at the fractions `shares` of the intervals, and linearises it.
+    ///
+    /// `required` is the index of the requirement on the yield. `None` if the design has no valid
+    /// judgement or lacks derivatives.
     fn at(
         walk: &LocalSearch<'_>,
         problem: &LocalProblem<'_>,
@@ -196,23 +203,26 @@ impl YieldModel {
         self.limits.iter().map(|limit| limit.0).fold(self.deciding, f64::max)
     }
 
+    /// Returns the cost with the penalty on the excess; smaller is better.
     fn merit(&self) -> f64 {
         self.cost.0 + PENALTY * self.excess().max(0.0)
     }
 
-    /// Returns the best step within `radius`, with the best samples to discard.
+    /// Selects the samples to discard, and returns the best step within `radius`.
     ///
-    /// `None` if more samples lack a value than may be discarded.
+    /// `overshoot` is the ratio of the margin to the excess. `None` if more samples lack a value
+    /// than may be discarded.
     fn step(&self, centre: &[f64], radius: f64, overshoot: f64) -> Option<Step> {
         let mut kept: Vec<usize> = (0..self.samples.len()).collect();
-        // A sample without a value cannot be kept.
+        // Discard samples without a value first.
         kept.retain(|sample| self.samples[*sample].iter().all(|excess| excess.is_finite()));
         let mut left = (self.discards + kept.len()).checked_sub(self.samples.len())?;
         let margin = (overshoot * self.excess()).clamp(MARGINS[0], MARGINS[1]);
         let each = left.div_ceil(ROUNDS).max(1);
         while left > 0 {
-            // The requirement for which all discards left would gain most. The next few samples
-            // alone may gain nothing, because others have the same excess.
+            // Find the requirement for which the merit would improve most if all remaining discards
+            // were used for it. Only the next few discards may improve nothing, because other
+            // samples have the same excess.
             let gains = (0..self.gradients.len()).filter_map(|k| {
                 Some((self.solve(centre, radius, margin, &self.without(&kept, k, left))?.merit, k))
             });
@@ -223,14 +233,17 @@ impl YieldModel {
         self.solve(centre, radius, margin, &kept)
     }
 
-    /// Returns `kept` without the `count` samples of the largest excess over requirement `k`.
+    /// Returns `kept` without the `count` samples that have the largest excess over requirement
+    /// `k`.
     fn without(&self, kept: &[usize], k: usize, count: usize) -> Vec<usize> {
         let mut sorted = kept.to_vec();
         sorted.sort_by(|a, b| self.samples[*b][k].total_cmp(&self.samples[*a][k]));
         sorted.split_off(count)
     }
 
-    /// Solves the linear program with the `kept` samples.
+    /// Solves the linear program (O11) with the `kept` samples.
+    ///
+    /// The step ends at the distance `margin` inside the limits, if possible.
     fn solve(&self, centre: &[f64], radius: f64, margin: f64, kept: &[usize]) -> Option<Step> {
         let largest = |k: usize| kept.iter().map(|s| self.samples[*s][k]).fold(f64::MIN, f64::max);
         let rows: Vec<(f64, &[f64])> = self
@@ -239,7 +252,8 @@ impl YieldModel {
             .map(|(excess, gradient)| (*excess, gradient.as_slice()))
             .chain(self.gradients.iter().enumerate().map(|(k, g)| (largest(k), g.as_slice())))
             .collect();
-        // First the least excess within the radius, then the least cost with this excess.
+        // Minimise the excess within the radius first. Then minimise the cost without a larger
+        // excess.
         let worst = rows.iter().map(|(excess, _)| *excess).fold(-margin, f64::max);
         let mut excess = worst;
         if worst > -margin {
@@ -263,8 +277,9 @@ impl YieldModel {
 mod tests {
     use super::*;
 
-    /// Samples with the limits `x ≤ 0.5` and `y ≤ 0.5`: five have 0.1 less for `x`, five others 0.1
-    /// less for `y`. The cost falls by 1 with `x` and by 10 with `y`.
+    /// Returns a model of 50 samples with the requirements `x ≤ 0.5` and `y ≤ 0.5`.
+    ///
+    /// Five samples require `x ≤ 0.4` instead, and five others `y ≤ 0.4`. The cost is `−x − 10 y`.
     fn model(discards: usize) -> YieldModel {
         let excess = |sample: usize| match sample {
             0..5 => vec![0.1, 0.0],
@@ -282,10 +297,10 @@ mod tests {
     }
 
     #[test]
-    fn samples_that_cost_most_are_discarded() {
+    fn samples_that_restrict_the_objective_most_are_discarded() {
         for (discards, to) in [(0, [0.4, 0.4]), (5, [0.4, 0.5]), (10, [0.5, 0.5])] {
             let step = model(discards).step(&[0.5, 0.5], 0.2, 0.5).expect("a step");
-            // Steps aim at 0.001 inside the limits.
+            // Steps end 0.001 inside the limits.
             assert!(distance(&step.to, &to.map(|x| x - 1e-3)) < 1e-6, "{discards}: {:?}", step.to);
         }
     }
@@ -296,7 +311,8 @@ mod tests {
         for sample in 10..13 {
             model.samples[sample][1] = f64::INFINITY;
         }
-        // Only two of the five samples that limit `y` can be discarded, which moves no limit.
+        // Three discards are needed for samples without a value. The other two cannot remove all
+        // five samples that require `y ≤ 0.4`.
         let step = model.step(&[0.5, 0.5], 0.2, 0.5).expect("a step");
         assert!(distance(&step.to, &[0.399, 0.399]) < 1e-6, "{:?}", step.to);
         model.discards = 2;

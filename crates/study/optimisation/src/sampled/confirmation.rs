@@ -1,4 +1,4 @@
-//! Checks the results of a search with independent samples.
+//! Checks the best designs of a search with independent samples.
 
 use ranking::Requirement;
 use serde::Serialize;
@@ -11,47 +11,50 @@ use crate::sample::{MissedRequirement, SampleJudge, Samples};
 use crate::space::SpacePoint;
 use crate::statistic::Statistic;
 
-/// Number of independent samples for each check.
+/// Number of independent samples for the check of a design.
 pub(crate) const FRESH: usize = 1000;
 
-/// Statistics of a best design, by seen and by independent samples.
+/// Statistics of a best design, estimated from two sets of samples.
 ///
-/// Seen samples are the samples of the search.
+/// The search selected the design by its own samples, so their statistics are biased. The
+/// independent samples are drawn only for this check.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Confirmation {
-    /// Number of samples per design in the search.
+    /// Number of samples of the search for each design.
     pub seen: usize,
     /// Number of independent samples of this design.
     pub fresh: usize,
-    /// Statistics, with unique names.
+    /// Statistics of the design, each name once.
     pub estimates: Vec<Estimate>,
-    /// Requirements on statistics that the independent samples violate.
+    /// Requirements on statistics that the independent samples miss.
     pub broken: Vec<Requirement>,
-    /// Requirements that single independent samples miss.
+    /// Requirements on columns, with the fraction of independent samples that miss them.
     pub missed: Vec<MissedRequirement>,
 }
 
-/// Statistic over the samples of a best design.
+/// Statistic of a best design, estimated from two sets of samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Name of the statistic.
     #[serde(rename = "quantity")]
     pub name: String,
-    /// Value by the samples of the search.
+    /// Estimate from the samples of the search.
     pub seen: Option<f64>,
-    /// Value by the independent samples.
+    /// Estimate from the independent samples.
     pub value: Option<f64>,
-    /// 95 % confidence interval.
+    /// 95 % confidence interval from the independent samples; an end is `None` if it is unknown.
     pub interval: [Option<f64>; 2],
 }
 
 impl Confirmation {
-    /// Returns the estimate with this name.
+    /// Returns the estimate of the statistic `name`.
     pub fn estimate(&self, name: &str) -> Option<&Estimate> {
         self.estimates.iter().find(|estimate| estimate.name == name)
     }
 
-    /// Returns true if the 95 % interval reaches values that meet the requirement.
+    /// Returns true if an end of the 95 % interval meets the requirement.
+    ///
+    /// The independent samples then cannot decide whether the requirement is missed.
     pub fn is_open(&self, requirement: &Requirement) -> bool {
         let estimate = self.estimate(&requirement.column);
         let mut ends = estimate.into_iter().flat_map(|of| of.interval).flatten();
@@ -61,14 +64,14 @@ impl Confirmation {
 
 /// Checks the design at `point` with independent samples.
 ///
-/// `None` if the goal is not about samples.
+/// `None` if the goal contains no statistics over samples.
 pub(crate) fn confirm(
     search: &Search<'_>,
     point: &SpacePoint,
 ) -> Result<Option<Confirmation>, Halt> {
     let Some(judge) = search.judge.samples() else { return Ok(None) };
     let seen = search.evaluations.samples(point, 1, judge.count, judge)?;
-    // Start after the samples of the search: selection by those samples biases them.
+    // The independent samples are numbered after the samples of the search.
     let first = judge.count as u64 + 1;
     let fresh = search.evaluations.samples(point, first, FRESH, judge)?;
     let all: Vec<Estimate> =
@@ -90,6 +93,7 @@ pub(crate) fn confirm(
     Ok(Some(Confirmation { seen: seen.0.len(), fresh: FRESH, estimates, broken, missed }))
 }
 
+/// Estimates statistic `q` from the samples of the search and from independent samples.
 fn estimate(judge: &SampleJudge, q: usize, seen: &Samples, fresh: &Samples) -> Estimate {
     let used = &judge.statistics[q];
     let keys = judge.keys(q, fresh);

@@ -1,4 +1,4 @@
-//! Searches sampled designs, starting from the best nominal designs.
+//! Searches designs by statistics over their samples, starting from the best nominal designs.
 
 use rayon::iter::{
     IntoParallelIterator as _, IntoParallelRefMutIterator as _, ParallelIterator as _,
@@ -16,42 +16,47 @@ use crate::local::{Effort, Search};
 use crate::progress::SearchPart;
 use crate::space::SpacePoint;
 
-/// Maximum points of the nominal front from which the sampled front starts.
+/// Maximum number of points of the nominal front from which the front over samples starts.
 pub(crate) const NOMINAL_POINTS: usize = 10;
 
-/// Number of nominal designs per objective that are sampled first.
+/// Number of nominal designs that are sampled first, for each objective.
 pub(crate) const SEEDS: usize = 16;
 
-/// Number of designs refined with more samples, in different regions if possible.
+/// Number of designs that are improved with more samples, in different regions if possible.
 pub(crate) const REFINED: usize = 2;
 
-/// Maximum number of steps from a design that fails on independent samples.
+/// Maximum number of steps from a design that misses a requirement on independent samples.
 const CONFIRMED: usize = 4;
 
-/// Length of such a step over the length to first order.
+/// Ratio of the length of such a step to the length that a linear model predicts.
 const OVERSHOOT: f64 = 1.3;
 
-/// Inverse of the fraction of samples with margins that such a step raises.
+/// Inverse of the fraction of samples that a step considers on each side of the deciding sample.
 ///
-/// These samples lie next to the quantile that the yield requires, on either side.
+/// Samples are sorted by margin. The deciding sample (O6) is at the quantile that the yield
+/// requires.
 const NEAR: usize = 10;
 
-/// Number of projections on every gradient.
+/// Number of projections on each gradient.
 const PROJECTIONS: usize = 100;
 
-/// Searches of nominal designs, of sampled designs, and with more samples.
+/// Searches with different judges.
 #[derive(Clone, Copy)]
 pub(crate) struct Searches<'s> {
+    /// Search by nominal designs.
     pub nominal: &'s Search<'s>,
+    /// Search by samples.
     pub sampled: &'s Search<'s>,
+    /// Search by a larger number of samples.
     pub finer: &'s Search<'s>,
 }
 
 impl Searches<'_> {
-    /// Searches for the answer to a goal about samples.
+    /// Searches for the answer to a goal with statistics over samples.
     ///
-    /// `first` is the answer by nominal designs. A nominal design costs one solution, a sampled one
-    /// as many as it has samples, so nominal designs provide the starts. The history includes them.
+    /// `first` is the answer by nominal designs, and `history` contains these designs. A nominal
+    /// design needs one solution, a design with samples one solution for each sample. So nominal
+    /// designs provide the starts.
     pub fn answer(
         &self,
         goal: &DesignGoal,
@@ -67,7 +72,7 @@ impl Searches<'_> {
             candidate.verdict = sampled.judge.verdict(&row);
             is_admitted |= sampled.judge.samples().is_some_and(|judge| judge.admits(&row));
         }
-        // If no nominal design is worth sampling, the nominal answer is final.
+        // No nominal design meets the requirements on its samples, so the nominal answer is final.
         if !is_admitted {
             return Ok(first);
         }
@@ -85,8 +90,8 @@ impl Searches<'_> {
         match &mut answer {
             Answer::Optimum(best) => {
                 let is_refined = refine(self, best, history)?;
-                // Independent samples are numbered after all seen samples, and the finer search has
-                // seen more.
+                // Independent samples are numbered after the samples of the search. A refined
+                // design was selected by the larger number of samples of the finer search.
                 let search = if is_refined { finer } else { sampled };
                 check(search, std::slice::from_mut(best.as_mut()))?;
                 if goal.confirm {
@@ -100,9 +105,10 @@ impl Searches<'_> {
     }
 }
 
-/// Refines the best designs with more samples.
+/// Improves the best designs with more samples, and replaces `best` by the best result.
 ///
-/// Selection by few samples overestimates them. Returns true if a refined design is feasible.
+/// A design that was selected by few samples is usually overestimated. Returns false, and leaves
+/// `best` unchanged, if no design is feasible with more samples.
 fn refine(
     searches: &Searches<'_>,
     best: &mut BestDesign,
@@ -115,16 +121,17 @@ fn refine(
     let mut evaluated = Vec::new();
     for start in starts {
         let start = finer.evaluate(SearchStage::Tolerance, &start.point, false)?.0;
-        // Full search: if more samples reduce the yield by a tenth, small steps seldom repair it.
+        // Run a full search. If more samples reduce the yield by a tenth, small steps seldom
+        // restore it.
         evaluated.extend(finer.improve(&best.target, &start, Effort::WHOLE)?);
-        // The search does not return its start, which may be the best design.
+        // Add the start, which may be the best design: `improve` does not return it.
         evaluated.push(start);
     }
     let is_refined = evaluated
         .iter()
         .any(|candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_)));
     if is_refined {
-        // Among `evaluated` only, because all of these designs have more samples.
+        // Select among `evaluated` only, because designs in `history` have fewer samples.
         let refined = best_design(finer, &evaluated, best.target.clone())?;
         *best = BestDesign { agreement: best.agreement, ..refined };
     }
@@ -132,10 +139,10 @@ fn refine(
     Ok(is_refined)
 }
 
-/// Moves a best design that fails on independent samples until it passes.
+/// Moves a best design until independent samples meet the requirements.
 ///
-/// Each step raises the margins of the seen samples by as much as the independent samples miss. If
-/// no step passes, the best design stays.
+/// Each step increases the margins of the samples of the search by the shortfall of the independent
+/// samples. If no step succeeds, `best` is unchanged.
 fn confirm_another(
     search: &Search<'_>,
     best: &mut BestDesign,
@@ -162,10 +169,11 @@ fn confirm_another(
     Ok(())
 }
 
-/// Returns the nearest point at which the independent samples meet a yield, to first order.
+/// Returns a near point at which a linear model predicts that independent samples meet the yield.
 ///
-/// The quantile of the margins that the yield requires is negative for the independent samples. The
-/// step raises the margins of the seen samples next to this quantile by as much.
+/// `failed` is the confirmation of the design at `point`. The independent sample that decides the
+/// yield (O6) has a negative margin. The step increases the margins of the samples of the search
+/// around their deciding sample by this shortfall. `None` if no yield is missed, or no step exists.
 fn safer(
     search: &Search<'_>,
     point: &SpacePoint,
@@ -190,9 +198,9 @@ fn safer(
     Ok((next != *point && step.iter().all(|x| x.is_finite())).then_some(next))
 }
 
-/// Returns a short step along which every gradient rises by `rise`.
+/// Returns a short step `d` with `g·d ≥ rise` for each gradient `g`.
 ///
-/// Computed by Kaczmarz projections.
+/// The step is computed by Kaczmarz projections.
 fn least_step(gradients: &[Vec<f64>], rise: f64, variables: usize) -> Vec<f64> {
     let mut step = vec![0.0; variables];
     for _ in 0..PROJECTIONS {
@@ -209,7 +217,7 @@ fn least_step(gradients: &[Vec<f64>], rise: f64, variables: usize) -> Vec<f64> {
     step
 }
 
-/// Checks the best designs with independent samples.
+/// Checks the best designs with independent samples, and stores the results in the designs.
 fn check(search: &Search<'_>, best: &mut [BestDesign]) -> Result<(), Halt> {
     let units = FRESH as u64;
     search.progress.begin(SearchPart::Check, best.len(), best.len() as u64 * units);
@@ -220,9 +228,9 @@ fn check(search: &Search<'_>, best: &mut [BestDesign]) -> Result<(), Halt> {
     })
 }
 
-/// Selects the designs to be sampled first.
+/// Selects the nominal designs that are sampled first.
 ///
-/// They are the best nominal designs, then others at a distance.
+/// They are the designs of the nominal `answer`, then good designs in other regions.
 fn seeds(nominal: &Search<'_>, history: &[Candidate], answer: &Answer) -> Vec<SpacePoint> {
     let best = match answer {
         Answer::Optimum(best) => std::slice::from_ref(best.as_ref()),
@@ -248,7 +256,7 @@ mod tests {
     use super::least_step;
 
     #[test]
-    fn a_step_increases_every_margin_equally() {
+    fn step_increases_every_margin_by_the_requested_amount() {
         let gradients = [vec![1.0, 0.0], vec![-0.5, 1.0]];
         let step = least_step(&gradients, 0.1, 2);
         for gradient in &gradients {

@@ -1,7 +1,7 @@
-//! Optima compared with fine grids and dense sequences.
+//! Compares the optima of searches with fine grids and dense sequences of designs.
 //!
-//! Runs in long campaigns only: tens of thousands of designs are evaluated, a million with
-//! `SQUAMA_GRID=100`.
+//! These tests run only in long campaigns (`SQUAMA_CAMPAIGNS`), because they evaluate tens of
+//! thousands of designs, or a million with `SQUAMA_GRID=100`.
 
 use std::path::Path;
 
@@ -15,25 +15,29 @@ use sweep::Measure;
 
 use crate::searches::{found_in, objectives, optimum};
 
-/// Points along each axis of a grid.
+/// Number of points along each axis of a grid.
 ///
-/// `SQUAMA_GRID` overrides it for the grid over the whole box.
+/// `SQUAMA_GRID` replaces this number for the grid over the whole space.
 const POINTS: usize = 12;
 
 /// Half-width of the grid around the optimum, as a fraction of the intervals.
 const NEAR: f64 = 0.001;
 
-/// Best point of a grid, and the number of feasible points.
+/// Best of several points, and the number of feasible points.
 #[derive(Clone, Debug)]
 struct GridBest {
+    /// Objective of the best point, to be maximised.
     objective: f64,
+    /// Best point, as fractions of the intervals.
     shares: Vec<f64>,
+    /// Number of feasible points.
     met: usize,
 }
 
 impl GridBest {
     const NONE: Self = Self { objective: f64::NEG_INFINITY, shares: Vec::new(), met: 0 };
 
+    /// Returns the better of two points, and the sum of the numbers of feasible points.
     fn or(self, other: Self) -> Self {
         let met = self.met + other.met;
         let better = if other.objective > self.objective { other } else { self };
@@ -41,9 +45,9 @@ impl GridBest {
     }
 }
 
-/// Returns the best point of a grid over `ranges` of three intervals.
+/// Returns the best point of a grid with `points` values along each of three variables.
 ///
-/// Each range has `points` values.
+/// `ranges` are the ends of the grid, as fractions of the intervals.
 fn best_of_grid(goal: &DesignGoal, ranges: &[[f64; 2]], points: usize) -> GridBest {
     let axes: Vec<Vec<f64>> = ranges
         .iter()
@@ -51,7 +55,8 @@ fn best_of_grid(goal: &DesignGoal, ranges: &[[f64; 2]], points: usize) -> GridBe
             (0..points).map(|k| from + (to - from) * k as f64 / (points - 1) as f64).collect()
         })
         .collect();
-    // Designs with equal gap and length share springs, which an evaluator caches.
+    // Each thread has one gap. An evaluator caches the springs, which designs with equal gap and
+    // length share.
     axes[0]
         .par_iter()
         .map(|gap| {
@@ -68,6 +73,8 @@ fn best_of_grid(goal: &DesignGoal, ranges: &[[f64; 2]], points: usize) -> GridBe
 }
 
 /// Returns the best of `count` points of a low-discrepancy sequence in `ranges`.
+///
+/// `ranges` are fractions of the intervals.
 fn best_of_sequence(goal: &DesignGoal, ranges: &[[f64; 2]], count: usize) -> GridBest {
     const RATIO: f64 = 1.220_744_084_605_759_5;
     let solver = GoalSolver::new(goal);
@@ -82,7 +89,7 @@ fn best_of_sequence(goal: &DesignGoal, ranges: &[[f64; 2]], count: usize) -> Gri
         .reduce(|| GridBest::NONE, GridBest::or)
 }
 
-/// Measures, with the requirements that depend on them alone.
+/// Evaluator of some measures, and the requirements that depend only on these measures.
 struct Stage {
     evaluator: Evaluator,
     bounds: Vec<(Requirement, Column<DesignRow>)>,
@@ -104,7 +111,8 @@ impl Stage {
 
 /// Evaluates points, the fastest measures first.
 ///
-/// Puncture takes longest, so it is only solved for designs with enough coverage and compliance.
+/// Puncture is the slowest measure, so it is only solved for designs that meet the requirements on
+/// coverage and bending.
 struct GoalSolver<'g> {
     goal: &'g DesignGoal,
     judge: Judge,
@@ -122,6 +130,7 @@ impl<'g> GoalSolver<'g> {
         Self { goal, judge: Judge::new(goal), stages, whole }
     }
 
+    /// Evaluates one point; returns `GridBest::NONE` if it is not feasible.
     fn best(&self, shares: Vec<f64>) -> GridBest {
         let point = SpacePoint { shares, chosen: Vec::new() };
         let case = self.goal.space.case(&point);
@@ -172,7 +181,7 @@ fn no_grid_has_a_better_design_than_the_optimum() {
     }
 }
 
-/// Objectives and requirements over the paper's box that no search was tuned on.
+/// Objectives and requirements on which no setting of the search was tuned.
 const GOALS: [(&str, &str); 12] = [
     ("maximize = 'critical_force_N'", "'coverage >= 0.5', 'compliance >= 0.35'"),
     ("maximize = 'critical_force_N'", "'coverage >= 0.62', 'areal_mass_kg_m2 <= 0.8'"),
@@ -191,10 +200,11 @@ const GOALS: [(&str, &str); 12] = [
     ),
 ];
 
-/// No random design is better than the optima of the twelve goals.
+/// Tests that no design of a dense sequence is better than the optima of twelve goals.
 ///
-/// `SQUAMA_CAMPAIGNS=endless` evaluates 50,000 designs of the box and 20,000 near the optimum of
-/// each goal, `long` evaluates 4 % of them for every other goal.
+/// `SQUAMA_CAMPAIGNS=endless` evaluates for each goal 50,000 designs in the whole space and 20,000
+/// designs near the optimum. `SQUAMA_CAMPAIGNS=long` evaluates 4 % of these designs for every
+/// second goal.
 #[test]
 fn no_design_beats_the_optima_of_twelve_goals() {
     let (part, each) = match std::env::var("SQUAMA_CAMPAIGNS").as_deref() {
@@ -223,7 +233,7 @@ fn no_design_beats_the_optima_of_twelve_goals() {
         });
         let [(one, shares, evaluations), (other, ..)] = &found;
         let space = &goals[0].space;
-        // Five per cent of each value on both sides of the optimum.
+        // The range of each variable is 5 % of its optimal value to both sides.
         let near: Vec<[f64; 2]> = space
             .intervals()
             .iter()

@@ -1,4 +1,4 @@
-//! Derivatives of columns, computed from extrapolated rows, compared with solved designs.
+//! Compares derivatives of columns from extrapolated rows with differences of solved designs.
 
 use results::columns::{Cell, design_columns};
 use results::{Column, DesignRow, SlopeSide};
@@ -8,10 +8,12 @@ use sweep::{Case, Measure, Parameter, Sweep};
 const TEXT: &str = "name = 'x'\n[designs]\ngap_over_t = 0.37\nlength_over_t = 0.81\nslant_deg = 41\n\
     [material]\nthickness_mm = 1.3\nsubstrate_modulus_MPa = 0.4\nmembrane_modulus_MPa = 2\nscale_density_kg_m3 = 1100\n";
 
+/// Solves `case` as the first design of `sweep`.
 fn solved(evaluator: &Evaluator, sweep: &Sweep, case: &Case) -> DesignRow {
     evaluator.solve(sweep.grid().number(0), case).row
 }
 
+/// Returns the number in a column; `None` for an empty cell or text.
 fn value(column: &Column<DesignRow>, row: &DesignRow) -> Option<f64> {
     match column.cell(row) {
         Cell::Number(number) => Some(number),
@@ -25,7 +27,7 @@ fn columns_have_the_derivatives_of_solved_designs_by_each_parameter() {
     columns_have_the_derivatives_of_solved_designs(TEXT, &keys);
 }
 
-/// Lengths in mm depend on the thickness, and the length also on a pitch in mm.
+/// Tests lengths in mm. They depend on the thickness, and here the length depends on the pitch.
 #[test]
 fn columns_have_derivatives_by_lengths_in_mm() {
     let text = "name = 'x'\ndesigns = { gap_mm = 0.48, pitch_mm = 1.53, slant_deg = 41 }\n\
@@ -35,9 +37,9 @@ fn columns_have_derivatives_by_lengths_in_mm() {
     columns_have_the_derivatives_of_solved_designs(text, &keys);
 }
 
-/// The modulus of soft scales changes both ratios of moduli.
+/// Tests moduli. The modulus of the scales changes both ratios of moduli.
 ///
-/// Their contact is compliant.
+/// The scales are soft, so that the contact is compliant and the ratios affect the results.
 #[test]
 fn columns_have_derivatives_by_moduli_of_soft_scales() {
     let text = format!("{TEXT}scale_modulus_MPa = 8\n");
@@ -49,6 +51,7 @@ fn columns_have_derivatives_by_moduli_of_soft_scales() {
     );
 }
 
+/// Asserts that extrapolation changes each column like solving, for a step of each parameter.
 fn columns_have_the_derivatives_of_solved_designs(text: &str, keys: &[&str]) {
     let sweep = Sweep::parse(text, "x.toml", &[]).expect("a sweep");
     let case = sweep.grid().case(0);
@@ -74,7 +77,7 @@ fn columns_have_the_derivatives_of_solved_designs(text: &str, keys: &[&str]) {
             let size = above.abs().max(below.abs());
             assert!(
                 (solved - extrapolated).abs() <= 2e-4 * solved.abs() + 1e-9 * size,
-                "{name} by {key}: {solved} is solved for, {extrapolated} extrapolated"
+                "{name} by {key}: change {solved} if solved, {extrapolated} if extrapolated"
             );
             compared += 1;
         }
@@ -89,8 +92,8 @@ fn values_without_derivatives_are_not_extrapolated() {
     let row = solved(&Evaluator::new(&Measure::USUAL), &sweep, &case);
     for (key, affects_force, affects_compliance) in [
         ("gap_over_t", true, true),
-        // Poisson's ratio of the substrate does not affect bending, and the thickness in mm neither
-        // measure.
+        // Poisson's ratio of the substrate affects puncture but not bending. The thickness in mm
+        // affects neither puncture nor bending.
         ("poisson_ratio", true, false),
         ("thickness_mm", false, false),
     ] {
@@ -107,7 +110,7 @@ fn values_without_derivatives_are_not_extrapolated() {
 }
 
 #[test]
-fn upright_scales_have_derivatives_of_bending() {
+fn compliance_of_upright_scales_has_the_derivative_of_the_closed_form() {
     let sweep = Sweep::parse(&TEXT.replace("slant_deg = 41", "slant_deg = 0"), "x.toml", &[])
         .expect("a sweep");
     let row = solved(&Evaluator::new(&Measure::ALL), &sweep, &sweep.grid().case(0));
@@ -120,7 +123,7 @@ fn upright_scales_have_derivatives_of_bending() {
             derivative.measure == "compliance" && derivative.parameter == "gap_over_t"
         })
         .expect("a derivative");
-    // C = d/p
+    // The compliance is C = d/p.
     let (gap, length) = (0.37_f64, 0.81);
     let expected = length / (gap + length).powi(2);
     assert!((derivative.derivative().expect("smooth") - expected).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! The fitness of the paper as an objective: its optimum and its derivatives.
+//! Tests of the fitness as an objective: optimum in closed form, and derivatives.
 
 use optimisation::{Judge, Judgement, SpacePoint};
 use run::{Evaluator, Start};
@@ -6,17 +6,18 @@ use sweep::Measure;
 
 use crate::searches::{found_in, goal, objectives, optimum};
 
-/// Coverage against mass, between given ends.
+/// Goal that maximises a fitness of coverage and mass, which are rescaled between given ends.
 const FITNESS: &str = "maximize = 'fitness'\nweights = { coverage = 1, areal_mass_kg_m2 = 3 }\n\
     rescale = { coverage = [0.1, 0.9], areal_mass_kg_m2 = [1, 0.5] }";
 
 #[test]
-fn the_fittest_design_matches_the_closed_form() {
+fn optimum_of_the_fitness_matches_the_closed_form() {
     let goal = goal(FITNESS);
     let folder = tempfile::tempdir().expect("a folder");
     let found = found_in(folder.path(), &goal, 1, Start::New);
     let best = optimum(&found);
-    // At 60°, λ = (S − d)/S and m = 1/(1 + d); its inverse 1 + d is rescaled from 1 to 2.
+    // At 60° the coverage is λ = (S − d)/S. The mass is m = 1/(1 + d), and its inverse 1 + d is
+    // rescaled between 1 and 2.
     let reach = 60_f64.to_radians().tan();
     let fittest = (100..=1000)
         .map(|k| {
@@ -29,14 +30,15 @@ fn the_fittest_design_matches_the_closed_form() {
 }
 
 #[test]
-fn missing_ends_are_taken_from_the_samples() {
+fn missing_ends_are_taken_from_the_space_filling_points() {
     let (first, _) = FITNESS.rsplit_once('\n').expect("lines");
     let goal = goal(first);
     let folder = tempfile::tempdir().expect("a folder");
     let found = found_in(folder.path(), &goal, 1, Start::New);
     let ends: Vec<(f64, f64)> = found.rescaled.iter().map(|e| (e.worst, e.best)).collect();
-    // The sample includes corners. At a gap of 0.1, the coverage is largest at 60°, and the mass
-    // lies between the values at its ends.
+    // The space-filling points include the corners of the space. The corner with a gap of 0.1 and a
+    // slant of 60° nearly has the largest coverage. The smallest and the largest mass are at the
+    // ends of the gap.
     let reach = 60_f64.to_radians().tan();
     assert!(ends[0].0 > 0.0 && ends[0].1 >= (reach - 0.1) / reach - 0.1, "{ends:?}");
     assert_eq!(ends[1], (1.0 / 1.1, 0.5));

@@ -1,4 +1,4 @@
-//! Searches with known optima, and checks of their components.
+//! Tests of searches with known optima, and of the derivatives that searches use.
 
 mod brute_force;
 mod columns;

@@ -1,4 +1,4 @@
-//! Searches with optima in closed form.
+//! Tests of searches: optima in closed form, fronts, interruptions and damaged journals.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -14,23 +14,25 @@ use run::{Program, Start};
 
 const PROGRAM: Program = Program { version: "1.0", revision: "none" };
 
-/// Goal with gap and slant of scales as variables; only the coverage is measured.
+/// Start of a goal with gap and slant as variables, in which only the coverage is measured.
 const COVERED: &str = "name = 'covered'\nmeasures = 'coverage'\n[variables]\n\
     gap_over_t = { from = 0.1, to = 1 }\nslant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n\
     [material]\nthickness_mm = 1\nscale_density_kg_m3 = 1000\n";
 
+/// Runs the search for `goal` with its journal in `folder`.
 pub(crate) fn found_in(folder: &Path, goal: &DesignGoal, threads: usize, start: Start) -> Found {
     let (stop, progress) = (AtomicBool::new(false), SearchProgress::default());
     let options = SearchOptions { threads, start, stop: &stop, progress: &progress };
     optimise(goal, folder, &options, &PROGRAM).expect("a search").expect("an end")
 }
 
+/// Returns the goal `COVERED` with further lines of its section `[goal]`.
 pub(crate) fn goal(text: &str) -> DesignGoal {
     DesignGoal::parse(&format!("{COVERED}[goal]\nsamples = 64\n{text}"), "x.toml", &[])
         .expect("a goal")
 }
 
-/// A level of a standard is a requirement; the goal also records the standard.
+/// Tests that a level of a standard becomes a requirement, and that the goal records the standard.
 #[test]
 fn goals_accept_levels_of_standards() {
     let text = "name = 'x'\nmeasures = 'puncture'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
@@ -50,11 +52,12 @@ fn goals_accept_levels_of_standards() {
     );
 }
 
-/// The reference search ends at a corner of limits, which derivatives prove to be the optimum.
+/// Tests a search that ends at a design with as many binding limits as variables.
 ///
-/// Ridge search and polish would only confirm it. The reported design still has all values.
+/// Derivatives prove that this design is optimal, so ridge search and derivative-free search are
+/// omitted. The reported design has the values of all columns, which the search does not compute.
 #[test]
-fn a_search_does_not_confirm_an_optimum_that_derivatives_prove() {
+fn search_does_not_continue_at_an_optimum_that_derivatives_prove() {
     let (found, _) = reference_search();
     let best = optimum(found);
     assert!((objectives(best)[0] - 2.141_936_6).abs() < 2e-6, "{:?}", objectives(best));
@@ -69,9 +72,9 @@ fn a_search_does_not_confirm_an_optimum_that_derivatives_prove() {
     assert!(best.row.result.puncture.is_some_and(|p| p.measures.max_stiffness.is_some()));
 }
 
-/// Runs the reference search once, and returns its result with its progress.
+/// Runs the reference search once for all tests, and returns its result and its progress.
 ///
-/// Progress is the number of evaluated designs and the completed fraction.
+/// The progress is a list of pairs: number of evaluated designs, and completed fraction.
 fn reference_search() -> &'static (Found, Vec<[f64; 2]>) {
     static SEARCH: OnceLock<(Found, Vec<[f64; 2]>)> = OnceLock::new();
     SEARCH.get_or_init(|| {
@@ -98,16 +101,19 @@ fn reference_search() -> &'static (Found, Vec<[f64; 2]>) {
     })
 }
 
+/// Runs the search for `goal` on one thread in a temporary folder.
 fn found(goal: &DesignGoal) -> Found {
     let folder = tempfile::tempdir().expect("a folder");
     found_in(folder.path(), goal, 1, Start::New)
 }
 
+/// Returns the best design of a search with one objective.
 pub(crate) fn optimum(found: &Found) -> &BestDesign {
     let Answer::Optimum(best) = &found.answer else { panic!("an optimum") };
     best
 }
 
+/// Returns the values of the objectives of a best design.
 pub(crate) fn objectives(best: &BestDesign) -> &[f64] {
     let Judgement::Judged(worth) = &best.candidate.verdict else { panic!("judged") };
     &worth.objectives
@@ -118,11 +124,12 @@ fn binding_limits_have_the_exact_multipliers() {
     let goal = goal("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'");
     let found = found(&goal);
     let best = optimum(&found);
-    // The gap is as wide as the coverage λ = (S − d)/S allows, to minimise the mass 1/(1 + d).
+    // The mass is 1/(1 + d), so the gap is as wide as the coverage λ = (S − d)/S = 0.5 allows.
     let reach = 60_f64.to_radians().tan();
     let gap = 0.5 * reach;
     assert!((objectives(best)[0] - 1.0 / (1.0 + gap)).abs() < 1e-9, "{:?}", objectives(best));
-    // dm/dλ = S/(1 + d)². One degree more slant would widen the gap by (1 − λ) dS/dα.
+    // The multiplier of the coverage is dm/dλ = S/(1 + d)². For each degree of slant the gap could
+    // be wider by (1 − λ) dS/dα.
     let price = reach / (1.0 + gap).powi(2);
     let rate = (1.0 + reach * reach) * 1_f64.to_radians();
     for (limit, price) in
@@ -132,15 +139,17 @@ fn binding_limits_have_the_exact_multipliers() {
         let found = binding.and_then(|binding| binding.price).expect("a price");
         assert!((found - price).abs() < 1e-6, "{limit:?}: {found}");
     }
-    // 1 % of the limit changes the mass by dm/dλ · λ/m = 0.464 %.
+    // A change of the limit by 1 % changes the mass by 1 % · dm/dλ · λ/m = 0.464 %.
     let reason = "coverage and slant_deg at its upper end 60 limit this design: \
                   with 1 % less required coverage, areal_mass_kg_m2 falls by 0.46 %.";
     assert_eq!(best.reason.as_deref(), Some(reason));
 }
 
-/// The gap may be at most 0.866, so rounding to the nearest multiple would miss the coverage.
+/// Tests rounding to multiples of 0.1 if the largest feasible gap is 0.866.
+///
+/// Rounding to the nearest multiple, 0.9, would miss the required coverage.
 #[test]
-fn a_rounded_design_meets_the_requirements() {
+fn rounded_design_meets_the_requirements() {
     let text = "minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'\nround = 0.1";
     let found = found(&goal(text));
     let best = optimum(&found);
@@ -155,29 +164,31 @@ fn a_rounded_design_meets_the_requirements() {
 }
 
 #[test]
-fn a_goal_without_a_feasible_rounded_design_keeps_the_exact_one() {
-    // The gap is between 0.852 and 0.866.
+fn exact_design_is_kept_if_no_rounded_design_is_feasible() {
+    // Feasible gaps are between 0.852 and 0.866.
     let text = "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54']\nround = 0.1";
     let found = found(&goal(text));
-    assert_eq!(found.rounding.as_ref().expect("tried").rounded, None);
+    assert_eq!(found.rounding.as_ref().expect("a rounding").rounded, None);
     let gap = optimum(&found).row.case.design.gap;
     assert!((gap - 0.5 * 60_f64.to_radians().tan()).abs() < 1e-9, "{gap}");
 }
 
 #[test]
-fn an_optimum_on_a_kink_is_found_without_multipliers() {
+fn optimum_on_a_kink_has_no_multipliers() {
     let text = "maximize = 'coverage'\nrequire = 'gap_over_t >= 0.3'";
     let found = found(&goal(text));
     let best = optimum(&found);
-    // At S = p, the coverage λ = 1/(1 + d) has a peak and falls on both sides.
+    // The optimum is on the coverage peak at S = p, where λ = 1/(1 + d). The coverage falls on both
+    // sides of the peak.
     assert!((objectives(best)[0] - 1.0 / 1.3).abs() < 1e-6, "{:?}", objectives(best));
     assert!(best.bindings.iter().all(|binding| binding.price.is_none()));
     assert!(found.history.iter().any(|candidate| candidate.stage == SearchStage::Ridge));
 }
 
 #[test]
-fn an_optimum_at_the_end_of_a_ridge_is_found() {
-    // Along S = p, longer scales cover more, until the surface folds or the interval ends.
+fn search_follows_a_ridge_to_its_end() {
+    // The ridge is the coverage peak at S = p. Along the ridge longer scales cover more, until the
+    // surface folds or the interval of the length ends.
     let text = "name = 'ridge'\nmeasures = ['coverage', 'puncture']\npuncture.scales = 9\n[variables]\n\
         length_over_t = { from = 0.5, to = 1 }\nslant_deg = { from = 30, to = 55 }\n[designs]\ngap_over_t = 0.1\n\
         [goal]\nmaximize = 'coverage'\nsamples = 16\n";
@@ -206,10 +217,10 @@ fn different_seeds_find_the_same_optimum() {
     assert!((one / two - 1.0).abs() < 1e-9);
 }
 
-/// The largest stiffness jumps where a path gains a contact.
+/// Tests the largest stiffness of a path, which jumps if a contact appears on the path.
 ///
-/// Gradient searches end on any of many steps (4.464, 4.349, 3.854 and 4.320 with these seeds).
-/// `SQUAMA_CAMPAIGNS=endless` runs twelve seeds, `long` three of them.
+/// It is a step function, and gradient searches end on any of many steps (e.g. at 4.464, 4.349,
+/// 3.854 and 4.320). `SQUAMA_CAMPAIGNS=endless` runs twelve seeds, `long` runs three seeds.
 #[test]
 fn seeds_agree_on_an_objective_that_jumps() {
     let text = "name = 'stiff'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
@@ -226,7 +237,7 @@ fn seeds_agree_on_an_objective_that_jumps() {
         let folder = tempfile::tempdir().expect("a folder");
         let found = found_in(folder.path(), &goal, 2, Start::New);
         let best = optimum(&found);
-        // The best of twenty seeds reached 4.4879.
+        // The best result of searches with twenty seeds is 4.4879.
         assert!(objectives(best)[0] > 4.4879 * 0.999, "{seed}: {:?}", objectives(best));
         let agreement = best.agreement.expect("of one objective");
         assert!(agreement.agreeing >= 2 && agreement.searches > 3, "{seed}: {agreement:?}");
@@ -238,12 +249,13 @@ fn searches_that_agree_need_no_restart() {
     let found = found(&goal("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'"));
     let agreement = optimum(&found).agreement.expect("of one objective");
     assert!(agreement.spread.expect("several searches") < 1e-8, "{agreement:?}");
-    // Searches of the plan: 24 short ones, six gradient searches, three full ones.
+    // Without restarts there are 33 local searches: 24 short searches, 6 gradient searches and 3
+    // full searches.
     assert!(agreement.agreeing >= 2 && found.starts == 33, "{agreement:?}");
 }
 
 #[test]
-fn all_choices_are_searched() {
+fn search_evaluates_all_values_of_a_discrete_variable() {
     let text = COVERED
         .replace("length_over_t = 1\n", "")
         .replace("slant_deg = {", "length_over_t = [0.5, 1, 2]\nslant_deg = {");
@@ -252,7 +264,7 @@ fn all_choices_are_searched() {
     let goal = DesignGoal::parse(&text, "x.toml", &[]).expect("a goal");
     let found = found(&goal);
     let best = optimum(&found);
-    // Short scales are light: the mass is 0.5 over the pitch.
+    // The shortest scales are lightest: their mass is 0.5 divided by the pitch.
     assert_eq!(best.row.case.design.length, 0.5);
     let gap = best.row.case.design.gap;
     assert!((objectives(best)[0] - 0.5 / (0.5 + gap)).abs() < 1e-12);
@@ -264,7 +276,7 @@ fn points_of_a_front_match_the_closed_form() {
     let goal = goal(text);
     let found = found(&goal);
     let Answer::Front(front) = &found.answer else { panic!("a front") };
-    // If a point has the design of another one, a further point replaces it.
+    // If two points have the same design, one of them is replaced by another point.
     assert_eq!(front.designs.len(), 9, "{} {}", front.same, front.beaten);
     let pairs: Vec<[f64; 2]> =
         front.designs.iter().map(|best| [objectives(best)[0], objectives(best)[1]]).collect();
@@ -275,8 +287,8 @@ fn points_of_a_front_match_the_closed_form() {
     let best_coverage = 1.0 / 1.1;
     assert!((pairs[0][0] - best_coverage).abs() < 1e-6, "{pairs:?}");
     for [coverage, mass] in pairs {
-        // For steep slants the coverage is (S − d)/S; for gentle slants at the kink it equals the
-        // mass.
+        // At the largest slant the coverage is (S − d)/S. Designs with larger coverage are on the
+        // coverage peak, where coverage and mass are equal.
         let reach = 60_f64.to_radians().tan();
         let gap = (reach * (1.0 - coverage)).min(1.0);
         let least = (1.0 / (1.0 + gap)).max(coverage);
@@ -286,8 +298,8 @@ fn points_of_a_front_match_the_closed_form() {
 
 #[test]
 fn ends_of_a_front_are_optimal_in_the_second_objective_too() {
-    // Where d/p = 0.2 and the coverage is at a peak, both limits bind. The longest of these scales
-    // have the widest gap. Different seeds once reached gaps of 0.10 to 0.17.
+    // The largest coverage is 0.8. Many designs have it: all designs with d/p = 0.2 on a coverage
+    // peak. The longest scales among them have the widest gap, 0.25.
     let text = "name = 'x'\nmeasures = ['coverage', 'flexure']\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
                 length_over_t = { from = 0.025, to = 1 }\nslant_deg = { from = 0, to = 75 }\n[goal]\n\
                 maximize = ['coverage', 'gap_over_t']\nrequire = 'compliance >= 0.2'\nsamples = 64\npoints = 5";
@@ -298,14 +310,15 @@ fn ends_of_a_front_are_optimal_in_the_second_objective_too() {
 }
 
 #[test]
-fn a_front_of_three_objectives_has_the_requested_number_of_points() {
+fn front_of_three_objectives_has_the_requested_number_of_points() {
     let text = "maximize = ['coverage', 'gap_over_t']\nminimize = 'slant_deg'\npoints = 24";
     let found = found(&goal(text));
     let Answer::Front(front) = &found.answer else { panic!("a front") };
     assert_eq!(front.designs.len(), 24, "{} {}", front.same, front.beaten);
     for best in &front.designs {
         let [coverage, gap, slant] = *objectives(best) else { panic!("three") };
-        // On the first coverage peak or before it, where the coverage is at most (S − d)/S.
+        // The designs are on the first coverage peak or at smaller slants. Their coverage is (S −
+        // d)/S, at most 1/(1 + d).
         let reach = slant.to_radians().tan();
         let most = (1.0 - gap / reach).max(0.0).min(1.0 / (1.0 + gap));
         assert!((coverage - most).abs() < 1e-6, "{coverage} of {most} at {gap} {slant}");
@@ -320,16 +333,17 @@ fn infeasible_goals_report_the_nearest_design() {
         )));
         let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
         let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
-        // The coverage is at most the mass here, so both shortfalls are equal: 0.9 (1 − s) = 0.8 (1
-        // + s).
+        // The coverage cannot exceed the mass. At the nearest design both are equal, and so are
+        // both shortfalls s: 0.9 (1 − s) = 0.8 (1 + s).
         let shortfall = 0.1 / 1.7;
         assert!((worth.shortfall() - shortfall).abs() < 1e-9, "{}", worth.shortfall());
     }
 }
 
-/// Returns the best critical force in the paper's box under these requirements.
+/// Returns the largest critical force that a search finds under the requirements `required`.
 ///
-/// Checks that the search evaluates fewer than `most` designs.
+/// The variables have the ranges of the paper. Asserts that the search needs fewer than `most`
+/// evaluations.
 fn strongest(required: &str, seed: usize, most: usize) -> f64 {
     let text = format!(
         "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\ngap_over_t = {{ from = 0.1, to = 1 }}\n\
@@ -341,12 +355,12 @@ fn strongest(required: &str, seed: usize, most: usize) -> f64 {
     objectives(optimum(&found))[0]
 }
 
-/// The search is fast although the feasible set is narrow.
+/// Tests the number of evaluations of a search with a narrow feasible set.
 ///
-/// Gradient searches must avoid the jump of the compliance without a requirement on coverage, and
-/// full searches must start at feasible designs.
+/// The search is fast only if gradient searches avoid the jump of the compliance, also without a
+/// requirement on coverage, and if full searches start at feasible designs.
 #[test]
-fn least_penetration_is_found_as_fast_as_other_objectives() {
+fn search_in_a_narrow_feasible_set_needs_few_evaluations() {
     let text = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
          gap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.025, to = 1 }\n\
          slant_deg = { from = 0, to = 75 }\n[goal]\nminimize = 'penetration'\n\
@@ -357,9 +371,9 @@ fn least_penetration_is_found_as_fast_as_other_objectives() {
     assert!((objectives(optimum(&found))[0] - 0.026_397_047).abs() < 1e-8);
 }
 
-/// A full search counts by its evaluations, not like a short search.
+/// Tests that the completed fraction grows with evaluations, not with the number of local searches.
 #[test]
-fn the_completed_fraction_follows_the_evaluations() {
+fn completed_fraction_is_proportional_to_evaluations() {
     let (_, seen) = reference_search();
     let all = seen.last().expect("an end")[0];
     let inner = seen.iter().filter(|[designs, _]| (0.15..0.85).contains(&(designs / all)));
@@ -370,22 +384,22 @@ fn the_completed_fraction_follows_the_evaluations() {
 }
 
 #[test]
-fn a_design_that_is_feasible_on_coverage_peaks_only_is_found() {
-    // The coverage is at most 1 − d/p and the compliance at most d/p, so both bind at peaks only. A
-    // search of only a few strips reached 0.493.
+fn search_finds_a_design_that_is_feasible_only_on_coverage_peaks() {
+    // The coverage is at most 1 − d/p and the compliance at most d/p. The sum of both limits is 1,
+    // so only designs on coverage peaks are feasible. A search near few of the peaks finds 0.493.
     assert!(strongest("'coverage >= 0.7', 'compliance >= 0.3'", 0, 600) >= 1.538);
 }
 
 #[test]
-fn the_best_of_all_coverage_strips_is_found() {
-    // Near the seventh peak. A search of only a few strips reached 1.816, near the sixth.
+fn search_finds_the_best_of_all_coverage_peaks() {
+    // The optimum is near the seventh coverage peak. The best design near the sixth peak has 1.816.
     assert!(strongest("'coverage >= 0.65', 'compliance >= 0.3'", 0, 600) >= 1.982);
 }
 
 #[test]
-fn limits_without_a_feasible_interior_are_searched() {
-    // Coverage and compliance both bind, at one length on each peak. Half of the seeds once reached
-    // 1.448 on the eighth peak, and missed the ninth.
+fn search_finds_the_optimum_of_limits_without_a_feasible_interior() {
+    // Coverage and compliance both bind, so one length on each coverage peak is feasible. The
+    // optimum is on the ninth peak. The best design on the eighth peak has 1.448.
     for seed in [2, 3] {
         let found = strongest("'coverage >= 0.6', 'compliance >= 0.4'", seed, 700);
         assert!(found >= 1.702, "{seed}: {found}");
@@ -400,16 +414,16 @@ fn requirements_that_no_design_can_meet_are_refused() {
         DesignGoal::parse(&text, "x.toml", &[])
             .map_or_else(|error| error.to_string(), |_| String::new())
     };
-    insta::assert_snapshot!(refused("'coverage >= 0.95'"), @"x.toml:13: goal.require: coverage >= 0.95 is not accepted, expected at most 0.9090909090909091 between these ends of the variables: coverage is at most 1 - d/p, the fraction of the pitch that scales occupy");
-    insta::assert_snapshot!(refused("'compliance >= 0.6'"), @"x.toml:13: goal.require: compliance >= 0.6 is not accepted, expected at most 0.5 between these ends of the variables: compliance is at most d/p, the fraction of the pitch that gaps occupy");
-    insta::assert_snapshot!(refused("'coverage >= 0.7', 'initial_compliance >= 0.4'"), @"x.toml:13: goal.require: coverage >= 0.7 is not accepted, expected at most 0.6 beside initial_compliance >= 0.4: scales occupy 1 - d/p of the pitch, which bounds coverage, and gaps d/p, which bounds compliance");
-    // Feasible up to round-off.
+    insta::assert_snapshot!(refused("'coverage >= 0.95'"), @"x.toml:13: goal.require: coverage >= 0.95 is not accepted, expected at most 0.9090909090909091 within the ranges of the variables: coverage is at most 1 - d/p, the fraction of the pitch that scales occupy");
+    insta::assert_snapshot!(refused("'compliance >= 0.6'"), @"x.toml:13: goal.require: compliance >= 0.6 is not accepted, expected at most 0.5 within the ranges of the variables: compliance is at most d/p, the fraction of the pitch that gaps occupy");
+    insta::assert_snapshot!(refused("'coverage >= 0.7', 'initial_compliance >= 0.4'"), @"x.toml:13: goal.require: coverage >= 0.7 is not accepted, expected at most 0.6 together with initial_compliance >= 0.4: coverage is at most 1 - d/p and compliance at most d/p, the fractions of the pitch that scales and gaps occupy");
+    // These limits equal the bounds up to round-off, so they are accepted.
     assert_eq!(refused("'coverage >= 0.7', 'compliance >= 0.3'"), "");
     assert_eq!(refused("'coverage >= 0.9090909090909'"), "");
 }
 
 #[test]
-fn points_of_a_front_over_decades_have_equal_ratios() {
+fn points_of_a_front_over_two_decades_have_similar_ratios() {
     let text = COVERED
         .replace("thickness_mm = 1\n", "")
         .replace("[designs]", "thickness_mm = { from = 0.1, to = 10 }\n[designs]");
@@ -421,12 +435,13 @@ fn points_of_a_front_over_decades_have_equal_ratios() {
     assert_eq!(front.designs.len(), 9);
     for pair in front.designs.windows(2) {
         let [one, other] = [&pair[0], &pair[1]].map(objectives);
-        // The widest gap gives the least mass, ρ t/(1 + d). The ends differ by a factor of 100.
+        // The smallest mass is ρ t/(1 + d) at the widest gap, d = 1. The ends of the front differ
+        // by a factor of 100.
         assert!((other[0] / (0.5 * other[1]) - 1.0).abs() < 1e-6, "{other:?}");
         let ratio = (other[1] / one[1]).abs();
         assert!((1.3..2.5).contains(&ratio), "{one:?} {other:?}");
     }
-    // Designs that only differ in thickness are solved once, with and without derivatives.
+    // Designs that differ only in thickness share one solution.
     let evaluated = found.history.len();
     assert!(found.evaluations * 3 < evaluated * 2, "{} of {evaluated}", found.evaluations);
 }
@@ -442,7 +457,7 @@ fn results_do_not_depend_on_threads_or_interruptions() {
     let journal = folder.path().join(results::ResultsFolder::EVALUATIONS);
     let bytes = std::fs::read(&journal).expect("a journal");
     for share in [3, 2] {
-        // Cut in the middle of a line.
+        // Simulate an interruption: cut the journal in the middle of a line.
         std::fs::write(&journal, &bytes[..bytes.len() / share]).expect("writable");
         let again = found_in(folder.path(), &goal, 3, Start::Resume);
         assert_eq!(places(&again), places(&whole));
@@ -451,7 +466,7 @@ fn results_do_not_depend_on_threads_or_interruptions() {
     assert!(refused(folder.path(), &goal, Start::New).contains("--resume"));
 }
 
-/// Returns the error of a search that does not start.
+/// Returns the error message of a search that is refused.
 fn refused(folder: &Path, goal: &DesignGoal, start: Start) -> String {
     let (stop, progress) = (AtomicBool::new(false), SearchProgress::default());
     let options = SearchOptions { threads: 1, start, stop: &stop, progress: &progress };
@@ -466,8 +481,7 @@ fn damaged_journals_are_refused_and_kept() {
     let journal = folder.path().join(results::ResultsFolder::EVALUATIONS);
     let sound = std::fs::read_to_string(&journal).expect("a journal");
     let lines: Vec<&str> = sound.split_inclusive('\n').collect();
-    // Neither a damaged header nor a damaged line discards the others, unless a fresh start is
-    // requested.
+    // A damaged header or line is an error, and the journal is not changed.
     for (line, what) in [(0, ":1: not the first line"), (lines.len() / 2, ": damaged line")] {
         let mut damaged = lines.clone();
         let changed = lines[line].replacen('0', "1", 1);
@@ -481,7 +495,7 @@ fn damaged_journals_are_refused_and_kept() {
             assert_eq!(std::fs::read_to_string(&journal).expect("text"), damaged);
         }
     }
-    // The error for format 1 names the program that can read it.
+    // The error for a journal of format 1 names the program that wrote the journal.
     let old = Seal::default().seal(&serde_json::json!({
         "optimisation": 1, "program": "0.1.0 (abc)", "goal_sha256": "0"
     }));
@@ -494,7 +508,7 @@ fn damaged_journals_are_refused_and_kept() {
 }
 
 #[test]
-fn a_fresh_search_removes_the_tables_of_the_last_one() {
+fn fresh_search_removes_the_tables_of_the_previous_search() {
     let (old, new) = (goal("maximize = 'coverage'"), goal("minimize = 'areal_mass_kg_m2'"));
     let place = tempfile::tempdir().expect("a folder");
     let folder = results::ResultsFolder::new(place.path());
@@ -502,7 +516,7 @@ fn a_fresh_search_removes_the_tables_of_the_last_one() {
     let figures = [("history.svg".to_owned(), "<svg/>".to_owned())];
     write_found(&folder, &old, &found, &figures, CsvFormat::Plain).expect("writable");
     assert!(folder.holds("optimum.csv") && folder.holds("history.svg"));
-    // Another search starts afresh and is stopped before it finds anything.
+    // Another search with `Start::Fresh` is stopped before it evaluates a design.
     let (stop, progress) = (AtomicBool::new(true), SearchProgress::default());
     let options =
         SearchOptions { threads: 1, start: Start::Fresh, stop: &stop, progress: &progress };
@@ -533,7 +547,7 @@ fn links_in_place_of_the_journal_are_refused() {
 }
 
 #[test]
-fn the_nearest_design_does_not_depend_on_the_seed() {
+fn nearest_design_does_not_depend_on_the_seed() {
     let [one, other] = [0, 1].map(|seed| {
         let text = format!(
             "name = 'x'\nmeasures = ['coverage', 'puncture']\npuncture.scales = 15\n[variables]\ngap_over_t = {{ from = 0.1, to = 0.4 }}\n\
@@ -545,17 +559,17 @@ fn the_nearest_design_does_not_depend_on_the_seed() {
         let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
         worth.shortfall()
     });
-    // Critical force, soundness and the end of an interval meet at this design. Derivative-free
-    // steps reached it within 5e-11, and within 3 % with the long rows that designs of this size
-    // need.
+    // At the nearest design the limits of the critical force, of the unfolded surface and of an
+    // interval bind. A derivative-free search alone reaches it only to 5e-11.
     assert!((one / other - 1.0).abs() < 1e-13, "{one} {other}");
 }
 
-/// A search finds a better design than all 720 designs of the reference study.
+/// Tests that a search finds a better design than all 720 designs of the reference study.
 ///
-/// Runs in long campaigns only, because it solves two thousand designs.
+/// The test runs only in long campaigns (`SQUAMA_CAMPAIGNS=long`), because it solves two thousand
+/// designs.
 #[test]
-fn a_search_beats_the_reference_grid() {
+fn search_beats_the_reference_grid() {
     if std::env::var_os("SQUAMA_CAMPAIGNS").is_none_or(|campaigns| campaigns != "long") {
         return;
     }

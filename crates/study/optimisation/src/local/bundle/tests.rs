@@ -1,4 +1,4 @@
-//! Textbook problems of nonsmooth optimisation with known minima.
+//! Tests of the bundle method on textbook problems of nonsmooth optimisation with known minima.
 //!
 //! Sources: Mäkelä & Neittaanmäki, *Nonsmooth optimization* (1992), and Lewis & Overton 2013 (doi
 //! 10.1007/s10107-012-0514-2) for Rosenbrock's nonsmooth valley.
@@ -11,16 +11,18 @@ use super::{BundleOptions, Piece, Pieces, PiecewiseSmooth, descend};
 /// A smooth function with its gradient.
 type Smooth = fn(&[f64]) -> (f64, Vec<f64>);
 
-/// Maximum of smooth functions over a box, with limits of the same kind.
+/// Problem over a cube: cost and limits are each the maximum of smooth functions.
 struct Textbook {
+    /// Lower end of each coordinate.
     from: f64,
+    /// Upper end of each coordinate.
     to: f64,
     cost: Vec<Smooth>,
     limits: Vec<Vec<Smooth>>,
     best: RefCell<Best>,
 }
 
-/// Best evaluated point.
+/// Best evaluated feasible point, and the smallest excess of all evaluated points.
 #[derive(Clone, Debug)]
 struct Best {
     cost: f64,
@@ -35,6 +37,7 @@ impl Textbook {
         Self { from, to, cost: cost.to_vec(), limits, best: RefCell::new(best) }
     }
 
+    /// Returns the maximum of `functions` at `x`, with its gradient; without gradient at a kink.
     fn largest(&self, functions: &[Smooth], x: &[f64]) -> Piece {
         let length = self.to - self.from;
         let values: Vec<(f64, Vec<f64>)> = functions.iter().map(|smooth| smooth(x)).collect();
@@ -45,7 +48,9 @@ impl Textbook {
         Piece { value: *value, gradient }
     }
 
-    /// Returns the best of `points` evaluated points, starting at `start`.
+    /// Runs the bundle method from `start` with at most `points` evaluations.
+    ///
+    /// Returns the best evaluated point.
     fn minimum(&self, start: &[f64], points: usize) -> Best {
         let start = start.iter().map(|x| (x - self.from) / (self.to - self.from));
         let start: Vec<f64> = start.collect();
@@ -54,11 +59,11 @@ impl Textbook {
         self.best.borrow().clone()
     }
 
-    /// Checks the minimum found with `points` evaluations.
+    /// Asserts that the bundle method finds the `known` minimum with at most `points` evaluations.
     fn check(&self, name: &str, start: &[f64], points: usize, known: (f64, &[f64])) {
         let Best { cost, x, .. } = self.minimum(start, points);
         let off = cost - known.0;
-        // Limits are satisfied to 1e-9, and the cost may be below the minimum accordingly.
+        // The cost may be slightly below the known minimum, because limits may be exceeded by 1e-9.
         assert!(off > -1e-7 && off < 1e-6, "{name}: {off:.2e} above {} at {x:?}", known.0);
         let apart = x.iter().zip(known.1).map(|(x, known)| (x - known).abs()).fold(0.0, f64::max);
         assert!(apart < 3e-3, "{name}: {x:?} instead of {:?}", known.1);
@@ -85,8 +90,8 @@ impl PiecewiseSmooth for Textbook {
 }
 
 #[test]
-fn the_search_follows_rosenbrocks_nonsmooth_valley() {
-    // 8|x² − y| + (1 − x)²
+fn bundle_method_follows_rosenbrocks_nonsmooth_valley() {
+    // The cost is 8|x² − y| + (1 − x)².
     let pieces: [Smooth; 2] = [
         |x| (8.0 * (x[0] * x[0] - x[1]) + (1.0 - x[0]).powi(2), vec![18.0 * x[0] - 2.0, -8.0]),
         |x| (8.0 * (x[1] - x[0] * x[0]) + (1.0 - x[0]).powi(2), vec![-14.0 * x[0] - 2.0, 8.0]),
@@ -96,7 +101,7 @@ fn the_search_follows_rosenbrocks_nonsmooth_valley() {
 }
 
 #[test]
-fn the_crescent_problem_is_solved() {
+fn bundle_method_solves_the_crescent_problem() {
     let pieces: [Smooth; 2] = [
         |x| (x[0].powi(2) + (x[1] - 1.0).powi(2) + x[1] - 1.0, vec![2.0 * x[0], 2.0 * x[1] - 1.0]),
         |x| (1.0 + x[1] - x[0].powi(2) - (x[1] - 1.0).powi(2), vec![-2.0 * x[0], 3.0 - 2.0 * x[1]]),
@@ -105,6 +110,7 @@ fn the_crescent_problem_is_solved() {
     problem.check("Crescent", &[-1.5, 2.0], 100, (0.0, &[0.0, 0.0]));
 }
 
+/// Cost functions of problem CB2 by Charalambous and Conn.
 const CB2: [Smooth; 3] = [
     |x| (x[0].powi(2) + x[1].powi(4), vec![2.0 * x[0], 4.0 * x[1].powi(3)]),
     |x| {
@@ -118,14 +124,14 @@ const CB2: [Smooth; 3] = [
 ];
 
 #[test]
-fn the_problem_of_charalambous_and_conn_is_solved() {
+fn bundle_method_solves_the_problem_of_charalambous_and_conn() {
     let problem = Textbook::new([-2.0, 3.0], &CB2, &[]);
     let known = (1.952_224_493_9, &[1.139_04, 0.899_56][..]);
     problem.check("CB2", &[1.0, -0.1], 100, known);
 }
 
 #[test]
-fn a_maximum_of_squares_is_minimised() {
+fn bundle_method_minimises_a_maximum_of_squares() {
     let pieces: [Smooth; 5] = [
         |x| square::<0>(x),
         |x| square::<1>(x),
@@ -137,6 +143,7 @@ fn a_maximum_of_squares_is_minimised() {
     problem.check("MAXQ", &[1.0, 2.0, 3.0, -1.5, 0.5], 100, (0.0, &[0.0; 5]));
 }
 
+/// Returns the square of coordinate `K`, with its gradient.
 fn square<const K: usize>(x: &[f64]) -> (f64, Vec<f64>) {
     let mut slope = vec![0.0; x.len()];
     slope[K] = 2.0 * x[K];
@@ -145,7 +152,8 @@ fn square<const K: usize>(x: &[f64]) -> (f64, Vec<f64>) {
 
 #[test]
 fn limits_with_kinks_are_satisfied() {
-    // Problem QL: x² + y², with the larger of two lines at most 0. The start is as published.
+    // Problem QL: minimise x² + y² while the larger of two linear functions is at most 0. The start
+    // is the published start.
     let cost: Smooth = |x| (x[0] * x[0] + x[1] * x[1], vec![2.0 * x[0], 2.0 * x[1]]);
     let lines: [Smooth; 2] = [
         |x| (4.0 - 4.0 * x[0] - x[1], vec![-4.0, -1.0]),
@@ -157,7 +165,8 @@ fn limits_with_kinks_are_satisfied() {
 
 #[test]
 fn limits_with_curvature_are_satisfied() {
-    // Problem LQ, with its circle as a limit.
+    // Problem LQ: minimise −x − y inside the unit circle. In the published problem the circle is
+    // part of the cost.
     let cost: Smooth = |x| (-x[0] - x[1], vec![-1.0, -1.0]);
     let circle: Smooth = |x| (x[0] * x[0] + x[1] * x[1] - 1.0, vec![2.0 * x[0], 2.0 * x[1]]);
     let problem = Textbook::new([-2.0, 2.0], &[cost], &[&[circle]]);
@@ -166,7 +175,7 @@ fn limits_with_curvature_are_satisfied() {
 }
 
 #[test]
-fn contradictory_limits_lead_to_the_least_excess() {
+fn contradictory_limits_give_the_point_of_least_excess() {
     let cost: Smooth = |x| (x[0], vec![1.0, 0.0]);
     let [low, high]: [Smooth; 2] =
         [|x| (x[0] + x[1].powi(2), vec![1.0, 2.0 * x[1]]), |x| (1.0 - x[0], vec![-1.0, 0.0])];
