@@ -1,7 +1,8 @@
 //! Records the source revision in the program.
 //!
-//! The commit identifies a clean checkout; other builds also have a hash of their sources.
-//! Different sources never have the same revision, so they do not continue each other's results.
+//! The revision is the commit of a clean checkout. In any other build, the revision also contains a
+//! hash of the sources. Builds of different sources therefore have different revisions, and a
+//! program does not resume results that other sources computed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,8 +33,8 @@ fn revision() -> String {
 
 /// Returns the commit that Cargo recorded in a published package.
 ///
-/// Such a package has neither a git repository nor the other crates beside it. If its sources were
-/// changed, a hash of them is appended.
+/// A published package contains neither a git repository nor the other crates. If its sources had
+/// uncommitted changes, a hash of the sources is appended to the commit.
 fn packaged_commit() -> Option<String> {
     let info = fs::read_to_string(".cargo_vcs_info.json").ok()?;
     let (_, commit) = info.split_once("\"sha1\": \"")?;
@@ -46,16 +47,17 @@ fn packaged_commit() -> Option<String> {
     Some(format!("{commit}-dirty-{}", hash(files)))
 }
 
-/// Returns the commit, and true if the sources are unchanged since it.
+/// Returns the current commit, and true if all tracked files are unchanged since this commit.
 fn commit() -> Option<(String, bool)> {
-    // Do not take the revision of another repository that contains a copy of this source.
+    // If this source is a copy within another repository, git does not track this file. The commit
+    // of that repository is not the revision of this source.
     git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
     let revision = git(&["rev-parse", "--short=12", "HEAD"])?;
     let changes = git(&["status", "--porcelain", "--untracked-files=no"])?;
     Some((revision, changes.is_empty()))
 }
 
-/// Returns a hash of the sources of all crates and the lock file.
+/// Returns a hash of the sources of all crates, the workspace manifest and the lock file.
 fn sources() -> String {
     let mut files =
         vec![PathBuf::from("../../../Cargo.toml"), PathBuf::from("../../../Cargo.lock")];
@@ -74,9 +76,9 @@ fn hash(mut files: Vec<PathBuf>) -> String {
     format!("{:016x}", hash.state)
 }
 
-/// Collects the files below `folder` except tests and benches.
+/// Appends the files below `folder` to `files`, without tests, benches and Python sources.
 ///
-/// Tests and benches do not affect the program.
+/// The omitted files do not affect the program.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
@@ -91,7 +93,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The 64-bit hash FNV-1a, which needs no other crate.
+/// The 64-bit hash FNV-1a, implemented here because the build script has no dependencies.
 ///
 /// See Fowler, Noll & Vo, draft-eastlake-fnv.
 struct Fnv {
@@ -105,7 +107,7 @@ impl Default for Fnv {
 }
 
 impl Fnv {
-    /// Hashes `bytes` and their length.
+    /// Adds `bytes` and their number to the hash.
     fn add(&mut self, bytes: &[u8]) {
         for byte in bytes.iter().chain(&(bytes.len() as u64).to_le_bytes()) {
             self.state = (self.state ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);

@@ -1,4 +1,4 @@
-//! The commands, one file each, and modules that several commands share.
+//! The commands of squama, each in its own file, and modules that several commands share.
 
 mod answer;
 mod audit;
@@ -44,18 +44,18 @@ use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::interrupt::Interrupt;
 
-/// Version and revision, recorded in results.
+/// Version and source revision of the program, which results record.
 const PROGRAM: Program =
     Program { version: env!("CARGO_PKG_VERSION"), revision: env!("SQUAMA_REVISION") };
 
 /// Exit code of a completed command.
 const DONE: u8 = 0;
-/// Exit code when designs failed or are missing.
+/// Exit code if designs failed or are missing, or if no design meets the requirements.
 const INCOMPLETE: u8 = 1;
-/// Exit code of `compare --exit-code` if two runs differ.
+/// Exit code of `squama compare --exit-code` if the two runs differ.
 const DIFFERENT: u8 = 1;
 
-/// Version and revision of the source.
+/// Output of `squama --version` after the name: version and source revision.
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("SQUAMA_REVISION"), ")");
 
 /// Design flexible armour: solve, rank and optimise skins of hard scales.
@@ -77,12 +77,12 @@ Commands accept a definition or a results folder.
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error."
 )]
 pub struct Arguments {
-    /// The command.
+    /// Command to run, with its arguments.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// The command.
+/// The commands, with their arguments.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Write a commented definition to start from
@@ -138,7 +138,7 @@ pub enum Command {
     Man(man::Arguments),
 }
 
-/// Groups of commands in the help.
+/// Groups of commands in the help: the heading of each group and its commands.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Try", &["init", "check", "explore", "schema"]),
     ("Solve", &["run", "design", "optimise", "sensitivity"]),
@@ -161,7 +161,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ),
 ];
 
-/// Template of the help, in which groups replace the list of commands.
+/// Clap template of the help; `{before-help}` contains the commands by group.
 const TEMPLATE: &str = "{about-with-newline}\n{usage-heading} {usage}\n\n{before-help}\
     Options:\n{options}{after-help}";
 
@@ -173,14 +173,14 @@ pub fn parsed() -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches(&squama.try_get_matches()?)
 }
 
-/// Lists the commands by group.
+/// Lists the commands by group, with their descriptions, for the help.
 fn grouped(squama: &clap::Command) -> String {
     let mut text = String::new();
     for (group, names) in GROUPS {
         text.extend([group, ":\n"]);
         for name in names {
             let about = squama.find_subcommand(name).and_then(clap::Command::get_about);
-            // Clap adds the command `help` later.
+            // Clap adds the command `help` when it parses, so the command has no description here.
             let about = about.map_or("Print the help of a command".to_owned(), ToString::to_string);
             text.extend(["  ", &format!("{name:12}"), " ", &about, "\n"]);
         }
@@ -193,7 +193,8 @@ impl Command {
     /// Runs the command and returns its exit code.
     pub fn run(self, interrupt: &Interrupt) -> anyhow::Result<u8> {
         match self {
-            // Commands without an interrupt have nothing to finish: the first signal ends them.
+            // The first signal ends a command without the argument `interrupt`, which has no work to
+            // save.
             Self::Init(arguments) => init::init(&arguments),
             Self::Run(arguments) => run::run(&arguments, interrupt),
             Self::Rerun(arguments) => rerun::rerun(&arguments, interrupt),

@@ -1,7 +1,7 @@
-//! Termination signals.
+//! Handles termination signals.
 //!
-//! A run discards the designs in progress and writes its tables; every other command removes its
-//! partial files and exits.
+//! After the first signal, commands that solve many designs discard the designs in progress and
+//! save the completed ones. Every other command removes its partial files and exits.
 
 use std::io;
 use std::sync::Arc;
@@ -9,39 +9,41 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use signal_hook::flag;
 
-/// The exit code after a signal is this base plus the signal number, as in shells.
+/// Difference between the exit code after a signal and the signal number, as in shells.
 const BASE: u8 = 128;
 
-/// State of the handling of termination signals.
+/// State that the signal handlers share with the running command.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
-    /// True if the first signal requests a graceful end instead of exiting at once.
+    /// True if the first signal requests a graceful end instead of ending the process.
     asks_first: Arc<AtomicBool>,
+    /// True once a signal has requested a graceful end.
     stop: Arc<AtomicBool>,
+    /// Number of the signal that requested the graceful end; 0 if there was none.
     signal: Arc<AtomicUsize>,
 }
 
 impl Interrupt {
-    /// Installs the handlers.
+    /// Installs the signal handlers.
     ///
-    /// A file size limit becomes a write error instead of ending the process.
+    /// From then on, exceeding the file size limit is a write error and does not end the process.
     pub fn listen() -> io::Result<Self> {
         let interrupt = Self::default();
         system::listen(interrupt.clone())?;
         Ok(interrupt)
     }
 
-    /// From now on, the first signal requests a graceful end instead of exiting at once.
+    /// Makes the first signal request a graceful end instead of ending the process.
     pub fn ask_first(&self) {
         self.asks_first.store(true, Ordering::Relaxed);
     }
 
-    /// Returns a flag that is set once a signal has requested a graceful end.
+    /// Returns the flag that is true once a signal has requested a graceful end.
     pub fn stop(&self) -> &AtomicBool {
         &self.stop
     }
 
-    /// Returns the exit code if a signal has requested the end.
+    /// Returns the exit code if a signal has requested a graceful end.
     pub fn exit_code(&self) -> Option<u8> {
         let signal = u8::try_from(self.signal.load(Ordering::Relaxed)).unwrap_or_default();
         (signal > 0).then(|| BASE + signal)
@@ -60,16 +62,16 @@ mod system {
 
     use super::{Arc, BASE, Interrupt, Ordering, flag, io};
 
-    /// Signals within this time of the first are the same request.
+    /// Time after the first signal in which further signals count as the same request.
     ///
-    /// `timeout` sends one to the process and one to its group.
+    /// The program `timeout` sends one signal to the process and one to its process group.
     const ONE_REQUEST: Duration = Duration::from_secs(1);
 
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
-        // With a handler, the signal does not end the process; the write fails with an error
-        // instead.
+        // With a handler, SIGXFSZ (file size limit) does not end the process; the write returns an
+        // error instead.
         flag::register(SIGXFSZ, Arc::default())?;
-        // Ignored signals stay ignored, or `nohup` would have no effect.
+        // Signals that are ignored at the start stay ignored, so that `nohup` has its effect.
         let asking = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
         let mut signals = Signals::new(asking)?;
         thread::Builder::new()
@@ -77,7 +79,8 @@ mod system {
             .spawn(move || {
                 let mut asked: Option<Instant> = None;
                 for signal in signals.forever() {
-                    // Files are removed by a thread, because a signal handler must not do so.
+                    // This thread removes partial files, because a signal handler may call only
+                    // async-signal-safe functions.
                     let is_request = interrupt.asks_first.load(Ordering::Relaxed)
                         && asked.is_none_or(|asked| asked.elapsed() < ONE_REQUEST);
                     if !is_request {
@@ -93,8 +96,8 @@ mod system {
                         Ordering::Relaxed,
                     );
                     if first.is_ok() {
-                        // Request the end first, so that a worker takes no further design after an
-                        // interrupted one.
+                        // Set `stop` before interrupting the paths in progress, so that a worker
+                        // does not start another design after an interrupted one.
                         interrupt.stop.store(true, Ordering::SeqCst);
                         interrupt_paths();
                     }
@@ -103,9 +106,9 @@ mod system {
             .map(|_| ())
     }
 
-    /// Returns true if a signal was ignored at the start, as under `nohup`.
+    /// Returns true if the process ignores `signal` from its start, as under `nohup`.
     ///
-    /// Reads `/proc`, so it returns false on systems other than Linux.
+    /// The function reads `/proc`, so it returns false on systems other than Linux.
     fn is_ignored(signal: i32) -> bool {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -123,8 +126,8 @@ mod system {
 
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
         for signal in [SIGINT, SIGTERM] {
-            // Handlers run in the order of registration. The shutdown comes before the flag, so
-            // that only a second signal finds the flag set.
+            // Handlers run in the order of registration. The conditional shutdown is registered
+            // before the flag `stop`, so that only a second signal ends the process.
             let code = signal + i32::from(super::BASE);
             flag::register_conditional_shutdown(signal, code, Arc::clone(&interrupt.stop))?;
             let number = usize::try_from(signal).unwrap_or_default();

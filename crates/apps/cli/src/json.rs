@@ -1,4 +1,4 @@
-//! JSON output.
+//! Prints results as JSON.
 
 use std::io;
 use std::path::Path;
@@ -8,11 +8,11 @@ use sweep::JudgedModes;
 
 /// Prints `value` as JSON.
 pub fn print(value: &Value) -> io::Result<()> {
-    // Not escaped: control characters are data for a program.
+    // Print without `text::visible`, because a program reads the data unchanged.
     crate::print::print_raw(&format!("{value:#}\n"))
 }
 
-/// Prints the result of a command as JSON, or as text followed by its files.
+/// Prints the result of a command: `record` as JSON, or `text` followed by the written files.
 pub fn answer(
     is_json: bool,
     record: impl FnOnce() -> Value,
@@ -26,9 +26,9 @@ pub fn answer(
     crate::print::print(&format!("{}\n{}: {}\n", text(), folder.display(), files.join(" ")))
 }
 
-/// Returns the failure modes as JSON.
+/// Returns a JSON object with a key for each failure mode.
 ///
-/// Each mode has the reason for which it is not judged, or null.
+/// The value is null if the mode is judged, otherwise the reason why it is not judged.
 pub fn failure_modes(modes: &JudgedModes) -> Value {
     modes
         .reasons()

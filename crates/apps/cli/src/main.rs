@@ -28,11 +28,12 @@ const BAD_INPUT: u8 = 2;
 fn main() -> ExitCode {
     let command = match commands::parsed() {
         Ok(arguments) => arguments.command,
-        // Help keeps its lines; errors are printed on one line.
+        // Errors are printed on one line. Help and version are printed by clap, on several lines.
         Err(error) if error.use_stderr() && !is_help(&error) => return refuse(&one_line(&error)),
         Err(error) => error.exit(),
     };
-    // Install the handlers before any file is opened, so that no signal leaves a partial file.
+    // Install the signal handlers before a command opens any file, so that a signal never leaves a
+    // partial file.
     let interrupt = match Interrupt::listen() {
         Ok(interrupt) => interrupt,
         Err(error) => {
@@ -42,28 +43,28 @@ fn main() -> ExitCode {
     command.run(&interrupt).map_or_else(|error| refuse(&error), ExitCode::from)
 }
 
-/// Returns true if the error is a request for help.
+/// Returns true if clap shows the help because an argument or a command is missing.
 fn is_help(error: &clap::Error) -> bool {
     error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
 }
 
-/// Formats an argument error on one line, without the advice of clap.
+/// Formats an argument error on one line, without the usage and hints that clap adds.
 fn one_line(error: &clap::Error) -> anyhow::Error {
     if let Some(ContextValue::String(found)) = error.get(ContextKind::InvalidSubcommand) {
         return no_such_command(found);
     }
     let text = error.to_string();
     let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
-    // `-- VALUE` is wrong advice, because negative numbers are accepted.
+    // Omit the tip to pass `-- VALUE`, which is wrong here: options accept negative numbers.
     let advice = ["For more information", "tip: to pass"];
     let lines = lines
         .filter(|line| !line.is_empty() && !advice.iter().any(|advice| line.starts_with(advice)));
     let lines: Vec<_> = lines.collect();
-    // clap puts a list on separate lines after a line that ends in a colon.
+    // Clap prints the items of a list on separate lines, after a line that ends in a colon.
     let line = lines.join(", ").replace(":, ", ": ");
     let line = line.trim_start_matches("error: ");
     match error.get(ContextKind::Usage) {
-        // clap knows no similar option, so refer to the help.
+        // Refer to the help if clap suggests no similar option.
         Some(usage) if error.kind() == ErrorKind::UnknownArgument && !line.contains("tip:") => {
             let usage = usage.to_string();
             let words = usage.trim_start_matches("Usage:").split_whitespace();
@@ -89,9 +90,9 @@ fn no_such_command(found: &str) -> anyhow::Error {
 /// Prints an error, one line per problem, and returns the exit code.
 fn refuse(error: &anyhow::Error) -> ExitCode {
     for line in format!("{error:#}").lines() {
-        // If stderr is closed, the exit code still reports the error.
+        // Shorten before escaping, because shortening could cut an escape sequence.
         let line = text::shortened(line);
-        // Escaped after shortening, which could cut an escape sequence.
+        // Ignore a closed stderr: the exit code still reports the error.
         let _ = writeln!(std::io::stderr(), "error: {}", text::visible(&line));
     }
     ExitCode::from(BAD_INPUT)

@@ -1,4 +1,4 @@
-//! The progress bar of runs, searches and fits.
+//! Shows a progress bar during runs, searches, fits and other long work.
 
 use std::io::{IsTerminal as _, stderr};
 use std::sync::Arc;
@@ -14,63 +14,69 @@ use run::{Progress, WorkMeter};
 use crate::interrupt::Interrupt;
 use crate::print::time;
 
-/// Interval between updates of the bar and checks for a signal.
-// Short enough for an immediate response to Ctrl-C.
+/// Interval between updates of the bar, and between checks for a signal.
+// Short enough for a prompt response to Ctrl-C.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Resolution of the bar, which counts integers.
+/// Number of steps of the bar, which takes integer positions.
 const PARTS: u64 = 10_000;
 
-/// Message after the first signal, for work that `--resume` continues.
+/// Message after the first termination signal, for work that `--resume` continues.
 pub const RESUMED: &str =
     "ending without the designs in progress; a second signal ends at once; --resume continues";
 
-/// Minimum completed fraction for an extrapolation of the remaining time.
+/// Completed fraction from which on the remaining time is extrapolated.
 const ENOUGH: f64 = 0.05;
 
-/// Number of advances that suffice for an extrapolation at a smaller fraction, too.
+/// Number of increases of the completed fraction after which the remaining time is extrapolated,
+/// even if the fraction is below [`ENOUGH`].
 // The work of one design varies by a factor of ten and more, so a few designs do not predict the
 // remaining time.
 const ADVANCES: usize = 30;
 
-/// Work with observable progress.
+/// Work that reports its progress to the bar.
 pub trait Watched: Send + Sync + 'static {
     /// Returns the completed fraction, from 0 to 1.
     fn share(&self) -> f64;
 
-    /// Describes the progress after `elapsed`; `left` is the remaining time.
+    /// Describes the progress after the time `elapsed`.
+    ///
+    /// `left` states the remaining time after two spaces; it is empty if the time is unknown.
     fn text(&self, left: &str, elapsed: Duration) -> String;
 
-    /// Returns new messages, each printed on its own line.
+    /// Returns the messages since the last call; each is printed on its own line.
     fn news(&self) -> Vec<String> {
         Vec::new()
     }
 }
 
-/// Shows the progress of work until dropped.
+/// Shows the progress of work until the display is dropped.
 ///
-/// A thread polls the progress, because a single design may take a minute.
+/// A thread polls the progress, so that the bar also moves while a single design takes a minute.
 pub struct Display<W> {
     watched: Arc<W>,
     watcher: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
-/// Progress of a run: rate, remaining time and failures.
+/// Display for a run: designs, rate, remaining time and failures.
 pub type ProgressDisplay = Display<Counts>;
 
-/// Counters of a run.
+/// Counts the designs of a run and measures its work.
 #[derive(Debug, Default)]
 pub struct Counts {
     work: WorkMeter,
+    /// Number of designs of the run.
     designs: AtomicU64,
-    /// Designs completed in earlier sessions.
+    /// Number of designs completed before this process began.
     before: AtomicU64,
+    /// Number of designs completed by this process.
     done: AtomicU64,
+    /// Number of failed designs among `done`.
     failed: AtomicU64,
 }
 
 impl<W: Watched> Display<W> {
-    /// Starts the bar, unless `quiet`; prints `ending` after a termination signal.
+    /// Starts the bar unless `quiet`; prints the message `ending` after a termination signal.
     pub fn new(quiet: bool, interrupt: &Interrupt, watched: Arc<W>, ending: &'static str) -> Self {
         let watcher = (!quiet).then(|| {
             let (sender, ended) = channel();
@@ -80,17 +86,19 @@ impl<W: Watched> Display<W> {
         Self { watched, watcher }
     }
 
-    /// Returns the observed work.
+    /// Returns the work that the bar shows.
     pub fn watched(&self) -> &W {
         &self.watched
     }
 }
 
-/// Runs work of `units` units with a progress bar. Signals end the process at once.
+/// Runs `work`, which consists of `units` units, with a progress bar.
+///
+/// The first termination signal ends the process.
 pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
     let meter = Arc::<WorkMeter>::default();
     meter.begin(units as u64);
-    // This interrupt is never set, because the work leaves nothing to finish after a signal.
+    // The interrupt passed here is never set, because there is nothing to save after a signal.
     let display = Display::new(false, &Interrupt::default(), meter, "");
     work(display.watched())
 }
@@ -98,9 +106,9 @@ pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
 impl<W> Drop for Display<W> {
     fn drop(&mut self) {
         if let Some((sender, watcher)) = self.watcher.take() {
-            // Closing the channel ends the watcher; joining first would deadlock.
+            // Close the channel, which ends the thread; joining the thread first would deadlock.
             drop(sender);
-            // A panic of the watcher affects only the bar.
+            // Ignore a panic of the thread, because it affects only the bar.
             let _ = watcher.join();
         }
     }
@@ -136,12 +144,12 @@ impl Watched for WorkMeter {
 }
 
 impl Counts {
-    /// Returns the meter of the work.
+    /// Returns the meter that records the completed work.
     pub fn work(&self) -> &WorkMeter {
         &self.work
     }
 
-    /// Updates the counters.
+    /// Updates the counters after an event of the run.
     pub fn show(&self, progress: Progress) {
         match progress {
             Progress::Begun { designs, done } => {
@@ -156,9 +164,9 @@ impl Counts {
     }
 }
 
-/// Draws the bar until `ended` is closed.
+/// Draws the bar until the channel `ended` is closed.
 fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Receiver<()>) {
-    // If stderr is a file, only messages are written.
+    // If stderr is not a terminal, hide the bar and print only the messages.
     let bar = if stderr().is_terminal() { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {msg}") {
         bar.set_style(style);
@@ -168,9 +176,10 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
     let mut farthest = 0.0_f64;
     let mut is_ending = false;
     loop {
-        // Waiting on the channel, unlike sleeping, returns as soon as the work ends.
+        // Wait on the channel instead of sleeping, to return as soon as the work ends.
         let is_done = ended.recv_timeout(PAUSE) != Err(RecvTimeoutError::Timeout);
-        // Check for a signal before the end of the work, because both may occur within one pause.
+        // Check for a signal before leaving the loop, because a signal and the end of the work may
+        // fall within the same pause.
         if interrupt.exit_code().is_some() && !is_ending {
             is_ending = true;
             bar.suspend(|| eprintln!("{ending}"));
@@ -179,11 +188,12 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
             break;
         }
         for line in watched.news() {
-            // Suspended, because printing over the bar would garble the line.
+            // Suspend the bar: text printed over it would be garbled.
             bar.suspend(|| eprintln!("{line}"));
         }
         let (share, elapsed) = (watched.share(), begun.elapsed());
-        // The fraction may decrease if a search takes longer than expected, but a bar does not.
+        // The fraction decreases when a search needs more work than expected; keep the bar at its
+        // farthest position.
         farthest = farthest.max(share);
         bar.set_position((farthest * PARTS as f64) as u64);
         bar.set_message(watched.text(&remaining.text(share, elapsed), elapsed));
@@ -197,13 +207,13 @@ impl Watched for Counts {
     }
 
     fn text(&self, left: &str, elapsed: Duration) -> String {
-        // Relaxed: the counts are only displayed.
+        // Relaxed ordering suffices, because the counts are only displayed.
         let [designs, before, done, failed] =
             [&self.designs, &self.before, &self.done, &self.failed]
                 .map(|count| count.load(Ordering::Relaxed));
-        // Designs of earlier sessions do not count for the rate.
+        // The rate includes only designs completed by this process.
         let rate = done as f64 / elapsed.as_secs_f64();
-        // A rate below 1 would be printed as 0/s.
+        // Omit rates below 1, which would be rounded to 0/s or 1/s.
         let rate = if rate >= 1.0 { format!("  {rate:.0}/s") } else { String::new() };
         format!("{}/{designs} designs{rate}{left}  {failed} failed", before + done)
     }
@@ -213,19 +223,21 @@ impl Watched for Counts {
     }
 }
 
-/// Extrapolates the remaining time from the last advance of the completed fraction.
+/// Extrapolates the remaining time from the last increase of the completed fraction.
 #[derive(Debug, Default)]
 struct Remaining {
+    /// Completed fraction, from 0 to 1.
     share: f64,
-    /// Time of the last advance.
+    /// Elapsed time at the last increase of `share`.
     at: Duration,
+    /// Number of increases of `share`.
     advances: usize,
 }
 
 impl Remaining {
-    /// Formats the remaining time.
+    /// Updates the completed fraction `share`, and formats the remaining time.
     ///
-    /// Empty until there is enough progress to extrapolate from.
+    /// Returns an empty text until there is enough progress for an extrapolation.
     fn text(&mut self, share: f64, elapsed: Duration) -> String {
         if share != self.share {
             (self.share, self.at) = (share, elapsed);
@@ -234,11 +246,12 @@ impl Remaining {
         if self.share < ENOUGH && self.advances < ADVANCES {
             return String::new();
         }
-        // Between advances the time counts down, but not to zero while a slow design is solved.
+        // Between two increases the remaining time counts down, but not below the time since the
+        // last increase: a slow design may take as long again.
         let waited = elapsed.saturating_sub(self.at).as_secs_f64();
         let expected = self.at.as_secs_f64() * (1.0 - self.share) / self.share;
         let left = if self.share < 1.0 { (expected - waited).max(waited) } else { 0.0 };
-        // A fraction near zero may give more seconds than `Duration` can hold.
+        // A fraction near zero may give more seconds than a `Duration` can represent.
         let left = Duration::try_from_secs_f64(left.ceil()).ok();
         left.map_or(String::new(), |left| format!("  {} left", time(left)))
     }
@@ -261,7 +274,7 @@ mod tests {
         assert_eq!(line(&counts, 0.0, 3), "2/12 designs  0 failed");
         counts.done.store(8, Ordering::Relaxed);
         counts.failed.store(1, Ordering::Relaxed);
-        // 10 of 12 designs, but a tenth of the work.
+        // 10 of 12 designs are done, but only a tenth of the work.
         assert_eq!(line(&counts, 0.1, 20), "10/12 designs  3m left  1 failed");
         assert_eq!(line(&counts, 0.5, 2), "10/12 designs  4/s  2.00 s left  1 failed");
     }
@@ -270,12 +283,13 @@ mod tests {
     fn remaining_time_needs_progress_and_counts_down_between_advances() {
         let mut remaining = Remaining::default();
         for (share, seconds, text) in [
-            // A fraction of 0.002 after 4 s would be 33 minutes, and 100 minutes 8 s later.
+            // No time is shown yet: an extrapolation of the fraction 0.002 would give 33 minutes
+            // after 4 s, and 100 minutes after 12 s.
             (0.002, 4, ""),
             (0.002, 12, ""),
             (0.2, 40, "  2m 40s left"),
             (0.2, 70, "  2m 10s left"),
-            // A stalled design takes at least as long as it has taken.
+            // 200 s after the last increase, the remaining time is at least 200 s.
             (0.2, 240, "  3m 20s left"),
             (1.0, 250, "  0.00 s left"),
         ] {

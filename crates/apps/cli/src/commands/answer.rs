@@ -1,4 +1,4 @@
-//! The answer about one design: required values with limits and margins, and every warning.
+//! Describes one design: its values with requirements, limits and margins, and every warning.
 
 use optimisation::{DesignGoal, FAILED_CHECKS, GOAL, OPTIMUM, OPTIMUM_DEFINITION};
 use ranking::{Relation, Requirement};
@@ -11,7 +11,7 @@ use sweep::{Sweep, Variable};
 
 use crate::print::{FOLDED, digits, marked, warning};
 
-/// Relative margins smaller than this are reported as "at the limit".
+/// Absolute value of the relative margin below which a value is reported as "at the limit".
 const AT_LIMIT: f64 = 1e-6;
 
 /// A solved design with its requirements.
@@ -23,15 +23,18 @@ pub struct DesignAnswer<'a> {
 }
 
 impl<'a> DesignAnswer<'a> {
+    /// Describes the solved design `row` of `sweep`.
     pub fn new(sweep: &'a Sweep, row: &'a DesignRow, requirements: &'a [Requirement]) -> Self {
         Self { sweep, row, requirements, columns: design_columns(sweep) }
     }
 
-    /// Lists the required values with limit and margin, and the needle depth at a required force.
+    /// Returns table rows of the required values with limits and margins, and of related values.
+    ///
+    /// See [`further_rows`](Self::further_rows) for the related values.
     pub fn rows(&self) -> Vec<Vec<String>> {
         let mut rows: Vec<Vec<String>> = Vec::new();
         for requirement in self.requirements {
-            // Statistics over samples have their own tables.
+            // A statistic over samples is no column of a design; statistics have their own table.
             let Some(value) = self.cell(&requirement.column).map(|cell| cell.number()) else {
                 continue;
             };
@@ -45,8 +48,10 @@ impl<'a> DesignAnswer<'a> {
         rows
     }
 
-    /// Lists the needle depth at a required force, and the pressure of the bare needle if the
-    /// pressure on the tissue is required.
+    /// Returns table rows of values that explain the required ones.
+    ///
+    /// These are the depth of the load, if a force is required, and the pressure of a needle on bare
+    /// tissue, if a pressure on the tissue is required.
     pub fn further_rows(&self) -> Vec<Vec<String>> {
         let bare = self.bare_needle().map(|bare| {
             let unit = format!("kPa; the skin lowers it by a factor of {}", digits(bare.reduction));
@@ -55,7 +60,7 @@ impl<'a> DesignAnswer<'a> {
         self.depth().into_iter().chain(bare).collect()
     }
 
-    /// Returns the depth of the needle, if a force is required.
+    /// Returns the row of the depth of the load, if a force is required and the depth is not.
     fn depth(&self) -> Option<Vec<String>> {
         self.requirements.iter().any(|r| r.column.contains("force")).then_some(())?;
         let in_mm = format!("{}_mm", name::CRITICAL_DISPLACEMENT);
@@ -66,7 +71,7 @@ impl<'a> DesignAnswer<'a> {
         Some(vec![column.to_owned(), digits(depth), "depth of the load".to_owned()])
     }
 
-    /// Returns the pressure of the bare needle, if the pressure on the tissue is required.
+    /// Returns the pressure of a needle on bare tissue, if a pressure on the tissue is required.
     fn bare_needle(&self) -> Option<BareNeedle> {
         let mut columns = self.requirements.iter().map(|r| &r.column);
         let pressures = [name::TISSUE_PRESSURE_MAX, name::TISSUE_PRESSURE_AT_FORCE];
@@ -74,12 +79,15 @@ impl<'a> DesignAnswer<'a> {
         bare_needle(self.row)
     }
 
+    /// Returns the cell of the column `name`.
     fn cell(&self, name: &str) -> Option<Cell> {
         let column = self.columns.iter().find(|column| column.name == name)?;
         Some(column.cell(self.row))
     }
 
-    /// Returns every warning about the design, in plain words.
+    /// Returns every warning about the design as a sentence.
+    ///
+    /// `change` contains the measures of the design with smaller and larger gaps, if they are known.
     pub fn warnings(&self, change: Option<&GapChange>) -> Vec<String> {
         let radius = self.requirements.iter().find(|r| {
             r.column == "bend_radius_mm" && matches!(r.relation, Relation::AtMost | Relation::Below)
@@ -88,7 +96,9 @@ impl<'a> DesignAnswer<'a> {
         design_warnings(self.sweep, self.row, radius, change)
     }
 
-    /// Formats the warnings, one per line; empty without one.
+    /// Formats the warnings, one per line, after an empty line.
+    ///
+    /// The text is empty if there are no warnings.
     pub fn warnings_text(&self, change: Option<&GapChange>) -> String {
         match marked(FOLDED, &self.warnings(change)) {
             lines if lines.is_empty() => lines,
@@ -96,7 +106,7 @@ impl<'a> DesignAnswer<'a> {
         }
     }
 
-    /// Returns requirements and warnings as JSON.
+    /// Returns the requirements, the warnings and the pressure of a bare needle as JSON.
     pub fn record(&self, change: Option<&GapChange>) -> Value {
         let requirements = self.requirements.iter().filter_map(|requirement| {
             let value = self.cell(&requirement.column)?.number();
@@ -123,7 +133,7 @@ fn shown(value: Option<f64>) -> String {
     value.map_or("none".to_owned(), digits)
 }
 
-/// Describes the limit of a requirement, and the margin of a value.
+/// Describes the limit of a requirement, and the margin of `value` from this limit.
 pub fn limit_text(requirement: &Requirement, value: Option<f64>) -> String {
     let Requirement { relation, limit, .. } = requirement;
     let limit = format!("{} {}", relation.sign(), text::number::text(*limit));
@@ -136,21 +146,22 @@ pub fn limit_text(requirement: &Requirement, value: Option<f64>) -> String {
     }
 }
 
-/// Requirements and failed checks of the search that found a design.
+/// Requirements, variables and failed checks of the search that found a design.
 #[derive(Default)]
 pub struct SearchedDesign {
-    /// Requirements on columns of designs.
+    /// Requirements on columns of the design, without requirements on statistics over samples.
     pub requirements: Vec<Requirement>,
     /// Variables of the search.
     pub variables: Vec<Variable>,
-    /// Sentences about requirements that a check contradicts.
+    /// A sentence for each requirement that a check of the optimum contradicts.
     pub failed_checks: Vec<String>,
 }
 
 impl SearchedDesign {
-    /// Reads the search of `path`, a results folder or its `optimum.toml`; empty for other paths.
+    /// Reads the search of `path`, and prints a warning for each failed check.
     ///
-    /// Prints a warning for each failed check.
+    /// `path` is the results folder of a search or its `optimum.toml`. For any other path, the
+    /// result is empty.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         let folder = if path.ends_with(OPTIMUM_DEFINITION) { path.parent() } else { Some(path) };
         let folder = folder.unwrap_or(path);
@@ -164,7 +175,7 @@ impl SearchedDesign {
         requirements.retain(|r| goal.statistic(&r.column).is_none());
         let optimum = Results::of_file(&found, OPTIMUM)?;
         let mut failed_checks: Vec<String> = Vec::new();
-        // Tables of earlier versions lack the column.
+        // Tables that an earlier version of squama wrote lack the column.
         if let Ok(column) = optimum.column(FAILED_CHECKS)
             && optimum.len() > 0
         {

@@ -1,4 +1,4 @@
-//! The report of an audit.
+//! Formats the report of an audit, which solves designs again by a second method.
 
 use std::fmt::Write as _;
 
@@ -6,24 +6,24 @@ use run::{Audit, LargestDifference, SecondMethod};
 
 use crate::print::{aligned, counted, digits};
 
-/// Maximum number of listed columns and contradictions.
+/// Maximum number of columns, and of contradictions, that the report lists.
 const LISTED: usize = 8;
 
-/// Tolerance on the relative difference between the two methods.
+/// Largest relative difference at which two methods agree.
 const AGREES: f64 = 1e-6;
 
-/// Returns true if the two methods agree.
+/// Returns true if the first and the second method agree for all designs.
 pub fn agrees(audit: &Audit) -> bool {
     audit.contradictions.is_empty()
         && audit.differences.iter().all(|found| found.relative <= AGREES)
 }
 
-/// Formats the largest differences.
+/// Formats the largest relative difference of each column, and the contradictions.
 pub fn report(audit: &Audit) -> String {
     let designs = counted(audit.designs, "design");
     let mut text =
         format!("audit: {designs} solved again by a second method; largest relative differences\n");
-    // Sorted by size, so that truncation hides the smallest.
+    // The differences are in descending order, so the report omits the smallest ones.
     let rows: Vec<_> = audit.differences.iter().take(LISTED).map(row).collect();
     text.push_str(&aligned(&rows));
     let texts =
@@ -38,6 +38,7 @@ pub fn report(audit: &Audit) -> String {
     text
 }
 
+/// Returns the cells of a difference: size, column, second method, design and both values.
 fn row(found: &LargestDifference) -> [String; 5] {
     let way = match found.method {
         SecondMethod::SmallerSteps => "steps a tenth as large",

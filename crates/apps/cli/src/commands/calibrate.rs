@@ -1,4 +1,4 @@
-//! The command `squama calibrate`.
+//! The command `squama calibrate`, which prints the stiffness of the substrate springs.
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
@@ -46,16 +46,16 @@ pub struct Arguments {
     pub tissue_thickness: Option<String>,
 }
 
-/// Prints the springs under a row of scales.
+/// Prints the stiffness of the springs under a row of scales.
 pub fn calibrate(arguments: &Arguments) -> anyhow::Result<u8> {
     let footprint = footprint_of(arguments)?;
-    // The table has nearest neighbours only; the others take much longer to compute.
+    // Compute nearest neighbours only, which the output shows; full coupling takes much longer.
     let row = RowStiffness::compute(&footprint, Coupling::Nearest)?;
     print(&report(&footprint, &row))?;
     Ok(DONE)
 }
 
-/// Builds the footprint; the arguments are validated as keys of a sweep.
+/// Builds the footprint, after validating the arguments as keys of a sweep.
 fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     let options = [
         ("--gap", "designs.gap_over_t", &arguments.gap),
@@ -66,7 +66,7 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     ];
     let tissue = arguments.tissue_thickness.iter();
     let tissue = tissue.map(|h| ("--tissue-thickness", "substrate.tissue_thickness_over_t", h));
-    // A sweep of one design, because its keys check their bounds and report errors.
+    // Parse a sweep of one design, because the keys of a sweep check their bounds and report errors.
     let settings: Vec<_> = options
         .into_iter()
         .chain(tissue)
@@ -74,10 +74,10 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
             Setting::from_option(&format!("{option} {value}"), &format!("{key}={value}"))
         })
         .collect::<Result<_, _>>()?;
-    // A sweep needs a slant; the springs do not depend on it.
+    // Set any slant, because a sweep needs one; the springs do not depend on the slant.
     let sweep =
         Sweep::parse("name = \"calibrate\"\ndesigns.slant_deg = 0", "calibrate", &settings)?;
-    // A list of values would make an option an axis.
+    // Reject a list of values in an option, which makes the key an axis of several values.
     let several = "--gap and --length: several values, expected one of each";
     ensure!(sweep.grid().len() == 1, several);
     let case = sweep.grid().case(0);

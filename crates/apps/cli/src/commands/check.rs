@@ -1,4 +1,4 @@
-//! The command `squama check`.
+//! The command `squama check`, which checks a definition and describes it.
 
 use std::path::Path;
 use std::thread::available_parallelism;
@@ -34,13 +34,13 @@ pub struct Arguments {
     pub json: bool,
 }
 
-/// Smallest sweep for which a few designs are solved to estimate the run time.
+/// Number of designs from which on the run time is estimated by solving a few designs.
 const LARGE: u64 = 10_000;
 
-/// Maximum number of listed values of an axis.
+/// Maximum number of values of an axis that are all listed.
 const LISTED: u64 = 12;
 
-/// Checks a definition and describes the run or search.
+/// Checks a definition and describes its run, search or fit.
 pub fn check(arguments: &Arguments) -> anyhow::Result<u8> {
     let path = &arguments.definition.path;
     let settings = settings(&arguments.definition.settings)?;
@@ -168,7 +168,7 @@ fn report(sweep: &Sweep, path: &Path) -> String {
     rows.push(row("output", &folder_of(sweep, None).display().to_string()));
     let axes: Vec<_> = grid.axes().iter().map(axis_row).collect();
     format!(
-        "{} is valid\n{}\naxes, slowest first\n{}\n{}",
+        "{} is valid\n{}\naxes, the first one varies slowest\n{}\n{}",
         path.display(),
         aligned(&rows),
         aligned(&axes),
@@ -195,9 +195,12 @@ fn as_json(sweep: &Sweep) -> Value {
     })
 }
 
-/// Formats the contact moduli in `MPa`, if all designs share the moduli and ratios.
+/// Formats the contact moduli of puncture and bending in `MPa`.
+///
+/// `None` if the moduli and ratios are unknown, or differ between designs.
 fn contact_moduli(sweep: &Sweep) -> Option<String> {
-    // Both products are the modulus of the same scales, so in MPa a discrepancy is visible.
+    // The contact modulus in puncture and the one in bending belong to the same scales, so users
+    // can notice a discrepancy between them.
     let moduli = [
         ("puncture", ["substrate_modulus_MPa", "contact_modulus_over_substrate"]),
         ("bending", ["membrane_modulus_MPa", "contact_modulus_over_membrane"]),
@@ -214,9 +217,9 @@ fn row(what: &str, value: &str) -> [String; 2] {
     [what, value].map(str::to_owned)
 }
 
-/// Estimates the time and disk space of a large sweep.
+/// Estimates the time and disk space of a large sweep; returns no rows for a small one.
 fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
-    // Solving designs for the estimate takes longer than a small sweep.
+    // Solving designs for the estimate would take longer than a small sweep itself.
     if sweep.grid().len() < LARGE {
         return Vec::new();
     }
@@ -235,7 +238,7 @@ fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
     ]
 }
 
-/// Formats a number of bytes with two digits.
+/// Formats a number of bytes with a decimal unit, such as `1.5 MB`.
 fn bytes(bytes: f64) -> String {
     let units = ["B", "kB", "MB", "GB", "TB", "PB"];
     let power = (bytes.max(1.0).log10() / 3.0).floor().min(units.len() as f64 - 1.0);
@@ -244,10 +247,12 @@ fn bytes(bytes: f64) -> String {
     format!("{value} {}", units[power as usize])
 }
 
+/// Returns the key, the number of values and the values of an axis.
 fn axis_row(axis: &Axis) -> [String; 3] {
     [axis.parameter().key.to_owned(), counted(axis.len(), "value"), values(axis)]
 }
 
+/// Lists the values of an axis, or the first three and the last of many.
 fn values(axis: &Axis) -> String {
     let len = axis.len();
     if len > LISTED {
@@ -258,16 +263,18 @@ fn values(axis: &Axis) -> String {
     values.join(" ")
 }
 
-/// Counts the footprints for which the substrate is calibrated.
+/// Returns the number of footprints for which the substrate is calibrated.
 fn calibrations(sweep: &Sweep) -> u64 {
     let has_mm = sweep.gives_millimetres();
-    // Springs depend on lengths over the thickness, so the thickness counts if lengths are in mm.
+    // The springs depend on lengths divided by the thickness. If lengths are in mm, each thickness
+    // therefore needs its own calibration.
     let matters =
         |of: &Parameter| of.has(Role::MovesSprings) || (has_mm && of.key == key::THICKNESS);
     let axes = sweep.grid().axes().iter();
     axes.filter(|axis| matters(axis.parameter())).map(Axis::len).product()
 }
 
+/// Lists the shared parameters that differ from their defaults.
 fn changes(sweep: &Sweep) -> String {
     let changed = sweep.shared().filter(|(parameter, value)| parameter.default() != *value);
     let rows: Vec<_> = changed

@@ -1,4 +1,4 @@
-//! The command `squama compare`.
+//! The command `squama compare`, which shows the differences between two runs.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -48,10 +48,10 @@ pub struct Arguments {
     pub partial: Partial,
 }
 
-/// Maximum number of listed designs.
+/// Maximum number of designs in only one run that the report lists.
 const LISTED: usize = 8;
 
-/// Compares two runs.
+/// Compares two runs and prints the differences.
 pub fn compare(arguments: &Arguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
     let completeness = arguments.partial.completeness();
@@ -69,6 +69,7 @@ pub fn compare(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(if arguments.exit_code && !comparison.is_none() { DIFFERENT } else { DONE })
 }
 
+/// Parses the value of `--tolerance`.
 fn tolerance(text: &str) -> anyhow::Result<f64> {
     let Ok(tolerance) = text.parse::<f64>() else {
         bail!("--tolerance {text}: not accepted, expected a number of at least 0, e.g. 1e-9");
@@ -80,6 +81,7 @@ fn tolerance(text: &str) -> anyhow::Result<f64> {
     Ok(tolerance)
 }
 
+/// Formats the unmatched designs, the differing parameters and the differing columns.
 fn report(comparison: &Comparison<'_>, first: &Results, second: &Results) -> String {
     let [one, other] = [first, second].map(|results| results.folder().display().to_string());
     let both = counted(comparison.matched() as u64, "design");
@@ -126,7 +128,7 @@ fn columns(comparison: &Comparison<'_>) -> String {
     }
     if !same.is_empty() {
         let names: Vec<_> = same.iter().map(|column| column.name.as_str()).collect();
-        // Text columns have no tolerance.
+        // Mention the tolerance only if a column of numbers is among them: text has none.
         let above = if same.iter().any(|column| column.relative.is_some()) {
             format!(" above {}", number::text(comparison.tolerance()))
         } else {
@@ -137,6 +139,7 @@ fn columns(comparison: &Comparison<'_>) -> String {
     text
 }
 
+/// Header of the table of differing columns.
 const HEADER: [&str; 9] = [
     "column",
     "compared",
@@ -149,6 +152,7 @@ const HEADER: [&str; 9] = [
     "rank correlation",
 ];
 
+/// Returns the row of a column in the table of differing columns.
 fn row(column: &ColumnDifference) -> [String; 9] {
     let extreme =
         |cell: fn(&Extreme) -> String| column.relative.as_ref().map_or(String::new(), cell);
@@ -165,6 +169,7 @@ fn row(column: &ColumnDifference) -> [String; 9] {
     ]
 }
 
+/// Lists the changes of a text column, each with its number of designs.
 fn changes(column: &ColumnDifference) -> impl Iterator<Item = [String; 3]> {
     column.changes.iter().map(|((from, to), count)| {
         [column.name.clone(), counted(*count as u64, "design"), format!("{from} → {to}")]

@@ -1,4 +1,4 @@
-//! The command `squama completions`.
+//! The command `squama completions`, which prints a completion script for a shell.
 
 use clap::{Args, CommandFactory as _};
 use clap_complete::Shell;
@@ -14,11 +14,11 @@ Examples:
   squama completions zsh > ~/.zfunc/_squama
   squama completions fish > ~/.config/fish/completions/squama.fish")]
 pub struct Arguments {
-    /// The shell
+    /// Shell to print completions for
     pub shell: Shell,
 }
 
-/// Prints completions for a shell.
+/// Prints the completion script for a shell.
 pub fn completions(arguments: &Arguments) -> anyhow::Result<u8> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Squama::command(), "squama", &mut script);

@@ -1,14 +1,14 @@
-//! The effect of full substrate coupling on the best designs, as text.
+//! Describes how full substrate coupling changes the measures of designs.
 
 use ranking::Requirement;
 use run::{CoupledMeasure, CouplingChange};
 
-/// Smallest reported relative change.
+/// Smallest relative change of a measure that is reported.
 ///
-/// The paper's coupling is an approximation of this order.
+/// The coupling of nearest neighbours, as in the paper, has errors of this order.
 const SMALL: f64 = 0.02;
 
-/// Formats a line for each design; empty if there is none.
+/// Formats a line for each design; the text is empty if there are no designs.
 pub fn couplings_report(changes: &[CouplingChange], requirements: &[Requirement]) -> String {
     if changes.is_empty() {
         return String::new();
@@ -17,6 +17,7 @@ pub fn couplings_report(changes: &[CouplingChange], requirements: &[Requirement]
     format!("\nChecked with full substrate coupling (substrate.coupling = \"full\"):\n{lines}")
 }
 
+/// Formats the changed measures, a fold, and the missed requirements of a design.
 fn line(change: &CouplingChange, requirements: &[Requirement]) -> String {
     let mut told: Vec<String> = change.measures.iter().filter_map(moved).collect();
     if change.folds {
@@ -29,7 +30,7 @@ fn line(change: &CouplingChange, requirements: &[Requirement]) -> String {
     format!("  {}: {}\n", change.design, told.join(", "))
 }
 
-/// Describes a measure that changes or has no value.
+/// Describes a measure that changes, or that has no value with full coupling.
 fn moved(measure: &CoupledMeasure) -> Option<String> {
     let CoupledMeasure { column, nearest, full } = measure;
     let Some(full) = full else { return Some(format!("{column} has no value")) };
@@ -43,7 +44,7 @@ fn moved(measure: &CoupledMeasure) -> Option<String> {
     })
 }
 
-/// Describes a requirement that is met only with the simplified coupling.
+/// Describes a requirement that is met with nearest-neighbour coupling but not with full coupling.
 fn missed(change: &CouplingChange, requirement: &Requirement) -> Option<String> {
     let measure = change.measures.iter().find(|m| m.column == requirement.column)?;
     let [nearest, full] = [Some(measure.nearest), measure.full]

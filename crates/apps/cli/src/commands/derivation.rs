@@ -1,6 +1,6 @@
-//! Records of the products made from the tables of a folder.
+//! Records which files were made from the tables of a results folder.
 //!
-//! `squama status` uses them to list products that are out of date.
+//! By these records `squama status` finds files made from an earlier version of the tables.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -9,19 +9,20 @@ use anyhow::Context as _;
 use results::{Derivation, OutputError, ResultsFolder, VerifiedFolder, sha256};
 use text::shell_word;
 
-/// Digits of the SHA-256 of a path in the name of a record.
+/// Number of digits of the SHA-256 of a path in the name of a record.
 const DIGITS: usize = 8;
 
-/// Records in `results` the files that this command made from its tables.
+/// Records that the files `names` in `folder` were made from the tables of `results`.
 ///
-/// The files are `names` in `folder`.
+/// `product` is the kind of files, such as `figures`; the record is written to `results`.
 pub fn record(
     results: &VerifiedFolder,
     product: &str,
     folder: &Path,
     names: &[impl AsRef<str>],
 ) -> anyhow::Result<()> {
-    // Without checksums of the tables, later changes could not be detected.
+    // `derive` returns `None` if the folder has no checksums of its tables: later changes of the
+    // tables could not be detected.
     let Some(mut derivation) = results.derive(product, command()) else { return Ok(()) };
     let inside = path_within(results.path(), folder);
     for name in names.iter().map(AsRef::as_ref) {
@@ -30,25 +31,25 @@ pub fn record(
             fs::read(&path).with_context(|| format!("{}: cannot be read", path.display()))?;
         derivation.files.insert(key(inside.as_deref(), folder, name), sha256(bytes));
     }
-    // Readers verify the tables of a ranking by this record. A ranking in another folder is a
-    // product like any other.
+    // The record of a ranking in the results folder has a fixed name, because readers use it to
+    // verify the tables of the ranking.
     let is_ranking = product == ResultsFolder::RANKING_RECORD && inside.as_deref() == Some("");
     let record = if is_ranking { product.to_owned() } else { record_name(product, &derivation) };
     let written = derivation.write(&ResultsFolder::new(results.path()), &record);
-    // A results folder may be read-only; products in other folders are written all the same.
+    // If the files are in another folder, ignore the error: the results folder may be read-only.
     written.or_else(|error: OutputError| if inside.is_some() { Err(error.into()) } else { Ok(()) })
 }
 
 /// Returns the command line of this process, quoted for a shell.
 fn command() -> String {
-    // Names that are not UTF-8 are recorded as displayed.
+    // Names that are not UTF-8 are recorded with replacement characters.
     let words = std::env::args_os().skip(1).map(|word| shell_word(&word.to_string_lossy()));
     std::iter::once("squama".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the path of `folder` relative to `results`, if it is inside.
+/// Returns the path of `folder` relative to `results`; `None` if it lies outside.
 fn path_within(results: &Path, folder: &Path) -> Option<String> {
-    // Links are resolved, because the same folder may have several names.
+    // Resolve links, because a folder may have several paths.
     let (results, folder) = (absolute(results).ok()?, absolute(folder).ok()?);
     Some(folder.strip_prefix(results).ok()?.to_string_lossy().into_owned())
 }
@@ -58,17 +59,20 @@ fn absolute(folder: &Path) -> io::Result<PathBuf> {
     fs::canonicalize(if folder.as_os_str().is_empty() { Path::new(".") } else { folder })
 }
 
-/// Returns the name of a file in the record: relative inside the results, otherwise absolute.
+/// Returns the path of a file as the record contains it.
+///
+/// `inside` is the path of `folder` relative to the results. The path of the file is then relative,
+/// too; otherwise it is absolute.
 fn key(inside: Option<&str>, folder: &Path, name: &str) -> String {
     let path = match inside {
-        // Relative, so that the folder can be moved.
+        // A relative path remains valid if the results folder is moved.
         Some(place) => Path::new(place).join(name),
         None => absolute(folder).unwrap_or_else(|_| folder.to_owned()).join(name),
     };
     path.to_string_lossy().into_owned()
 }
 
-/// Returns the name of the record of a product, from the path of its first file.
+/// Returns the name of a record, which contains a hash of the path of the first file.
 fn record_name(product: &str, derivation: &Derivation) -> String {
     let first = derivation.files.keys().next().map_or("", String::as_str);
     let digest = sha256(first);

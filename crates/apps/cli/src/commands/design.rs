@@ -1,4 +1,4 @@
-//! The command `squama design`.
+//! The command `squama design`, which solves one design.
 
 use std::path::PathBuf;
 
@@ -35,7 +35,7 @@ Examples:
 Solves the design exactly as the sweep does. A design given by its lengths need not be on the
 grid; if the grid has further axes, give a value for each with --set designs.KEY=VALUE.
 Writes measures.csv (every value with all its digits), path.csv, events.csv, scales.csv,
-steps.csv (every Newton iteration), the same of bending in flexure_path.csv and so on, and design.toml.
+steps.csv (every Newton iteration), the same tables of bending (flexure_path.csv and so on), and design.toml.
 With puncture.places also places.csv, the force at every load position.
 --sensitivity also writes sensitivity.csv, and prints how one per cent of a parameter changes the measures.
 Exit code: 0 done, 1 the design failed, 2 bad input or a disk error.")]
@@ -98,7 +98,7 @@ fn choose(arguments: &Arguments) -> anyhow::Result<SelectedDesign> {
     Ok(designs.swap_remove(0))
 }
 
-/// Lists options that select one of several designs.
+/// Lists the options that would select one of the selected designs.
 fn advice(designs: &[SelectedDesign]) -> String {
     let [first, .., last] = designs else { return String::new() };
     let differing = PARAMETERS.iter().filter(|p| p.get(&first.case()) != p.get(&last.case()));
@@ -111,12 +111,12 @@ fn advice(designs: &[SelectedDesign]) -> String {
     format!("give a value with {}", options.collect::<Vec<_>>().join(" "))
 }
 
-/// A solved design.
+/// The selected design with its solution.
 struct SolvedChoice {
     design: SelectedDesign,
     solved: SolvedDesign,
     columns: Vec<Column<DesignRow>>,
-    /// Requirements of the search that found the design.
+    /// Requirements of the search that found the design; empty without a search.
     requirements: Vec<Requirement>,
 }
 
@@ -133,6 +133,7 @@ impl SolvedChoice {
         Self { design, solved, columns, requirements }
     }
 
+    /// Returns the folder for the files.
     fn folder(&self, arguments: &Arguments) -> std::path::PathBuf {
         arguments.out.clone().unwrap_or_else(|| {
             let designs = folder_within(&arguments.definition, &self.design.sweep, "designs");
@@ -140,7 +141,7 @@ impl SolvedChoice {
         })
     }
 
-    /// Returns all columns except the number, which is in the title.
+    /// Returns all columns with their cells, except the number, which is in the title.
     fn measures(&self) -> impl Iterator<Item = (&Column<DesignRow>, Cell)> {
         self.columns.iter().skip(1).map(|column| (column, column.cell(&self.solved.row)))
     }
@@ -163,9 +164,9 @@ impl SolvedChoice {
         format!("{title}\n{changes}\n{required}{table}{notes}")
     }
 
-    /// States the radius at which neighbouring scales touch.
+    /// States the radius of the body at which neighbouring scales touch at rest.
     ///
-    /// Empty unless they overlap at rest.
+    /// The text is empty unless the scales overlap at rest.
     fn overlap(&self) -> String {
         let outcome = self.solved.row.result.puncture.map(|puncture| puncture.outcome);
         let case = self.design.case();
@@ -187,7 +188,9 @@ impl SolvedChoice {
         DesignAnswer::new(&self.design.sweep, &self.solved.row, &self.requirements)
     }
 
-    /// Explains why the weakest load position is unknown; empty if it is known.
+    /// Explains why the weakest load position is unknown.
+    ///
+    /// The text is empty if the weakest load position is known.
     fn unknown_weakest(&self) -> String {
         let Some(puncture) = &self.solved.puncture else { return String::new() };
         let Err(status) = Weakest::from_positions(&puncture.places) else { return String::new() };
@@ -196,7 +199,8 @@ impl SolvedChoice {
             return String::new();
         };
         let open = puncture.places.iter();
-        // A position that carried more before its path ended is not the weakest.
+        // Omit positions that carried more than `force` before their paths ended: they are not the
+        // weakest.
         let open = open.filter(|p| {
             p.force.is_none() && p.largest_force.is_some_and(|largest_force| largest_force < force)
         });
@@ -210,13 +214,15 @@ impl SolvedChoice {
         )
     }
 
-    /// Returns the judged failure modes; `None` without a puncture or without strengths.
+    /// Returns the judged failure modes.
+    ///
+    /// `None` without a solved puncture, or if the design defines no strengths.
     fn failure_modes(&self) -> Option<JudgedModes> {
         self.solved.row.result.puncture?;
         self.design.case().judged_modes()
     }
 
-    /// Reports the failure modes that were judged, and the reasons for the others.
+    /// States which failure modes were judged, and why the others were not.
     fn judged(&self) -> String {
         self.failure_modes().map_or_else(String::new, |modes| format!("\n{modes}"))
     }
@@ -231,7 +237,7 @@ impl SolvedChoice {
         }
     }
 
-    /// Lists the parameters that differ from the sweep.
+    /// Lists the parameters that differ from the design in the sweep.
     fn changes(&self) -> String {
         let Some(original) = self.design.original else {
             return String::new();
@@ -269,7 +275,7 @@ impl SolvedChoice {
     }
 }
 
-/// Formats a cell, numbers with six digits.
+/// Formats a cell; a number gets at most six significant digits.
 fn shown(cell: &Cell) -> String {
     match cell {
         Cell::Number(number) => rounded(*number),
@@ -277,13 +283,15 @@ fn shown(cell: &Cell) -> String {
     }
 }
 
-/// Number of listed parameters for each measure, the most influential.
+/// Number of parameters, the most influential ones, that are listed for each measure.
 const LISTED: usize = 3;
 
-/// Changes below this, in percent, would be printed as 0.
+/// Smallest change that is listed, in percent; smaller changes would be printed as 0.
 const NEGLIGIBLE: f64 = 5e-4;
 
-/// Returns the size of the elasticity of a derivative; infinite at a kink.
+/// Returns the absolute value of the elasticity; infinite at a kink.
+///
+/// The elasticity is the change of a measure in percent for one per cent of a parameter.
 fn importance(derivative: &ParameterDerivative) -> f64 {
     match derivative.kink {
         Some(_) => f64::INFINITY,
@@ -291,7 +299,7 @@ fn importance(derivative: &ParameterDerivative) -> f64 {
     }
 }
 
-/// Formats the largest elasticities of each measure, and its kinks.
+/// Formats the kinks and the largest elasticities of each measure.
 fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
     if derivatives.is_empty() {
         return String::new();
@@ -299,7 +307,7 @@ fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
     let mut lines = Vec::new();
     for of_measure in derivatives.chunk_by(|one, other| one.measure == other.measure) {
         let mut known: Vec<_> = of_measure.iter().filter(|d| importance(d) >= NEGLIGIBLE).collect();
-        // Kinks come first: they have no elasticity.
+        // Kinks have an infinite importance, so they are listed first.
         known.sort_by(|one, other| importance(other).total_cmp(&importance(one)));
         lines.extend(known.into_iter().take(LISTED).map(sensitivity_line));
     }

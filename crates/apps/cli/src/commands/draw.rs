@@ -1,4 +1,4 @@
-//! The command `squama draw`.
+//! The command `squama draw`, which draws designs at rest, punctured and bent.
 
 use anyhow::{Context as _, bail, ensure};
 use clap::Args;
@@ -56,13 +56,13 @@ pub struct Arguments {
     pub output: FigureOutput,
 }
 
-/// Frames of an animation.
+/// Number of steps between the frames of an animation.
 const FRAMES: u32 = 60;
 
-/// Default end rotations of the drawings of a strip, degrees; the end of the path is added.
+/// Default end rotations at which a strip is drawn, in degrees, besides the end of the path.
 const ROTATIONS_DEG: [f64; 3] = [0.0, 45.0, 90.0];
 
-/// Draws designs.
+/// Draws the selected designs.
 pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
     check_positions(arguments)?;
     check_sizes(&arguments.output)?;
@@ -82,15 +82,17 @@ pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// Rejects negative displacements and forces of a puncture.
+/// Rejects negative or infinite displacements and forces of a puncture.
 fn check_positions(arguments: &Arguments) -> anyhow::Result<()> {
-    // A strip can bend both ways, so its angles may be negative.
+    // End rotations may be negative, because a strip can bend in both directions.
     let displacements = if arguments.flexure { &[] } else { arguments.at.as_slice() };
     require_non_negative("--at", "a displacement u/t", displacements)?;
     require_non_negative("--force", "a force F*", &arguments.force)
 }
 
-/// Rejects negative or infinite values.
+/// Rejects negative or infinite `values` of an option.
+///
+/// `option` and `quantity` describe the values in the error message.
 pub fn require_non_negative(option: &str, quantity: &str, values: &[f64]) -> anyhow::Result<()> {
     for value in values {
         ensure!(
@@ -101,7 +103,7 @@ pub fn require_non_negative(option: &str, quantity: &str, values: &[f64]) -> any
     Ok(())
 }
 
-/// A design to draw.
+/// A design to draw, with the arguments of the command.
 struct Drawing<'a> {
     design: &'a SelectedDesign,
     case: Case,
@@ -109,10 +111,12 @@ struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
+    /// Returns the file name of a drawing of this design, without extension.
     fn file(&self, what: &str) -> String {
         format!("design-{}-{what}", self.design.label())
     }
 
+    /// Draws the puncture of the design.
     fn puncture(&self, files: &mut FigureFiles<'_>) -> anyhow::Result<()> {
         let case = &self.case;
         let Arguments { at, force, .. } = self.arguments;
@@ -138,7 +142,7 @@ impl Drawing<'_> {
         files.svg(&file, &drawing.svg()?)
     }
 
-    /// Returns the end of the path, preceded by the frames of an animation.
+    /// Returns the state at the critical tilt; for an animation, also all frames before it.
     fn states_to_end(&self) -> anyhow::Result<Vec<puncture::RowSnapshot>> {
         let Snapshots { end, is_critical, .. } = solve(&self.case, &[])?;
         ensure!(
@@ -149,7 +153,7 @@ impl Drawing<'_> {
         if !self.arguments.animate {
             return Ok(vec![end]);
         }
-        // Solved twice, because the step between frames follows from the end of the path.
+        // Solve the path again, because the step between frames depends on its end.
         let step = end.displacement / f64::from(FRAMES);
         let frames = (0..FRAMES).map(|k| puncture::At::Displacement(step * f64::from(k)));
         let mut states = self.puncture_states(&frames.collect::<Vec<_>>())?;
@@ -157,6 +161,7 @@ impl Drawing<'_> {
         Ok(states)
     }
 
+    /// Returns the states at the points `at`; a point that the path does not reach is an error.
     fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::RowSnapshot>> {
         let solved = solve(&self.case, at)?;
         at.iter()
@@ -174,6 +179,7 @@ impl Drawing<'_> {
             .collect()
     }
 
+    /// Draws the bending of the design.
     fn flexure(&self, files: &mut FigureFiles<'_>) -> anyhow::Result<()> {
         let parameters = self.case.flexure;
         let last = parameters.max_end_rotation_deg;
@@ -207,7 +213,7 @@ impl Drawing<'_> {
         files.svg(&file, &drawing.svg()?)
     }
 
-    /// Returns the end rotations of the drawings, degrees, for a path up to `last`.
+    /// Returns the end rotations of the drawings, for a path up to `last`, in degrees.
     fn rotations_deg(&self, last: f64) -> Vec<f64> {
         match self.arguments.at.as_slice() {
             [] if self.arguments.animate => {
@@ -215,7 +221,7 @@ impl Drawing<'_> {
             }
             [] => {
                 let before = ROTATIONS_DEG.into_iter().filter(|&size| size < last.abs());
-                // Adding 0 turns −0 into 0 for the labels.
+                // Adding 0 turns −0 into 0, which the labels show.
                 before.map(|size| size * last.signum() + 0.0).chain([last]).collect()
             }
             at => at.to_vec(),
@@ -225,7 +231,7 @@ impl Drawing<'_> {
 
 /// Draws the row of a case at rest, and at the critical tilt if `with_load`.
 ///
-/// A path that does not reach the critical tilt leaves the row at rest alone.
+/// If the path does not reach the critical tilt, only the row at rest is drawn.
 pub fn draw_row(name: &str, case: &Case, with_load: bool) -> anyhow::Result<String> {
     let solved = with_load.then(|| solve(case, &[])).transpose()?;
     let end = solved.filter(|solved| solved.is_critical).map(|solved| solved.end);
@@ -233,7 +239,7 @@ pub fn draw_row(name: &str, case: &Case, with_load: bool) -> anyhow::Result<Stri
     Ok(drawing.svg()?)
 }
 
-/// Solves the puncture of a case with the states of a drawing.
+/// Solves the puncture of a case, with the states at the points `at` of the path.
 fn solve(case: &Case, at: &[puncture::At]) -> anyhow::Result<Snapshots> {
     let substrate = substrate(case)?;
     Ok(puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), at)?)
@@ -246,7 +252,9 @@ pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
     Ok(RowStiffness::compute(&footprint, case.coupling)?)
 }
 
-/// Formats points on a path for the name of a file.
+/// Formats points on a path for a file name.
+///
+/// `quantity` names their values; without points, the text is `otherwise`.
 fn position_names(at: &[f64], quantity: &str, otherwise: &str) -> String {
     if at.is_empty() {
         return otherwise.to_owned();
@@ -255,6 +263,7 @@ fn position_names(at: &[f64], quantity: &str, otherwise: &str) -> String {
     format!("{quantity}-{}", joined(&values, "positions"))
 }
 
+/// Describes a point on a path for an error message.
 fn position(at: puncture::At) -> String {
     match at {
         puncture::At::Displacement(u) => format!("u/t = {u}"),

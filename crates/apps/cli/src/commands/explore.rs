@@ -1,4 +1,4 @@
-//! The command `squama explore`.
+//! The command `squama explore`, which writes an interactive page.
 
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
@@ -28,11 +28,11 @@ Examples:
   squama explore sweeps/glove.toml --require 'coverage >= 0.4' --require 'failure_force_N >= 0.5'
   squama explore sweeps/goals/strong-and-covered.toml --out goal.html --no-open
 
-Drag a scale or a slider, and the page solves the design. It is one file that contains the solver; it needs
-no network and no server. Sliders range from the smallest to the largest value in the definition; the one of
-the body ranges from a concave over a flat to a convex body. The requirements come from [goal], if there is
-one, and from --require; a field on the page takes others in words and searches a design that meets them. A
-results folder adds its solved designs to this search.")]
+Drag a scale or a slider, and the page solves the design. The page is one file that contains the solver and
+needs no network and no server. Sliders range from the smallest to the largest value in the definition; the
+slider of the body curvature ranges from concave through flat to convex. The requirements come from [goal], if
+there is one, and from --require; a field on the page accepts more requirements in words, and searches for a
+design that meets them. A results folder adds its solved designs to this search.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -57,7 +57,8 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     let failed = failed.map(|check| format!("The optimum fails a check: {check}"));
     requirements.extend(searched.requirements);
     requirements.extend(arguments.required.read()?);
-    // The page solves no samples, so requirements on samples would never have a value there.
+    // Omit requirements on statistics of samples, which have no value on the page: it solves single
+    // designs.
     let of_samples = requirements.extract_if(.., |of| Statistic::named(&of.column).is_some());
     for requirement in of_samples {
         note(&format!(
@@ -67,7 +68,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     require_folder_of("--out", &arguments.out)?;
     let Definition { path, settings } = &arguments.definition;
     let solved = solved_designs(path, &sweep)?;
-    // Quoted for a shell, because the page contains a command to copy.
+    // Quote the settings for a shell, because users copy a command from the page.
     let settings = settings.iter().map(|setting| format!(" --set {}", shell_word(setting)));
     let page = Explorer {
         solved,
@@ -82,7 +83,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     page.write(&mut html)?;
     write_file(&arguments.out, &html)?;
     print(&format!("{}\n", arguments.out.display()))?;
-    // Scripts do not open a browser.
+    // Open a browser only if stdout is a terminal, not in a script.
     let is_watched = std::io::stdout().is_terminal();
     if is_watched && !arguments.no_open && !open(&arguments.out) {
         note("no browser was found: open the page by hand");
@@ -90,7 +91,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// Columns that the sentence on the page may require.
+/// Columns on which requirements in the text field of the page can be set.
 const REQUIRED: [&str; 7] = [
     name::COVERAGE,
     "failure_force_N",
@@ -136,7 +137,7 @@ fn open(page: &Path) -> bool {
         _ => "xdg-open",
     };
     let mut command = Command::new(program);
-    // Browsers would print messages to the terminal.
+    // Discard the output, because browsers print messages to the terminal.
     command.arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     // Do not wait for the browser, which may run for hours.
     command.spawn().is_ok()

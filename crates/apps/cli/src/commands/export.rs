@@ -1,4 +1,4 @@
-//! The command `squama export`.
+//! The command `squama export`, which writes the tables of a folder as a workbook.
 
 use std::path::{Path, PathBuf};
 
@@ -22,9 +22,9 @@ Examples:
   squama export results/paper --xlsx paper.xlsx
   squama export results/glove/tolerance --xlsx tolerance.xlsx
 
-The workbook has a sheet for each table of the folder, and one that explains the columns. The folder may also
-come from squama optimise, tolerance, sensitivity or fit. The same tables always give the same bytes. A sheet
-holds at most 1,048,575 rows.
+The workbook has a sheet for each table of the folder, and a sheet that explains the columns. The folder may
+also be written by squama optimise, tolerance, sensitivity or fit. The same tables always give the same bytes. A
+sheet contains at most 1,048,575 rows.
 Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
     /// Results folder of a run, a search or an analysis, or the definition of a run
@@ -39,15 +39,16 @@ pub struct Arguments {
     pub partial: Partial,
 }
 
-/// Writes the tables of a run as one workbook.
+/// Writes the tables of a run, a search or an analysis as one workbook.
 pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
-    // A full disk is reported as an error, not as the panic of a library.
+    // Print no message for a panic: the workbook library panics if the disk is full, and
+    // `report::export` turns this panic into an error.
     std::panic::set_hook(Box::new(|_| ()));
     require_folder_of("--xlsx", &arguments.xlsx)?;
     let name = utf8_name(&arguments.xlsx)?;
     require_own(&arguments.xlsx)?;
     let (path, completeness) = (&arguments.results, arguments.partial.completeness());
-    // `verified_folder` would reject folders of searches and analyses.
+    // Open a search or an analysis directly, because `verified_folder` accepts only runs.
     let mut others_of = results::FILES.iter().filter(|file| is_other(file));
     let is_other = others_of.any(|file| path.join(file.name).is_file());
     let results = if is_other {
@@ -73,7 +74,7 @@ fn is_other(file: &FileEntry) -> bool {
         && Path::new(file.name).extension().is_some_and(|kind| kind == "csv")
 }
 
-/// Returns the tables of a search or an analysis with their columns.
+/// Returns the tables that a search or an analysis may have, with their columns.
 fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
     let [of_best, of_history] = if results.holds(GOAL) {
         let name = results.path().join(GOAL).display().to_string();
@@ -97,6 +98,7 @@ fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
     Ok(tables.into_iter().map(|(file, columns)| OtherTable { file, columns }).collect())
 }
 
+/// Returns name, unit and meaning of each column.
 fn explained<R>(columns: &[Column<R>]) -> Vec<(String, &'static str, &'static str)> {
     columns.iter().map(|column| (column.name.to_string(), column.unit, column.meaning)).collect()
 }

@@ -1,4 +1,4 @@
-//! Output files of drawings and figures.
+//! Writes drawings, figures and pages to files.
 
 use std::borrow::Cow;
 use std::io::{self, BufWriter, Write as _};
@@ -35,8 +35,8 @@ pub struct FigureOutput {
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub width: Option<f64>,
 
-    /// Size of the smallest letters on paper in pt, e.g. 7; each figure becomes as wide as that
-    /// takes
+    /// Size of the smallest letters on paper in pt, e.g. 7; each figure becomes as wide as this size
+    /// requires
     #[arg(long, value_name = "PT", allow_hyphen_values = true, value_parser = decimal, conflicts_with = "width")]
     pub font_size: Option<f64>,
 
@@ -46,7 +46,7 @@ pub struct FigureOutput {
 }
 
 impl FigureOutput {
-    /// Returns the paper that figures are laid out for.
+    /// Returns the paper width for which figures are laid out.
     pub fn paper(&self) -> Paper {
         self.width.map_or(Paper::WIDE, Paper::of_width)
     }
@@ -58,7 +58,7 @@ const READABLE: f64 = 6.0;
 /// Accepted resolutions of images, dots per inch.
 const DPI: RangeInclusive<f64> = 24.0..=2400.0;
 
-/// Writes figures to a folder.
+/// Writes figures to a folder and remembers their file names.
 pub struct FigureFiles<'a> {
     folder: PathBuf,
     output: &'a FigureOutput,
@@ -66,7 +66,7 @@ pub struct FigureFiles<'a> {
 }
 
 impl<'a> FigureFiles<'a> {
-    /// Creates the folder of `output`, or the default folder.
+    /// Creates the folder that `output` names, or otherwise the folder `default`.
     pub fn new(
         output: &'a FigureOutput,
         default: impl FnOnce() -> PathBuf,
@@ -89,9 +89,9 @@ impl<'a> FigureFiles<'a> {
             Some(width) => Cow::Owned(resized(&svg, width)),
             None => svg,
         };
-        // The image is rendered first, so that a failure writes neither file.
+        // Render the image first, so that no file is written if rendering fails.
         let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
-        // By this comment a later command knows that it may replace the file.
+        // The comment marks the file as written by squama, so that a later command may replace it.
         let marked = format!("{svg}<!-- squama -->\n");
         self.write(format!("{name}.svg"), marked.as_bytes())?;
         image.map_or(Ok(()), |image| self.write(format!("{name}.png"), &image))
@@ -105,7 +105,7 @@ impl<'a> FigureFiles<'a> {
         self.svg(&figure.name, &figure.svg)
     }
 
-    /// Writes a page.
+    /// Writes an HTML page.
     pub fn html(&mut self, name: &str, page: &str) -> anyhow::Result<()> {
         self.write(format!("{name}.html"), page.as_bytes())
     }
@@ -116,19 +116,19 @@ impl<'a> FigureFiles<'a> {
         Ok(())
     }
 
-    /// Records in a results folder that the figures were made from its tables.
+    /// Records in the results folder that the figures were made from its tables.
     pub fn note(&self, results: &VerifiedFolder) -> anyhow::Result<()> {
         derivation::record(results, "figures", &self.folder, &self.names)
     }
 
-    /// Prints a line for each file.
+    /// Prints the path of each written file on a line.
     pub fn print(&self) -> io::Result<()> {
         let lines = self.names.iter().map(|name| format!("{}\n", self.folder.join(name).display()));
         print(&lines.collect::<String>())
     }
 }
 
-/// Prints a note if the smallest letters are unreadable on paper.
+/// Prints a note if the smallest letters of a figure `width` mm wide are too small to read.
 fn note_small_letters(name: &str, svg: &str, width: f64) {
     let smallest = smallest_letters(svg, width).filter(|points| *points < READABLE);
     if let Some(points) = smallest {
@@ -139,19 +139,20 @@ fn note_small_letters(name: &str, svg: &str, width: f64) {
     }
 }
 
-/// Maximum length of a list of names in a file name.
-// File names have at most 255 bytes, including the kind of figure and the points on the path.
+/// Maximum length, in bytes, of a list of design names within a file name.
+// A file name has at most 255 bytes, including the kind of figure and the points on the path.
 const LONGEST: usize = 100;
 
-/// Joins `names` with hyphens for a file name.
+/// Joins `names` with hyphens, to be part of a file name.
 ///
-/// Long lists are abbreviated to `FIRST-to-LAST-COUNT-things`.
+/// A long list is abbreviated to `FIRST-to-LAST-COUNT-things`, or to `COUNT-things`.
 pub fn joined(names: &[String], things: &str) -> String {
     let all = names.join("-");
     match names {
         [first, .., last] if all.len() > LONGEST => {
             let ends = format!("{first}-to-{last}-");
-            // Names of designs off the grid contain all values, so two may be too long.
+            // The name of a design off the grid contains all its values, so even two names may be
+            // too long.
             let ends = if ends.len() > LONGEST { String::new() } else { ends };
             format!("{ends}{}-{things}", names.len())
         }
@@ -165,7 +166,7 @@ const WIDTHS: RangeInclusive<f64> = 10.0..=2000.0;
 /// Accepted font sizes on paper, pt.
 const FONT_SIZES: RangeInclusive<f64> = 1.0..=72.0;
 
-/// Rejects resolutions and sizes out of range.
+/// Rejects resolutions, widths and font sizes out of range.
 pub fn check_sizes(output: &FigureOutput) -> anyhow::Result<()> {
     let given = [
         ("--dpi", Some(output.dpi), DPI),
@@ -193,9 +194,9 @@ fn image(_: &str, _: f64) -> anyhow::Result<Vec<u8>> {
     )
 }
 
-/// Writes a file atomically.
+/// Writes the file `name` in `folder` atomically, with the content that `written` writes.
 ///
-/// A file that squama did not write is kept, which is an error.
+/// Returns an error instead of replacing a file that squama did not write.
 pub fn write(
     folder: &Path,
     name: &str,
@@ -209,14 +210,16 @@ pub fn write(
     Ok(())
 }
 
-/// Writes a file atomically by its path, and removes partial files of killed processes.
+/// Writes `bytes` atomically to the path `file`; see [`write()`].
+///
+/// Creates the folder if necessary, and removes partial files of killed processes from it.
 pub fn write_file(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let folder = file.parent().unwrap_or(Path::new(""));
     results::make_folder(folder)?;
     write(folder, utf8_name(file)?, |file| file.write_all(bytes))
 }
 
-/// Returns the name of an output file, which must be UTF-8.
+/// Returns the name of an output file; a name that is not UTF-8 is an error.
 pub fn utf8_name(file: &Path) -> anyhow::Result<&str> {
     let name = file.file_name().unwrap_or_default().to_str();
     name.with_context(|| format!("{}: cannot be written, expected a name in UTF-8", file.display()))

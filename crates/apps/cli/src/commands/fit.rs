@@ -1,4 +1,4 @@
-//! The command `squama fit`.
+//! The command `squama fit`, which fits parameters of a skin to test data.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -64,17 +64,17 @@ pub struct Arguments {
     pub solving: SolveOptions,
 }
 
-/// Files that `squama fit` writes.
+/// Names of the files that `squama fit` writes.
 pub(super) const FILES: [&str; 5] =
     ["fit.csv", "residuals.csv", "mean_curves.csv", "residuals.svg", "fitted.toml"];
 
-/// Message after the first signal.
+/// Message after the first termination signal.
 const ENDING: &str = "ending without a fit";
 
-/// Smallest correlation that is reported.
+/// Smallest absolute correlation of two unknowns that is reported.
 const STRONG: f64 = 0.9;
 
-/// Fits the parameters of a skin to test data, and writes the fit.
+/// Fits the unknown parameters of a skin to test data, and writes the results.
 pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let path = arguments.path.display();
     let definition = FitDefinition::read(&arguments.path, &settings(&arguments.settings)?)?;
@@ -82,14 +82,14 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let folder = ResultsFolder::new(
         arguments.out.clone().unwrap_or_else(|| folder_of(definition.sweep(), None).join("fit")),
     );
-    // Foreign files in the folder are rejected before the fit, not after it.
+    // Reject a folder with files of another origin before the fit, which takes long.
     Claim::check(&folder, Maker::Fit)?;
     interrupt.ask_first();
     let display =
         Display::<WorkMeter>::new(arguments.solving.quiet, interrupt, Arc::default(), ENDING);
     let pool = arguments.solving.threads.pool()?;
     let fitted = pool.install(|| definition.fit(interrupt.stop(), display.watched()));
-    // Removes the bar before anything is printed.
+    // Remove the progress bar before printing.
     drop(display);
     let fitted = match fitted {
         Err(stopped @ FitError::Stopped) => {
@@ -105,6 +105,7 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     Ok(if is_determined { DONE } else { INCOMPLETE })
 }
 
+/// Writes the tables, the figure and the definition of the fitted skin.
 fn write(folder: &ResultsFolder, fitted: &Fitted) -> anyhow::Result<()> {
     let claim = Claim::take(folder, Maker::Fit)?;
     let [table, residuals, means, figure, definition] = FILES;
@@ -129,40 +130,44 @@ fn write(folder: &ResultsFolder, fitted: &Fitted) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the fitted definition, with the scatter of specimens as tolerances.
+/// Returns the definition of the fitted skin, with the scatter of the specimens as tolerances.
 fn fitted_toml(fitted: &Fitted) -> String {
     let mut text = fitted.sweep.to_toml();
     let deviations: Vec<_> = fitted.scatter.iter().filter_map(deviation).collect();
-    // Tolerances in the definition take precedence.
+    // Tolerances that the definition of the test contains take precedence over the scatter.
     if !deviations.is_empty() && fitted.sweep.deviations().is_empty() {
         let _ = write!(text, "\n[tolerance]\n{}\n", deviations.join("\n"));
     }
     text
 }
 
-/// Returns the entry of a scattered parameter in `[tolerance]`, if it can have one.
+/// Returns the entry in `[tolerance]` for the scatter of a parameter.
+///
+/// `None` if the parameter does not vary, or is no property of the product.
 fn deviation(scatter: &Scatter) -> Option<String> {
     let Scatter { parameter, deviation, .. } = scatter;
     let is_possible = parameter.has(Role::Made) && *deviation > 0.0;
     is_possible.then(|| format!("{} = {{ batch_sd = {} }}", parameter.key, digits(*deviation)))
 }
 
+/// Unit of the columns of `fit.csv` in which each row has its own unit.
 const UNIT_OF_ROW: &str = "see the column unit";
 
 /// The columns of `fit.csv`.
 pub(super) static ESTIMATES: &[Column<Estimate>] = &columns! { Estimate:
     "sought", "-", |e| e.unknown.name.clone(), "key of a parameter, or offset of a curve";
     "unit", "-", |e| e.unknown.unit, "unit of the parameter or offset";
-    "value", UNIT_OF_ROW, |e| e.value, "value with the least squares";
+    "value", UNIT_OF_ROW, |e| e.value, "least-squares estimate";
     "low", UNIT_OF_ROW, |e| e.interval[0], "lower end of the 95 % confidence interval; empty if it is open";
     "high", UNIT_OF_ROW, |e| e.interval[1], "upper end of the 95 % confidence interval; empty if it is open";
     "from", UNIT_OF_ROW, |e| e.unknown.from, "lower bound of the parameter";
     "to", UNIT_OF_ROW, |e| e.unknown.to, "upper bound of the parameter";
 };
 
-/// A row of `residuals.csv`: file, position, measured value and fitted value.
+/// A row of `residuals.csv` or `mean_curves.csv`: the name of the file or files, and three values.
 pub(super) type Point = (String, [f64; 3]);
 
+/// Units of the columns of curves, which depend on the test.
 const UNIT_OF_CURVE: &str = "mm and N, or 1/mm and N mm; none if the curve has no units";
 
 /// The columns of `residuals.csv`.
@@ -181,7 +186,7 @@ pub(super) static MEANS: &[Column<Point>] = &columns! { Point:
     "sd", UNIT_OF_CURVE, |(_, point)| point[2], "standard deviation of the force or moment over the curves";
 };
 
-/// Formats the fit.
+/// Formats the estimates, warnings and curves of the fit.
 fn text(fitted: &Fitted) -> String {
     let points: usize = fitted.curves.iter().map(|curve| curve.points.len()).sum();
     let Fitted { estimates, curves, solutions, .. } = fitted;
@@ -218,10 +223,10 @@ fn estimate_row(estimate: &Estimate) -> [String; 4] {
     [unknown.name.clone(), digits(*value), unit.to_owned(), format!("{interval}{end}")]
 }
 
-/// Describes the unknowns that the data do not determine alone.
+/// Describes undetermined and correlated unknowns, and the scatter of specimens.
 fn undetermined_text(fitted: &Fitted) -> String {
     let mut text = String::new();
-    // Writing to a string cannot fail.
+    // Errors are ignored, because writing to a string cannot fail.
     for group in &fitted.undetermined {
         let _ = match names(fitted, group).as_slice() {
             [name] => writeln!(
@@ -257,7 +262,7 @@ fn undetermined_text(fitted: &Fitted) -> String {
     text
 }
 
-/// Describes the curves with their noise, and the remarks on them.
+/// Lists the curves with their points and noise, then remarks and mean curves.
 fn curves_text(fitted: &Fitted) -> String {
     let rows = fitted.curves.iter().map(|curve| {
         let unit = curve.axes[1].split_once(", ").map_or("", |(_, unit)| unit);
@@ -295,7 +300,7 @@ fn curves_text(fitted: &Fitted) -> String {
     text
 }
 
-/// Returns the names of unknowns, by their indices.
+/// Returns the names of the unknowns with the given indices.
 fn names<'f>(fitted: &'f Fitted, indices: &[usize]) -> Vec<&'f str> {
     indices.iter().map(|&j| fitted.estimates[j].unknown.name.as_str()).collect()
 }
@@ -316,7 +321,7 @@ fn scatter_text(scatter: &Scatter) -> String {
     )
 }
 
-/// Lists warnings and notes on the fit of a curve.
+/// Lists the warnings on a fitted curve, marked by `(!)`, and the notes.
 fn remarks(curve: &FittedCurve, estimates: &[Estimate]) -> String {
     let FittedCurve { file, beyond, events, .. } = curve;
     let [x, y] = curve.axes.each_ref().map(|axis| axis.split_once(',').map_or(&**axis, |a| a.0));
@@ -347,7 +352,7 @@ fn remarks(curve: &FittedCurve, estimates: &[Estimate]) -> String {
     warnings.chain(notes.map(|text| format!("  {file}: {text}\n"))).collect()
 }
 
-/// Returns true for an event that the fit takes into account as requested.
+/// Returns true for an event that the definition takes into account, so that it is no warning.
 fn is_note(event: &CurveEvent, has_offset: bool) -> bool {
     match event.kind {
         CurveEventKind::Touches => has_offset,
@@ -356,7 +361,7 @@ fn is_note(event: &CurveEvent, has_offset: bool) -> bool {
     }
 }
 
-/// Describes an event of a curve with these axes.
+/// Describes an event of a curve; `x` and `y` are the names of its axes.
 fn event_text(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String {
     let CurveEvent { kind, line, left_out, at } = *event;
     let points = counted(left_out as u64, "point");
@@ -366,7 +371,7 @@ fn event_text(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String
             let advice = if has_offset {
                 String::new()
             } else {
-                format!("; offsets = [\"{x}\"] in [[curve]] fits its end")
+                format!("; offsets = [\"{x}\"] in [[curve]] fits the point of contact")
             };
             format!(
                 "the {y} does not rise up to line {line}, at the {x} {}: an approach before contact{advice}",
@@ -398,7 +403,7 @@ fn event_text(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String
     }
 }
 
-/// Returns the name of a kind of event in JSON.
+/// Returns the name of a kind of event in the JSON output.
 fn kind_name(kind: CurveEventKind) -> &'static str {
     match kind {
         CurveEventKind::Touches => "touches",
@@ -424,6 +429,7 @@ fn scatter_record(scatter: &Scatter, fitted: &Fitted) -> Value {
     })
 }
 
+/// Returns the fit as JSON.
 fn record(fitted: &Fitted) -> Value {
     json!({
         "name": fitted.sweep.name(),

@@ -1,4 +1,4 @@
-//! The contents of a results folder that figures and the page need.
+//! Reads the contents of a results folder that figures and the HTML report show.
 
 use std::path::PathBuf;
 
@@ -12,28 +12,28 @@ use sweep::Sweep;
 
 use crate::print::note;
 
-/// The contents of a results folder.
+/// The contents of a results folder that figures and the HTML report show.
 pub struct FolderContents {
     /// The path of the folder.
     pub folder: PathBuf,
     /// The sweep that was run.
     pub sweep: Sweep,
-    /// Table of the designs.
+    /// Table of the designs, possibly thinned out.
     pub designs: Designs,
-    /// Facts about the run.
+    /// Facts about the run, from its record.
     pub run: Vec<Fact>,
     results: Results,
 }
 
 impl FolderContents {
-    /// Returns the verified folder.
+    /// Returns the results folder with its verified files.
     pub fn verified(&self) -> &VerifiedFolder {
         self.results.verified_folder()
     }
 
-    /// Returns the name of the sweep.
+    /// Returns the name of the sweep as a title.
     ///
-    /// Adds the number of designs if it is incomplete or thinned out.
+    /// If the run is incomplete or its table is thinned out, the title states the number of designs.
     pub fn title(&self) -> String {
         let name = self.sweep.name();
         let held = self.verified().shortfall();
@@ -49,7 +49,7 @@ impl FolderContents {
 }
 
 impl FolderContents {
-    /// Reads `run.toml` and `designs.csv`; thins out a table of more than `most` designs.
+    /// Reads `run.toml` and `designs.csv`, and thins out a table with more than `most` designs.
     pub fn read(verified: &VerifiedFolder, most: usize) -> anyhow::Result<Self> {
         let folder = verified.path();
         let run = verified.text(ResultsFolder::RUN_INFO)?;
@@ -62,7 +62,7 @@ impl FolderContents {
 
     /// Returns a ranking for each group of comparable designs.
     ///
-    /// Empty if there is nothing to rank.
+    /// The list is empty if there is nothing to rank.
     pub fn rankings(&self) -> Result<Vec<Ranking<'_>>, InvalidRanking> {
         let groups = match comparable_groups(&self.results, &self.preferences()) {
             Err(InvalidResults::NoColumn { .. }) => return Ok(Vec::new()),
@@ -80,22 +80,24 @@ impl FolderContents {
                 note(&format!("the figure of the best designs is left out: {why}"));
                 Ok(None)
             }
-            // Missing columns are handled by the ranking.
+            // `ranking` handles all other errors, such as a missing column.
             Ok(()) | Err(_) => self.ranking(preferences),
         }
     }
 
-    /// Returns the default criteria of the sweep, with equal weights.
+    /// Returns preferences with the default criteria of the sweep, and equal weights.
     fn preferences(&self) -> Preferences {
         let paper = Preferences::paper();
         let usual = Criterion::usual(Some(&self.sweep));
         Preferences::new(Vec::new(), usual, None, paper.scale).unwrap_or(paper)
     }
 
+    /// Ranks the designs; returns `None` if there is nothing to rank.
     fn ranking(&self, preferences: Preferences) -> Result<Option<Ranking<'_>>, InvalidRanking> {
         match Ranking::by(&self.results, preferences, TetrahedralGrid::default()) {
             Ok(ranking) => Ok(Some(ranking)),
-            // A sweep may lack measures, or designs that meet all conditions.
+            // There is nothing to rank if the sweep has too few measures, or if no design has a
+            // value for every criterion and meets the requirements.
             Err(
                 InvalidRanking::Nothing { .. }
                 | InvalidRanking::Unmet(_)

@@ -1,4 +1,4 @@
-//! The command `squama init`.
+//! The command `squama init`, which writes a definition from a template.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ const TEMPLATES: [(&str, &str); 10] = [
     ("paper-neo-hookean", include_str!("../../sweeps/paper-neo-hookean.toml")),
 ];
 
-/// Measured curves of the template `fit`.
+/// File names and texts of the measured curves that the template `fit` refers to.
 const CURVES: [(&str, &str); 3] = [
     ("puncture-a.csv", include_str!("../../sweeps/fit/puncture-a.csv")),
     ("puncture-b.csv", include_str!("../../sweeps/fit/puncture-b.csv")),
@@ -41,8 +41,8 @@ const CURVES: [(&str, &str); 3] = [
 #[command(after_help = "\
 Examples:
   squama init                       write the sweep of the paper to paper.toml
-  squama init mine.toml             the same, as a sweep of the name mine
-  squama init smoke mine.toml       a dozen designs instead
+  squama init mine.toml             write the sweep of the paper, with the name mine
+  squama init smoke mine.toml       write a sweep of a dozen designs
   squama init pin mine.toml         a goal in millimetres and newtons for squama optimise
   squama init fit mine.toml         a fit to test data, with example curves
 
@@ -51,7 +51,7 @@ The file names its JSON schema, squama.schema.json, which editors with Taplo or 
 use; it is written beside the file if there is none.
 Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
-    /// Template to start from [default for a FILE alone: paper]
+    /// Template to start from [default if only FILE is given: paper]
     #[arg(value_name = "TEMPLATE", default_value = "paper", value_parser = TemplateOrFile)]
     pub template: String,
 
@@ -65,14 +65,14 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     let (template, file) = template_and_file(arguments);
     let shown = file.display().to_string();
     ensure!(
-        // `symlink_metadata`, because a dangling link must not be overwritten either.
+        // `symlink_metadata` also finds a dangling link, which must not be overwritten.
         file.symlink_metadata().is_err(),
         "{shown}: exists already; give the name of a new file, e.g. squama init {template} mine.toml"
     );
     require_folder_of("FILE", &file)?;
     let name = file.file_stem().context("expected the name of a new file")?.to_string_lossy();
-    let text = definition(&template, &name, &shown).context("there is no such definition")?;
-    // Rejects an invalid name before writing.
+    let text = definition(&template, &name, &shown).context("there is no such template")?;
+    // Parse the definition before writing it, which rejects an invalid name.
     let (content, command) = if template == "fit" {
         let entries = entries(&text, &shown, &[])?;
         let definition = entries.into_iter().filter(|entry| entry.key != "curve").collect();
@@ -106,7 +106,9 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// Returns the requested template and file; a file alone uses the first template.
+/// Returns the names of the template and of the file.
+///
+/// If only a file is given, the template is the first one.
 fn template_and_file(arguments: &Arguments) -> (String, PathBuf) {
     let template = &arguments.template;
     match &arguments.file {
@@ -116,13 +118,13 @@ fn template_and_file(arguments: &Arguments) -> (String, PathBuf) {
     }
 }
 
-/// Returns true if an argument names a file and not a template.
+/// Returns true if `argument` is a file name, not the name of a template.
 fn is_file(argument: &str) -> bool {
     Path::new(argument).extension().is_some_and(|extension| extension == "toml")
         || argument.contains(['/', '\\'])
 }
 
-/// Parses the name of a template or of a file.
+/// Parser of an argument that is the name of a template or of a file.
 #[derive(Clone)]
 struct TemplateOrFile;
 
@@ -148,14 +150,14 @@ impl TypedValueParser for TemplateOrFile {
     }
 }
 
-/// Returns a template as the definition of the sweep `name` in `file`.
+/// Returns the text of `template` for a definition `name` in `file`; `None` if there is none.
 fn definition(template: &str, name: &str, file: &str) -> Option<String> {
     let (known, text) = TEMPLATES.iter().find(|(known, _)| *known == template)?;
-    // The name of a goal or a fit differs from the template.
+    // The name in the definition of a goal or a fit differs from the name of the template.
     let own = text.lines().find_map(|line| line.strip_prefix("name = \"")?.split('"').next());
     let known = own.unwrap_or(known);
     let text = text.replace(&format!("name = \"{known}\""), &format!("name = \"{name}\""));
-    // Commands in the comments of the template then name the new file.
+    // Replace the paths in the commands that the comments of the template show.
     let text = text.replace(&format!("results/{known}/"), &format!("results/{name}/"));
     let text = text.replace("sweeps/fit/palm.toml", file);
     let text = text.replace(&format!("sweeps/goals/{known}.toml"), file);

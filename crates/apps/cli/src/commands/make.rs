@@ -1,4 +1,4 @@
-//! The command `squama make`.
+//! The command `squama make`, which writes a patch of skin for manufacture or finite elements.
 
 use std::path::{Path, PathBuf};
 
@@ -60,7 +60,7 @@ pub struct Arguments {
     #[arg(long, value_name = "ALONGxACROSS", default_value = "5x4", value_parser = along_and_across)]
     pub scales: [usize; 2],
 
-    /// Size of the patch along and across, mm: as many scales as it holds
+    /// Size of the patch along and across, mm; the patch gets as many scales as fit
     #[arg(long, value_name = "LENGTHxWIDTH", conflicts_with = "scales", value_parser = length_and_width)]
     pub patch: Option<[f64; 2]>,
 
@@ -87,8 +87,8 @@ pub struct Arguments {
     pub template_mm: Option<f64>,
 }
 
-/// Default thickness of the template, mm.
-// The default template is a film, because thicker sheets leave no webs between slanted scales.
+/// Default thickness of the sheet of the glue template, mm.
+// The default sheet is a film: in thicker sheets the holes of slanted scales leave no webs.
 const TEMPLATE_MM: f64 = 0.1;
 
 /// Parses numbers of scales such as `5x4`.
@@ -96,22 +96,22 @@ fn along_and_across(text: &str) -> Result<[usize; 2], String> {
     pair(text).ok_or_else(|| "expected the numbers of scales along and across, e.g. 5x4".to_owned())
 }
 
-/// Parses lengths such as `60x40`, mm.
+/// Parses the length and width of a patch in mm, such as `60x40`.
 fn length_and_width(text: &str) -> Result<[f64; 2], String> {
     let lengths =
         pair(text).filter(|lengths: &[f64; 2]| lengths.iter().all(|l| *l > 0.0 && l.is_finite()));
     lengths.ok_or_else(|| "expected length and width of the patch in mm, e.g. 60x40".to_owned())
 }
 
-/// Parses two numbers separated by `x` or by the multiplication sign.
+/// Parses two numbers separated by `x` or by the multiplication sign `×`.
 ///
-/// Users copy the multiplication sign from texts.
+/// Users copy the multiplication sign from other texts.
 fn pair<T: std::str::FromStr>(text: &str) -> Option<[T; 2]> {
     let (along, across) = text.split_once(['x', '×'])?;
     Some([along.trim().parse().ok()?, across.trim().parse().ok()?])
 }
 
-/// Writes a patch of skin, and the list of its parts.
+/// Writes the file of a patch of skin, and the list of its parts.
 pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let out = &arguments.out;
     let format = format(arguments)?;
@@ -138,7 +138,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     if format.is_none() && !case.body().is_flat() {
         note("the finite-element deck is flat, although the design has a body");
     }
-    // Build the deck before the analysis, because it rejects rows that are too long.
+    // Build the deck before the slow analysis, because `deck` rejects rows that are too long.
     let deck = match format {
         None => deck(&patch, &puncture(&case), &design.title())?,
         Some(_) => String::new(),
@@ -153,9 +153,9 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
         list = format!("{list}\n{missing}\n");
     }
     list.push_str(&answer(design, &searched));
-    // Analyse before writing, because the analysis may fail.
+    // Analyse the tolerances before writing any file, because the analysis may fail.
     list.push_str(&tolerances(design, out, interrupt)?);
-    // Write the list first: if it fails, the previous part stays unchanged.
+    // Write the list first: if this fails, the earlier file of the patch stays unchanged.
     write_file(&list_file, format!("{list}\nWritten by squama make.\n").as_bytes())?;
     let bytes = format.map_or(deck.into_bytes(), |format| format.bytes(&patch, &sheet));
     write_file(out, &bytes)?;
@@ -163,7 +163,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     Ok(DONE)
 }
 
-/// Returns the format for the extension of the file; `None` for a finite-element deck.
+/// Returns the format for the extension of `--out`; `None` for a finite-element deck.
 fn format(arguments: &Arguments) -> anyhow::Result<Option<Format>> {
     let out = &arguments.out;
     let extension = out.extension().unwrap_or_default().to_string_lossy();
@@ -183,7 +183,7 @@ fn format(arguments: &Arguments) -> anyhow::Result<Option<Format>> {
     Ok(format)
 }
 
-/// Builds the patch of a design, in mm.
+/// Builds the flat patch of a design, with lengths in mm.
 fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     let thickness = case.material.thickness_mm.with_context(|| {
         let path = arguments.definition.path.display();
@@ -196,7 +196,7 @@ fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     let row = case.design.row()?;
     let scales = match arguments.patch {
         Some(size) => {
-            // Measure a patch of two rows, because every second row may be shifted.
+            // Measure a patch of two rows, because every second row may be shifted along.
             let two = laid(Patch::new(row, thickness, lengths, [1, 2])?, arguments.brick);
             within(&two, size)?
         }
@@ -205,20 +205,20 @@ fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     Ok(laid(Patch::new(row, thickness, lengths, scales)?, arguments.brick))
 }
 
-/// Shifts every second row of a patch if it is brick-laid.
+/// Shifts every second row of `patch` by half a pitch if `is_brick`.
 fn laid(patch: Patch, is_brick: bool) -> Patch {
     if is_brick { patch.brick_laid() } else { patch }
 }
 
-/// Returns the largest numbers of scales on a membrane of at most `size`, mm.
+/// Returns the largest numbers of scales, along and across, on a membrane of at most `size` in mm.
 ///
-/// `two` is a patch of two rows of one scale.
+/// `two` is the same patch with two rows of one scale.
 fn within(two: &Patch, size: [f64; 2]) -> anyhow::Result<[usize; 2]> {
     let ([length, width, _], pitches) = (two.membrane_size(), two.pitches());
     let smallest = [length, width - pitches[1]];
     let mut scales = [0; 2];
     for k in 0..2 {
-        // The quotient may miss an integer by round-off.
+        // Add 1e-9, because round-off may reduce the quotient to just below an integer.
         let more = ((size[k] - smallest[k]) / pitches[k] + 1e-9).floor();
         ensure!(
             more >= 0.0,
@@ -231,9 +231,9 @@ fn within(two: &Patch, size: [f64; 2]) -> anyhow::Result<[usize; 2]> {
     Ok(scales)
 }
 
-/// Returns materials and load of a finite-element deck.
+/// Returns the materials and the load of a finite-element deck.
 ///
-/// A missing modulus of the substrate is 1 `MPa`.
+/// If the modulus of the substrate is not defined, it is 1 `MPa`.
 fn puncture(case: &Case) -> Puncture {
     let punctured = case.punctured();
     let substrate = case.material.substrate_modulus_mpa.unwrap_or(1.0);
@@ -248,7 +248,7 @@ fn puncture(case: &Case) -> Puncture {
     }
 }
 
-/// Lists sizes, counts and masses.
+/// Formats a table of the sizes, counts and masses of scales and membrane.
 fn parts(patch: &Patch, case: &Case) -> String {
     let [along, across] = patch.scales();
     let count = (along * across) as f64;
@@ -293,7 +293,7 @@ fn parts(patch: &Patch, case: &Case) -> String {
     aligned(&rows.into_iter().map(row).collect::<Vec<_>>())
 }
 
-/// Explains why there is no glue template, and the alternatives.
+/// Returns a message that explains why there is no glue template, and names alternatives.
 fn no_template(sheet: &Sheet, template: f64) -> String {
     format!(
         "no glue template: a sheet of {} mm would have webs of only {} mm; choose a thinner sheet (--template-mm), \
@@ -303,9 +303,9 @@ fn no_template(sheet: &Sheet, template: f64) -> String {
     )
 }
 
-/// Solves the design again and returns its answer.
+/// Solves the design again and describes its performance.
 ///
-/// The answer has the required values, the first failure and warnings.
+/// Returns the values with requirements, the first failure and warnings as text.
 fn answer(design: &SelectedDesign, searched: &SearchedDesign) -> String {
     let (sweep, case) = (&design.sweep, design.case());
     let modes = case.judged_modes();
@@ -323,7 +323,7 @@ fn answer(design: &SelectedDesign, searched: &SearchedDesign) -> String {
     text + &modes.map_or_else(String::new, |modes| first_failure(&row, &case, &modes))
 }
 
-/// States the first failure of a design, its force, and the failure modes that are judged.
+/// Describes the first failure mode of a design, its force, and the failure modes that are judged.
 fn first_failure(row: &DesignRow, case: &Case, modes: &JudgedModes) -> String {
     let failure = row.result.puncture.as_ref().map(|puncture| puncture.measures.failure);
     let first = failure.and_then(|failure| Some((failure.mode?.name(), failure.force?)));
@@ -337,9 +337,9 @@ fn first_failure(row: &DesignRow, case: &Case, modes: &JudgedModes) -> String {
     format!("\n{first}{modes}")
 }
 
-/// Lists the effects of the deviations in `[tolerance]` on the main measures.
+/// Lists the standard deviations of the main measures due to the deviations in `[tolerance]`.
 ///
-/// The effects follow from derivatives.
+/// Derivatives give the deviations, without samples. The text is empty without `[tolerance]`.
 fn tolerances(
     design: &SelectedDesign,
     out: &Path,
@@ -350,7 +350,7 @@ fn tolerances(
         return Ok(String::new());
     }
     let analysis = Analysis::new(sweep, &[], 0, PROGRAM, interrupt.stop());
-    // The analysis has no samples, so the store stays empty.
+    // The analysis solves no samples, so nothing is written to the store.
     let analysed = analysis.design(0, &SampleStore::new(out))?;
     let shown = analysed.measures.iter().filter(|measure| is_for_a_maker(&measure.name));
     let moved = shown.filter_map(|measure| {
@@ -367,7 +367,7 @@ fn tolerances(
     ))
 }
 
-/// Returns true for the four criteria, the failure force, the mass and the bend radius.
+/// Returns true for the criteria of the paper, failure forces, the mass and the bend radius.
 fn is_for_a_maker(measure: &str) -> bool {
     let is_criterion =
         || CRITERIA.iter().any(|criterion| criterion.column == measure_name(measure));

@@ -1,4 +1,4 @@
-//! The command `squama man`.
+//! The command `squama man`, which writes manual pages.
 
 use std::path::PathBuf;
 
@@ -27,7 +27,8 @@ pub struct Arguments {
 pub fn man(arguments: &Arguments) -> anyhow::Result<u8> {
     let folder = &arguments.folder;
     results::make_folder(folder)?;
-    // The command `help` repeats all others, so each would have a second page.
+    // Leave out the command `help`: it has a subcommand for each command, and each subcommand would
+    // get a page.
     let mut squama = Squama::command().disable_help_subcommand(true);
     squama.build();
     let pages = pages(&squama, "squama");
@@ -43,7 +44,7 @@ pub fn man(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// Lists a command and its subcommands with the names of their pages.
+/// Lists `command` and all commands below it, each with the name of its page.
 fn pages(command: &Command, name: &str) -> Vec<(String, Command)> {
     let below = command.get_subcommands();
     let below = below.flat_map(|below| pages(below, &format!("{name}-{}", below.get_name())));

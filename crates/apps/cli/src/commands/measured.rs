@@ -2,23 +2,23 @@
 
 use crate::print::counted;
 
-/// Number of ranges of left out lines that are listed.
+/// Maximum number of ranges of omitted lines that a note lists.
 const SHOWN_RANGES: usize = 5;
 
-/// Properties of a measured curve that a reader should know.
+/// Properties of a measured curve that are worth a note.
 pub struct Reading<'a> {
-    /// Names of the quantities on the axes.
+    /// Names of the quantities on the horizontal and the vertical axis.
     pub axes: [&'a str; 2],
     /// True if the columns have physical units.
     pub is_physical: bool,
-    /// Lines that were left out.
+    /// Numbers of the lines of the file that were omitted.
     pub left_out: &'a [u64],
-    /// Whether the signs were reversed, on both axes.
+    /// For each axis, true if the signs of its values were reversed.
     pub reversed: [bool; 2],
 }
 
 impl Reading<'_> {
-    /// Lists the notes.
+    /// Returns a note on missing units, on omitted lines and on reversed signs, where they apply.
     pub fn notes(&self) -> Vec<String> {
         let Self { axes: [x, y], is_physical, left_out, reversed } = *self;
         let mut notes = Vec::new();
@@ -47,7 +47,7 @@ impl Reading<'_> {
     }
 }
 
-/// Joins neighbouring lines to ranges, such as `2 to 5`.
+/// Formats line numbers, and joins consecutive ones to ranges such as `2 to 5`.
 fn ranges(lines: &[u64]) -> Vec<String> {
     let mut ranges = Vec::new();
     for range in lines.chunk_by(|line, next| *next == line + 1) {

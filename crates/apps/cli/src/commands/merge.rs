@@ -1,4 +1,4 @@
-//! The command `squama merge`.
+//! The command `squama merge`, which combines the shards of a sweep.
 
 use std::path::PathBuf;
 
@@ -36,10 +36,10 @@ pub struct Arguments {
     pub format: TableFormat,
 }
 
-/// Maximum number of listed ranges of missing designs.
+/// Maximum number of ranges of missing designs that the report lists.
 const NAMED: usize = 20;
 
-/// Merges the shards of a sweep.
+/// Combines the shards of a sweep in one results folder.
 pub fn merge(arguments: &Arguments) -> anyhow::Result<u8> {
     let merged = run::merge(&arguments.folders, &arguments.out, arguments.format.csv, &PROGRAM)?;
     conclude(&arguments.out, &merged.finished);
@@ -51,6 +51,7 @@ pub fn merge(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(if complete { DONE } else { INCOMPLETE })
 }
 
+/// Formats the number of added designs, the missing designs and a summary of the results.
 fn report(arguments: &Arguments, merged: &run::Merged) -> String {
     let folders = counted(arguments.folders.len() as u64, "folder");
     let added = counted(merged.added, "design");
@@ -59,14 +60,14 @@ fn report(arguments: &Arguments, merged: &run::Merged) -> String {
     format!("merged: {added} from {folders}\n{}{results}", missing(merged))
 }
 
-/// Lists the missing designs, consecutive ones as `first-last`.
+/// Lists the missing designs; consecutive designs are listed as `first-last`.
 fn missing(merged: &run::Merged) -> String {
     if merged.missing.is_empty() {
         return String::new();
     }
     let grid = merged.sweep.grid();
     let named = merged.missing.iter().take(NAMED).map(|range| {
-        // The ranges count from 1, the grid from 0.
+        // Designs in `missing` are numbered from 1, but `grid.number` counts from 0.
         let [first, last] = [range.start(), range.end()].map(|number| grid.number(number - 1));
         if first == last { first.to_string() } else { format!("{first}-{last}") }
     });

@@ -1,4 +1,4 @@
-//! The command `squama optimise`.
+//! The command `squama optimise`, which searches for the best designs of a goal.
 
 mod figures;
 mod record;
@@ -43,7 +43,7 @@ A goal is a definition with two more sections. [variables] lists the parameters 
 as gap_over_t = { from = 0.1, to = 1 }, or lists of values. [goal] has maximize or minimize (one column gives
 the optimum, two to four give a Pareto front) and require, a list of constraints on columns; --require adds to it,
 and protects = \"needle 2\" adds a level of a standard. Every other parameter has one value. The search leaves out
-designs that fail, and designs with a fold of the surface unless sound = false. It counts both.
+designs that fail, and designs with a fold of the surface unless sound = false, and states their numbers.
 One objective may be fitness (Eq. 7 of the paper). weights = { coverage = 1, compliance = 2 } names its criteria
 [default: the paper's four, with equal weights]; rescale = { coverage = [0, 0.9] } gives the worst and the best
 value of a criterion [default: those of the sample].
@@ -77,7 +77,7 @@ pub struct Arguments {
 
     /// Round the lengths of the best design to multiples of STEP mm, and angles to whole degrees
     ///
-    /// The same as goal.round. Without a thickness in mm the step is a fraction of it.
+    /// The same as goal.round. Without a thickness in mm, STEP is a fraction of the thickness.
     #[arg(long, value_name = "STEP", allow_hyphen_values = true, value_parser = decimal)]
     pub round: Option<f64>,
 
@@ -112,7 +112,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let display = Display::new(arguments.solving.quiet, interrupt, Arc::default(), RESUMED);
     let options = options(arguments, interrupt, &display);
     let found = optimisation::optimise(&goal, &folder, &options, &PROGRAM)?;
-    // Removes the bar before anything is printed.
+    // Remove the progress bar before printing.
     drop(display);
     let Some(found) = found else {
         note(&format!(
@@ -136,6 +136,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     Ok(exit_code(&goal, &found))
 }
 
+/// Returns the options of the search.
 fn options<'i>(
     arguments: &Arguments,
     interrupt: &'i Interrupt,
@@ -149,6 +150,7 @@ fn options<'i>(
     }
 }
 
+/// Returns the exit code: complete if a design meets the requirements, also rounded and in checks.
 fn exit_code(goal: &DesignGoal, found: &Found) -> u8 {
     let is_met = match &found.answer {
         Answer::Optimum(best) => {

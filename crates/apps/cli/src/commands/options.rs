@@ -1,4 +1,4 @@
-//! Options that several commands share: threads, output, table format, earlier results.
+//! Options that several commands share: threads, output, format of tables, earlier results.
 
 use std::thread::available_parallelism;
 
@@ -6,7 +6,7 @@ use clap::Args;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use run::Start;
 
-/// Treatment of earlier results; without an option the command refuses to touch them.
+/// The options `--resume` and `--fresh`; without them, earlier results are an error.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct EarlierResults {
     /// Continue from earlier results in the folder, if it has any
@@ -19,7 +19,7 @@ pub struct EarlierResults {
 }
 
 impl EarlierResults {
-    /// Returns the start mode of the journal.
+    /// Returns how the command starts its journal.
     pub fn start(self) -> Start {
         match (self.resume, self.fresh) {
             (true, _) => Start::Resume,
@@ -59,7 +59,7 @@ pub struct SolveOptions {
     pub json: bool,
 }
 
-/// The format of the tables.
+/// The option `--csv`, the format of the tables.
 #[derive(Debug, Args)]
 pub struct TableFormat {
     /// Format of the tables: plain (`,` between cells, `.` in decimals) or excel-eu (`;`, `,` and a
@@ -68,11 +68,11 @@ pub struct TableFormat {
     pub csv: Option<results::CsvFormat>,
 }
 
-/// The number of threads.
+/// The option `--threads`.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
     /// Number of threads [default: all cores]
-    // Hyphens allowed, so that `-1` is reported as out of range and not as an unknown option.
+    // Hyphens are allowed, so that the error for `-1` is an invalid number, not an unknown option.
     #[arg(long = "threads", allow_hyphen_values = true, value_name = "N", value_parser = whole::<1, 1024>)]
     number: Option<u64>,
 }
@@ -92,12 +92,14 @@ impl Threads {
     }
 }
 
-/// Parses a number without a unit.
+/// Parses a decimal number without a unit.
 pub fn decimal(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "expected a number, without a unit".to_owned())
 }
 
-/// Parses an integer from `LOW` to `HIGH`; its errors are clearer than the errors of clap.
+/// Parses an integer from `LOW` to `HIGH`.
+///
+/// The error states the accepted numbers more clearly than the error of clap.
 pub fn whole<const LOW: u64, const HIGH: u64>(text: &str) -> Result<u64, String> {
     let number = text.parse().ok().filter(|number| (LOW..=HIGH).contains(number));
     number.ok_or_else(|| match HIGH {

@@ -1,8 +1,8 @@
-//! Protects files that squama did not write from being replaced.
+//! Protects the user's own files from being replaced by output of squama.
 //!
-//! Every file that a command writes outside of the records of a results folder contains the name
-//! squama in a comment, a header or the properties of its format. A command replaces only files
-//! that contain this mark.
+//! Every output file contains the word squama as a mark in a comment, a header or the document
+//! properties, except the records of a results folder and PNG files. A command replaces only files
+//! with this mark.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek as _, SeekFrom};
@@ -11,21 +11,21 @@ use std::path::Path;
 use results::OutputError;
 use zip::ZipArchive;
 
-/// The name that marks a file as written by squama.
+/// The word that marks a file as written by squama.
 const MARK: &[u8] = b"squama";
 
-/// Number of bytes at each end of a file that are searched for the mark.
+/// Number of bytes at the start and at the end of a file that are searched for the mark.
 const SEARCHED: u64 = 8192;
 
-/// The entries of zip archives that contain the mark: in a workbook and in a 3MF file.
+/// The zip entries that contain the mark, of a workbook and of a 3MF file.
 const ZIP_ENTRIES: [&str; 2] = ["docProps/core.xml", "3D/3dmodel.model"];
 
 /// Rejects the file at `path` if it was not written by squama.
 ///
-/// A missing or empty file may be written. Links, folders and devices are never replaced.
+/// Accepts a `path` without a file, or with an empty file. Rejects links, folders and devices.
 pub fn require_own(path: &Path) -> Result<(), OutputError> {
     let Ok(metadata) = fs::symlink_metadata(path) else { return Ok(()) };
-    // A PNG file has no mark; search the SVG file of the same drawing instead.
+    // A PNG file contains no mark, so search the SVG file of the same drawing.
     let marked = if path.extension().is_some_and(|extension| extension == "png") {
         path.with_extension("svg")
     } else {
@@ -68,17 +68,18 @@ mod tests {
 
     #[test]
     fn only_files_with_the_mark_of_squama_are_replaced() {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = tempfile::tempdir().expect("the folder is created");
         let path = folder.path().join("x.svg");
         let image = path.with_extension("png");
-        require_own(&path).expect("a missing file");
-        fs::write(&path, "").expect("writable");
-        require_own(&path).expect("an empty file");
-        fs::write(&path, "mine").expect("writable");
-        fs::write(&image, "mine").expect("writable");
+        require_own(&path).expect("a missing file is accepted");
+        fs::write(&path, "").expect("the file is written");
+        require_own(&path).expect("an empty file is accepted");
+        fs::write(&path, "mine").expect("the file is written");
+        fs::write(&image, "mine").expect("the file is written");
         assert!(require_own(&path).is_err() && require_own(&image).is_err());
-        fs::write(&path, format!("{}<!-- squama -->", " ".repeat(100_000))).expect("writable");
+        fs::write(&path, format!("{}<!-- squama -->", " ".repeat(100_000)))
+            .expect("the file is written");
         assert!(require_own(&path).is_ok() && require_own(&image).is_ok());
-        assert!(require_own(folder.path()).is_err(), "a folder");
+        assert!(require_own(folder.path()).is_err(), "a folder must be rejected");
     }
 }

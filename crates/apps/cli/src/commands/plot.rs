@@ -1,4 +1,4 @@
-//! The command `squama plot`.
+//! The command `squama plot`, which plots figures of a sweep, maps, and curves of designs.
 
 use std::path::{Path, PathBuf};
 
@@ -58,12 +58,12 @@ pub struct Arguments {
     pub partial: Partial,
 }
 
-/// The subjects of `squama plot` besides a sweep.
+/// Subcommands of `squama plot`; without a subcommand it plots the figures of a sweep.
 #[derive(Debug, Subcommand)]
 pub enum PlotWhat {
     /// Plot force–displacement and moment–curvature curves, and the energies of designs
     Curves(CurvesArguments),
-    /// Plot any column over any two parameters, with contours
+    /// Plot a column as a map over two parameters, with contours
     Map(MapArguments),
 }
 
@@ -91,8 +91,8 @@ pub struct MapArguments {
     #[arg(long, value_name = "COLUMN")]
     pub of: String,
 
-    /// Fix another parameter (may be repeated, also for one parameter); the others get a map for
-    /// each of their values
+    /// Fix another parameter (may be repeated, also for one parameter); each value of a parameter
+    /// that is not fixed gets its own map
     #[arg(long, value_name = "COLUMN=VALUE")]
     pub at: Vec<String>,
 
@@ -141,10 +141,10 @@ pub struct CurvesArguments {
     pub output: FigureOutput,
 }
 
-/// Largest step along a curve, as a fraction of the whole path.
+/// Maximum step along a curve, as a fraction of the whole path.
 const CURVE_STEP: f64 = 0.004;
 
-/// Figures in which the curves end with the puncture.
+/// Names of the figures with curves of the puncture, to which `--to` applies.
 const OF_PUNCTURES: [&str; 2] = ["force-displacement-curves", "puncture-energies"];
 
 /// Plots the figures of a sweep, a map, or the curves of designs.
@@ -157,9 +157,10 @@ pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
     }
 }
 
+/// Plots the figures of a sweep.
 fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     check_sizes(&arguments.output)?;
-    // Read all designs, because figures with too many marks thin them out.
+    // Read all designs: figures thin out their marks themselves.
     let results = FolderContents::read(
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
@@ -176,7 +177,7 @@ fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// Reads columns with their fixed values.
+/// Parses each text `COLUMN=VALUE` into its column and value.
 fn fixed(at: &[String]) -> anyhow::Result<Vec<(String, String)>> {
     let mut fixed = Vec::new();
     for text in at {
@@ -189,6 +190,7 @@ fn fixed(at: &[String]) -> anyhow::Result<Vec<(String, String)>> {
     Ok(fixed)
 }
 
+/// Plots one column as a map over two parameters.
 fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
     check_sizes(&arguments.output)?;
     let at = fixed(&arguments.at)?;
@@ -209,6 +211,7 @@ fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
+/// Solves designs and plots their curves.
 fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     check_sizes(&arguments.output)?;
     require_non_negative("--to", "a displacement u/t", arguments.to.as_slice())?;
@@ -238,7 +241,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
             limits,
         })
         .collect();
-    // `select` returns an error if no design is selected.
+    // There is at least one design, because `select` returns an error otherwise.
     let sweep = &designs[0].sweep;
     let mut files = FigureFiles::new(&arguments.output, || {
         folder_within(&arguments.definition, sweep, "curves")
@@ -246,7 +249,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     let names: Vec<_> = designs.iter().map(SelectedDesign::label).collect();
     let names = joined(&names, "designs");
     for figure in curves(sweep.name(), &shown, measured.as_ref(), arguments.output.paper()) {
-        // The end of the path is part of the file name of these curves.
+        // The file names of puncture curves state the end of the path.
         let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name.as_str()));
         let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
         let file = format!("{}{to}-of-{names}", figure.name);
@@ -259,7 +262,10 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     Ok(if failed { INCOMPLETE } else { DONE })
 }
 
-/// Reads the measured curves, and checks that the designs have the same units.
+/// Reads the measured curves; `None` if there are none.
+///
+/// Returns an error if the curves differ in test or units, or if a design lacks the material
+/// parameters for curves in physical units.
 fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Option<MeasuredCurves>> {
     let paths: Vec<_> = arguments.measured.iter().map(|file| file.canonicalize().ok()).collect();
     for (k, file) in arguments.measured.iter().enumerate() {
@@ -269,11 +275,11 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
     }
     let mut read = Vec::new();
     for file in &arguments.measured {
-        // A file may hold several specimens.
+        // A file may contain curves of several specimens.
         read.extend(MeasuredCurve::read(file, arguments.measured_columns.as_deref())?);
     }
     let Some(first) = read.first() else { return Ok(None) };
-    // All curves are drawn in one panel with one pair of axes.
+    // All measured curves share one panel with one pair of axes.
     let kind = (first.test, first.is_physical);
     if let Some(other) = read.iter().find(|curve| (curve.test, curve.is_physical) != kind) {
         bail!(
@@ -282,7 +288,7 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
             first.file
         );
     }
-    // Dimensionless columns need no material.
+    // Only curves in physical units need the material parameters of the designs.
     cases.iter().filter(|_| first.is_physical).try_for_each(|case| {
         first.test.units(case).map(|_| ()).map_err(|missing| {
             let definition = arguments.definition.path.display();
@@ -300,7 +306,7 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
             note(&format!("{}: {text}", curve.file));
         }
     }
-    // Curves that are compared to one design are specimens of it.
+    // With one design, all measured curves are from specimens of this design, so average them.
     let loading = read.iter().map(|curve| (curve.file.as_str(), curve.loading()));
     let mean = MeanCurve::new(&loading.collect::<Vec<_>>()).filter(|_| cases.len() == 1);
     let band = mean.map_or_else(Vec::new, |mean| mean.points);
@@ -308,20 +314,21 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
     Ok(Some(MeasuredCurves { bending, is_physical, curves, band }))
 }
 
-/// Limits of a scale that are located on a path.
+/// Failure modes of a scale for which the solver locates the limit on the path.
 const OF_SCALES: [FailureMode; 4] =
     [FailureMode::Break, FailureMode::Bend, FailureMode::Debond, FailureMode::Perforate];
 
-/// Fraction of the critical tilt that counts as its limit on a path beyond it.
+/// Fraction of the critical tilt at which the limit `tilt` is marked on a path that goes beyond it.
 const AT_THE_TILT: f64 = 1.0 - 1e-9;
 
-/// Solves the puncture of a design, to the critical tilt or to a displacement, and its bending.
+/// Solves the puncture and the bending of a design.
 ///
-/// Also returns the limits of failure, if they are judged.
+/// The puncture ends at the displacement `to`, or at the critical tilt if `to` is `None`. The list
+/// of failure limits is empty if the design does not define failure.
 fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure, Vec<FailureLimit>)> {
     let substrate = substrate(case)?;
     let mut common = case.common;
-    // Use steps that are short enough for a smooth line.
+    // Use steps that are short enough for a smooth curve.
     common.solver.max_step = common.solver.max_step.min(CURVE_STEP);
     let parameters = case.punctured();
     let alone = PunctureParameters { places: None, ..parameters };
@@ -344,15 +351,16 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure, Vec
     let reached = reached.filter_map(|(mode, row)| Some((mode, row.as_ref()?)));
     let reached: Vec<_> =
         reached.map(|(mode, row)| (mode, [row.displacement, row.force])).collect();
-    // Without smaller steps, because only the critical force at each position is shown.
+    // Keep the step size of the case, because the figure shows only the critical force at each
+    // load position.
     puncture.places =
         puncture::load_positions(&case.design, &substrate, &case.common, &parameters)?;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
-        // Includes one point beyond, so that the line reaches the end.
+        // Keep one point beyond `to`, so that the curve reaches `to`.
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
-        // Events beyond the end would be drawn off the curve.
+        // Remove later events, which would be drawn off the curve.
         puncture.events.retain(|event| path.contains(&event.point));
         puncture.folds.retain(|fold| fold.point.displacement <= to);
     }
@@ -364,9 +372,9 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure, Vec
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?, limits))
 }
 
-/// Lists the limits of failure on a path up to a displacement.
+/// Lists the failure limits on the puncture path, up to the displacement `to` if it is given.
 ///
-/// Adds the level of the row across.
+/// Adds the critical force of the row across, which has no displacement on this path.
 fn limits(
     case: &Case,
     puncture: &Puncture,
@@ -392,7 +400,7 @@ fn limits(
     let along = if to.is_none() {
         failure.mode.zip(failure.force)
     } else {
-        // The path continues beyond the critical tilt.
+        // `failure` is for a path to the critical tilt, but this path ends at `to`.
         let first = reached.iter().min_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
         first.map(|(mode, [_, force])| (*mode, *force))
     };
@@ -414,12 +422,12 @@ fn limits(
         .collect()
 }
 
-/// Number of bodies between the two radii for which a force is shown.
+/// Number of bodies between the two radii of a case for which the critical force is plotted.
 const BODIES: u32 = 25;
 
-/// Computes the critical force on bodies between the two radii of a case.
+/// Returns curvature and critical force for bodies between the two radii of a case.
 ///
-/// The bodies are in the order of ascending curvature.
+/// The pairs are in the order of ascending curvature. The list is empty for a case with one body.
 fn on_bodies(case: &Case, evaluator: &Evaluator) -> Vec<(f64, Option<f64>)> {
     let mut forces = Vec::new();
     for k in 0..BODIES {
@@ -431,12 +439,15 @@ fn on_bodies(case: &Case, evaluator: &Evaluator) -> Vec<(f64, Option<f64>)> {
     forces
 }
 
-/// Returns the label of a design in a legend: its number and further differing values.
+/// Returns the label of a design in a legend.
+///
+/// The label contains the number of the design, and the parameters that differ between the designs
+/// apart from the geometry.
 fn number(design: &SelectedDesign, cases: &[Case]) -> String {
     let number = design.number.map_or("off the grid".to_owned(), |number| number.to_string());
     let own = design.case();
     let differing = PARAMETERS.iter().filter(|parameter| {
-        // The geometry includes the thickness, which also scales lengths in mm.
+        // The thickness counts as geometry, because it scales all lengths in mm.
         let is_geometry = ["gap_over_t", "length_over_t", "slant_deg", key::THICKNESS];
         !is_geometry.contains(&parameter.key)
             && cases.iter().any(|other| !is_alike(parameter, other, &own))
@@ -452,7 +463,9 @@ fn number(design: &SelectedDesign, cases: &[Case]) -> String {
     if values.is_empty() { number } else { format!("{}  ({number})", values.join(", ")) }
 }
 
-/// Returns true if a parameter is the same in two cases, in mm or over the thickness.
+/// Returns true if a parameter has the same value in two cases.
+///
+/// A length may agree in mm or divided by the thickness.
 fn is_alike(parameter: &Parameter, one: &Case, other: &Case) -> bool {
     let values = [one, other].map(|case| parameter.get(case));
     let in_mm = [(one, &values[0]), (other, &values[1])].map(|(case, value)| match value {

@@ -1,4 +1,4 @@
-//! The command `squama rank`.
+//! The command `squama rank`, which ranks the designs of a run.
 
 mod answer;
 mod checks;
@@ -62,7 +62,7 @@ pub struct Arguments {
     #[command(flatten)]
     pub required: RequirementArgs,
 
-    /// Column to maximize (several give the Pareto front and its knee)
+    /// Column to maximize (may be repeated: several columns give the Pareto front and its knee)
     #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
     pub maximize: Vec<String>,
 
@@ -112,7 +112,7 @@ pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
     let preferences = preferences(arguments, results::definition(&verified)?.as_ref())?;
     let results = Ranking::results(&verified, &preferences)?;
-    // Checked before the ranking: values measured under different parameters cannot be compared.
+    // Check before ranking, because values measured under different parameters are not comparable.
     check_comparable(&results, &preferences)?;
     match Ranking::by(&results, preferences.clone(), grid) {
         Ok(ranking) => ranked(arguments, &results, &ranking),
@@ -121,9 +121,10 @@ pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
     }
 }
 
+/// Writes the tables of the ranking, checks the best designs and prints the report.
 fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
-    // Locked until the files are recorded: a concurrent ranking would remove them.
+    // Keep the lock until the files are recorded, because a concurrent ranking would remove them.
     let (files, lock) = ranking::write_ranking(folder, ranking)?;
     derivation::record(results.verified_folder(), ResultsFolder::RANKING_RECORD, folder, &files)?;
     drop(lock);
@@ -147,6 +148,7 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     Ok(DONE)
 }
 
+/// Prints the nearest design, because no design meets the requirements.
 fn none_meets(
     arguments: &Arguments,
     results: &Results,
@@ -154,7 +156,7 @@ fn none_meets(
     unmet: &Unmet,
 ) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
-    // Removes an earlier ranking, which would appear to be based on these requirements.
+    // Replace an earlier ranking, which would seem to belong to these requirements.
     let (file, lock) = ranking::write_unmet(folder, preferences)?;
     derivation::record(results.verified_folder(), ResultsFolder::RANKING_RECORD, folder, &[file])?;
     drop(lock);
@@ -164,7 +166,7 @@ fn none_meets(
     Ok(INCOMPLETE)
 }
 
-/// Returns the preferences of the ranking.
+/// Returns the requirements, criteria, weights and scale that the arguments request.
 fn preferences(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<Preferences> {
     let requirements = arguments.required.read()?;
     let scale: Scale = option("--scale", &arguments.scale)?;
@@ -177,7 +179,7 @@ fn preferences(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<P
     }
 }
 
-/// Returns the requested criteria, or the usual ones.
+/// Returns the requested criteria, or the default criteria of `sweep`.
 fn criteria(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
     let own: Vec<_> = goals
@@ -195,7 +197,7 @@ fn criteria(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<Vec<
     }
 }
 
-/// Parses the value of an option.
+/// Parses `text`, the value of the option `name`.
 fn option<T: std::str::FromStr>(name: &str, text: &str) -> anyhow::Result<T>
 where
     T::Err: std::error::Error + Send + Sync + 'static,

@@ -1,4 +1,4 @@
-//! The option `--require`.
+//! The option `--require`, which several commands have.
 
 use anyhow::Context as _;
 use clap::Args;
@@ -6,18 +6,18 @@ use ranking::{PAIN_MEANING, PainLimit, Requirement, Standard, TILTING_ONLY};
 
 use crate::print::note;
 
-/// Requirements on columns.
+/// The option `--require`.
 #[derive(Debug, Args)]
 pub struct RequirementArgs {
-    /// Requirement: >=, <=, >, < or == in any column of numbers, a level of a standard, e.g.
-    /// 'needle 2', or the pressure limit of a body part, e.g. 'pain palm'
+    /// Requirement: a column compared with a number by >=, <=, >, < or ==, e.g. 'coverage >= 0.6';
+    /// a level of a standard, e.g. 'needle 2'; or the pressure limit of a body part, e.g. 'pain palm'
     /// (may be repeated: all must hold)
     #[arg(long = "require", value_name = "REQUIREMENT")]
     pub texts: Vec<String>,
 }
 
 impl RequirementArgs {
-    /// Parses the requirements, and prints notes on standards and limits of body parts.
+    /// Parses the requirements, and prints a note on each standard and pressure limit.
     pub fn read(&self) -> anyhow::Result<Vec<Requirement>> {
         let all = self.texts.iter();
         let all = all.map(|text| text.parse().with_context(|| format!("--require {text}")));

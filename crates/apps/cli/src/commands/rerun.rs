@@ -1,4 +1,4 @@
-//! The command `squama rerun`.
+//! The command `squama rerun`, which solves some designs of a run again.
 
 use std::path::PathBuf;
 
@@ -22,8 +22,8 @@ Examples:
   squama rerun results/paper --where slant_deg=75 --where 'puncture_status=row limit'
 
 Replaces the rows of these designs in every table. The column `settings` then shows what --set changed;
-without --set the designs are solved with the sweep's own settings, and it is empty. reruns.csv lists
-the values that changed.
+without --set the designs are solved with the sweep's own settings, and the column is empty. reruns.csv
+lists the values that changed.
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error, 130, 143 or 129 ended by
 SIGINT, SIGTERM or SIGHUP.")]
 #[command(group(clap::ArgGroup::new("which").required(true).multiple(true)))]
@@ -59,7 +59,7 @@ pub struct Arguments {
     pub format: TableFormat,
 }
 
-/// Maximum number of listed designs.
+/// Maximum number of designs that the plan lists by number.
 const NAMED: usize = 20;
 
 /// Solves some designs of a run again.
@@ -87,6 +87,7 @@ pub fn rerun(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8>
     Ok(exit_code(&finished, interrupt))
 }
 
+/// Returns the selection of designs that the arguments request.
 fn filter(arguments: &Arguments) -> Filter {
     Filter {
         failed: arguments.failed,
@@ -95,6 +96,7 @@ fn filter(arguments: &Arguments) -> Filter {
     }
 }
 
+/// Formats the number, the settings and the list of the selected designs.
 fn plan(rerun: &Rerun) -> String {
     let count = rerun.designs().len();
     let named: Vec<_> = rerun.designs().take(NAMED).map(|number| number.to_string()).collect();

@@ -1,4 +1,4 @@
-//! The command `squama run`.
+//! The command `squama run`, which solves the designs of a sweep.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use crate::interrupt::Interrupt;
 use crate::print::{FOLDED, aligned, counted, note, print, time};
 use crate::progress::{ProgressDisplay, RESUMED};
 
-/// Parses a fraction of the designs, above 0 and at most 1.
+/// Parses a fraction above 0 and at most 1.
 fn fraction(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value| *value > 0.0 && *value <= 1.0);
     value.ok_or_else(|| format!("{text} is out of range, expected a number above 0 and at most 1"))
@@ -100,7 +100,7 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let how = (&arguments.work, &arguments.format);
     let (finished, audited) = with_progress_bar(how, interrupt, |options, show| {
         let finished = run::run(&sweep, subset, &folder, start, options, &PROGRAM, show)?;
-        // No audit after an interruption.
+        // Skip the audit after an interruption.
         let share = arguments.audit.filter(|_| interrupt.exit_code().is_none());
         let audited = share.map(|share| run::Audit::solve(&folder, share, options)).transpose()?;
         anyhow::Ok((finished, audited))
@@ -127,12 +127,12 @@ fn note_variables(sweep: &Sweep) {
     }
 }
 
-/// Prints the notes of a finished run, and the products that are now out of date.
+/// Prints the notes of a finished run, and the figures and rankings that are now out of date.
 pub(super) fn conclude(folder: &Path, finished: &Finished) {
     for text in &finished.notes {
         note(text);
     }
-    // Partial, because an interrupted run also leaves products out of date.
+    // Accept a partial run: after an interruption, figures and rankings are out of date, too.
     let verified = VerifiedFolder::open(folder, Completeness::Partial);
     for made in verified.iter().flat_map(VerifiedFolder::outdated) {
         note(&format!(
@@ -142,6 +142,7 @@ pub(super) fn conclude(folder: &Path, finished: &Finished) {
     }
 }
 
+/// Returns the results folder of the run or of its shard.
 fn folder(arguments: &Arguments, sweep: &Sweep) -> PathBuf {
     let folder = folder_of(sweep, arguments.out.as_deref());
     match &arguments.shard {
@@ -152,18 +153,19 @@ fn folder(arguments: &Arguments, sweep: &Sweep) -> PathBuf {
     }
 }
 
+/// Returns the subset of designs that the arguments request.
 fn subset(arguments: &Arguments) -> Subset {
     let sample = arguments.sample.map(|designs| RandomSample { designs, seed: arguments.seed });
     Subset { sample, shard: arguments.shard }
 }
 
-/// Solves designs with a progress bar.
+/// Calls `solve` with the options of a run, and shows its progress.
 pub(super) fn with_progress_bar<T>(
     (work, format): (&RunOptions, &TableFormat),
     interrupt: &Interrupt,
     solve: impl FnOnce(&Options<'_>, &dyn Fn(Progress)) -> T,
 ) -> T {
-    // From here on, the first signal keeps the solved designs.
+    // From here on, the first signal ends the run but keeps the solved designs.
     interrupt.ask_first();
     let display = ProgressDisplay::new(work.quiet, interrupt, Arc::default(), RESUMED);
     let options = Options {
@@ -177,12 +179,14 @@ pub(super) fn with_progress_bar<T>(
     solve(&options, &|progress| display.watched().show(progress))
 }
 
+/// Returns the exit code of a finished or interrupted run.
 pub(super) fn exit_code(finished: &Finished, interrupt: &Interrupt) -> u8 {
     let complete = finished.summary.failed == 0 && finished.missing == 0;
-    // A signal takes precedence, because it explains missing designs.
+    // The code of a signal takes precedence, because the signal explains missing designs.
     interrupt.exit_code().unwrap_or(if complete { DONE } else { INCOMPLETE })
 }
 
+/// Formats the numbers of designs by status, the best designs and the tables.
 pub(super) fn summary(name: &str, folder: &Path, threads: usize, finished: &Finished) -> String {
     let designs = counted(finished.summary.designs, "design");
     let threads = counted(threads as u64, "thread");
@@ -209,7 +213,7 @@ fn status_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
     })
 }
 
-/// Counts the designs with a fold, beyond which results are not valid.
+/// Returns the row that counts designs with a fold of the surface; `None` if there are none.
 fn folded_row(finished: &Finished) -> Option<[String; 2]> {
     let folded = finished.summary.folded;
     let designs = counted(folded, "design");
@@ -223,7 +227,9 @@ fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
     finished.summary.best().map(|best| [best.label.to_owned(), best_text(&best)])
 }
 
-/// Formats the best value of a measure, and the best valid one if the surface folds.
+/// Formats the best value of a measure with its design.
+///
+/// If the surface of this design folds, the text adds the best value without a fold.
 fn best_text(best: &Best) -> String {
     if let Some(parameter) = best.apart {
         return format!("not comparable between designs of different {parameter}");
@@ -239,6 +245,7 @@ fn best_text(best: &Best) -> String {
     }
 }
 
+/// Formats a value, the design that has it, and the number of other designs with the same value.
 fn leader_text(leader: &Leader<DesignNumber>, unit: Option<&str>) -> String {
     let ties = match leader.ties {
         0 => String::new(),

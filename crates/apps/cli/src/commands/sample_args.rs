@@ -1,4 +1,4 @@
-//! Options and results folder of the commands that solve samples.
+//! Options and results folder of `squama tolerance` and `squama sensitivity`, which solve samples.
 
 use std::path::PathBuf;
 
@@ -25,7 +25,7 @@ pub struct SampleArgs {
     pub solving: SolveOptions,
 }
 
-/// Message after the first signal.
+/// Message after the first termination signal.
 const ENDING: &str = "ending without the samples in progress; a second signal ends at once; to continue, run the same command again";
 
 /// The results folder of a command that solves samples.
@@ -33,13 +33,14 @@ pub struct SampleFolder<'a> {
     definition: &'a Definition,
     arguments: &'a SampleArgs,
     maker: Maker,
+    /// Folder of the tables.
     pub folder: ResultsFolder,
 }
 
 impl<'a> SampleFolder<'a> {
-    /// Opens the folder of the command `name`.
+    /// Returns the folder of the command `name`.
     ///
-    /// Foreign files are rejected here, before hours of work.
+    /// Rejects a folder with files of another origin now, before samples are solved for hours.
     pub fn new(
         (definition, sweep): (&'a Definition, &Sweep),
         arguments: &'a SampleArgs,
@@ -52,9 +53,9 @@ impl<'a> SampleFolder<'a> {
         Ok(Self { definition, arguments, maker, folder })
     }
 
-    /// Runs `solve` on `samples` and claims the tables.
+    /// Runs `solve`, which solves `samples` samples, and claims the folder for the tables.
     ///
-    /// `None`, with a note, after an interruption.
+    /// After an interruption, prints a note and returns `None`.
     pub fn solved<T: Send>(
         &self,
         (samples, interrupt): (u64, &Interrupt),
@@ -68,7 +69,7 @@ impl<'a> SampleFolder<'a> {
         let solved = self.arguments.solving.threads.pool()?.install(|| solve(&store));
         drop(display);
         match solved {
-            // Claimed after the samples, because a claim removes the earlier tables.
+            // Claim the folder only now, because a claim removes the earlier tables.
             Ok(solved) => Ok(Some((solved, Claim::take(&self.folder, self.maker)?))),
             Err(stopped @ AnalysisError::Stopped { .. }) => {
                 note(&format!(

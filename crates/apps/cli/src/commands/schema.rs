@@ -1,4 +1,4 @@
-//! The command `squama schema`.
+//! The command `squama schema`, which prints the JSON schema of definitions.
 
 use clap::Args;
 use fit::{PER_SPECIMEN, curves_schema};
@@ -9,7 +9,7 @@ use sweep::definition_schema;
 use super::DONE;
 use crate::print::print;
 
-/// Name of the schema that `squama init` writes beside a definition.
+/// Name of the schema file that `squama init` writes beside a definition.
 pub const SCHEMA_FILE: &str = "squama.schema.json";
 
 /// Arguments of `squama schema`.

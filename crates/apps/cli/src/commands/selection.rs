@@ -1,4 +1,4 @@
-//! Selection of designs, by number or by value.
+//! Selects designs by their numbers or by their values.
 
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -37,32 +37,32 @@ pub struct Selection {
 
 /// A selected design.
 pub struct SelectedDesign {
-    /// A sweep of this design alone.
+    /// A sweep that consists of this design.
     pub sweep: Sweep,
-    /// The number of the design in the sweep; `None` off the grid.
+    /// Number of the design in the whole sweep; `None` if the design is not on its grid.
     pub number: Option<DesignNumber>,
-    /// The number of designs in the sweep.
+    /// Number of designs in the whole sweep; 1 for a design that is not on its grid.
     pub count: u64,
-    /// The case with this number in the sweep, without settings.
+    /// Parameters of the design with this number in the definition without `--set`, if it exists.
     pub original: Option<Case>,
 }
 
-/// Returns the selected designs, at least one.
+/// Returns the selected designs; an error if there are none.
 pub fn select(
     definition: &Definition,
     selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let settings = settings(&definition.settings)?;
-    // Before `definition_file`, which rejects a front.
+    // Handle a Pareto front here, because `definition_file` rejects its folder.
     if definition.path.join(FRONT).is_file() {
         return select_from_front(&definition.path, &settings, selection);
     }
     let file = definition_file(&definition.path)?;
-    // Read once, because it may be a pipe.
+    // Read the file only once, because it may be a pipe.
     let mut text = read_text(&file)?;
     let is_chosen = options(selection).iter().any(|(.., text)| text.is_some());
     let designs = match defined_by(&text, &file, &settings)? {
-        // Designs of a goal have values but no numbers.
+        // A design of a goal can be chosen by its values, because it has no number.
         Defined::Goal(goal) if is_chosen && selection.numbers.is_empty() => {
             text = nominal(&goal);
             1
@@ -86,7 +86,7 @@ pub fn select(
     by_numbers((&text, &file), &settings, numbers)
 }
 
-/// Selects designs by number from the Pareto front of a search.
+/// Selects designs by their numbers from the Pareto front of a search.
 fn select_from_front(
     folder: &Path,
     settings: &[Setting],
@@ -114,7 +114,7 @@ fn select_from_front(
             Setting::parse(&format!("{}={}", parameter.path(), front.parameter(row, parameter)))
         });
         let mut all = values.collect::<Result<Vec<_>, _>>()?;
-        // `--set` comes last, so that it overrides the values of the front.
+        // Append the settings of `--set` last, so that they override the values of the front.
         all.extend_from_slice(settings);
         let (sweep, number) = (Sweep::parse(&nominal, &name, &all)?, Some(grid.number(row as u64)));
         selected.push(SelectedDesign { sweep, number, count: designs as u64, original: None });
@@ -122,14 +122,15 @@ fn select_from_front(
     Ok(selected)
 }
 
-/// Returns the definition of a single design of a goal.
+/// Returns the definition of one design of a goal.
 ///
-/// Settings change its values to select other designs.
+/// Other designs of the goal are selected by settings that change the values in this definition.
 fn nominal(goal: &DesignGoal) -> String {
     let space = goal.space.sweep();
     space.at(&space.grid().case(0)).to_toml()
 }
 
+/// Selects designs by their numbers in the grid.
 fn by_numbers(
     (text, file): (&str, &Path),
     settings: &[Setting],
@@ -138,7 +139,7 @@ fn by_numbers(
     let name = file.display().to_string();
     let sweep = Sweep::parse(text, &name, settings)?;
     let grid = sweep.grid();
-    // Settings that change the grid leave no design for a comparison.
+    // If settings change the number of designs, the original design with this number is another one.
     let original =
         Sweep::parse(text, &name, &[]).ok().filter(|other| other.grid().len() == grid.len());
     Ok(ranges(grid, numbers, file)?
@@ -178,23 +179,23 @@ fn by_values(
     let written = Sweep::parse(text, &name, &settings)?;
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };
-        // `0,1` is probably a decimal comma, but is read as two values.
+        // Let error messages say that `0,1` is read as two values: the user probably meant 0.1.
         let whole = text.split(',').all(|part| part.trim().parse::<u64>().is_ok());
         let note = if text.contains(',') && whole { " (several values)" } else { "" };
         let option = format!("{option} {text}{note}");
-        // A range selects among the values of the definition, in the unit of their axis.
+        // A range selects values of the axis in the definition; this axis may be in mm.
         let axis = written.grid().axis_in_any_unit(key);
         let key = axis.map_or(key, |axis| axis.parameter().key);
         let values = values(text, axis).context(option.clone())?;
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
     }
     let sweep = Sweep::parse(text, &name, &settings)?;
-    // Without `--set`, because design numbers refer to the definition as written.
+    // Parse without `--set`, because the numbers of designs refer to the definition as written.
     let whole = Sweep::parse(text, &name, &[]).ok();
     Ok((0..sweep.grid().len()).map(|index| located(sweep.only(index), whole.as_ref())).collect())
 }
 
-/// Lists the options that select values, with their axes.
+/// Returns name, key of the axis, and value of each option that selects by value.
 fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&String>); 3] {
     [
         ("--gap", "gap_over_t", selection.gap.as_ref()),
@@ -208,11 +209,11 @@ fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&Strin
 /// `text` is a value, a comma-separated list, or a range `FROM..TO` of the values of `axis`.
 fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     let Some((low, high)) = text.split_once("..") else {
-        // TOML such as { from = 0.1, to = 1 } is passed on.
+        // Return TOML such as { from = 0.1, to = 1 } unchanged.
         if text.trim_start().starts_with(['[', '{']) {
             return Ok(text.to_owned());
         }
-        // `.5` is not a number in TOML.
+        // Parse and format the numbers, because TOML does not accept numbers such as `.5`.
         let all: Vec<_> = text
             .split(',')
             .map(|part| {
@@ -239,9 +240,9 @@ fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     Ok(format!("[{}]", values.join(", ")))
 }
 
-/// Returns the only design of `sweep`.
+/// Returns the only design of `sweep`, with its number in the sweep `whole`.
 ///
-/// Its number is from the whole sweep if the design is on the grid of the latter.
+/// The number is `None` if the design is not on the grid of `whole`.
 fn located(sweep: Sweep, whole: Option<&Sweep>) -> SelectedDesign {
     let found = whole.and_then(|whole| {
         let grid = whole.grid();
@@ -261,7 +262,7 @@ impl SelectedDesign {
         self.sweep.grid().case(0)
     }
 
-    /// Returns the number, or the values of a design off the grid.
+    /// Returns the number of the design; for a design off the grid, the values on its axes.
     pub fn label(&self) -> String {
         self.number.map_or_else(|| self.values("_", "-"), |number| number.to_string())
     }
@@ -275,7 +276,9 @@ impl SelectedDesign {
         }
     }
 
-    /// Formats the values on all axes.
+    /// Formats the keys and values of the design on all axes.
+    ///
+    /// `equals` stands between key and value, `separator` between axes.
     pub fn values(&self, equals: &str, separator: &str) -> String {
         let axes = self.sweep.grid().axes().iter();
         axes.map(|axis| format!("{}{equals}{}", axis.parameter().key, axis.value(0)))

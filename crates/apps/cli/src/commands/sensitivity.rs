@@ -1,4 +1,4 @@
-//! The command `squama sensitivity`.
+//! The command `squama sensitivity`, which computes Sobol' indices.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -28,8 +28,8 @@ Examples:
 Varies the parameters in [variables], such as gap_over_t = { from = 0.1, to = 1 } or length_over_t = [0.5, 1],
 independently and uniformly; all other parameters keep their values. Shows the fraction of the variance of each
 measure that is due to each variable, alone (first-order Sobol' index) and together with others (total index),
-with 95 % intervals. For n variables, each sample solves n + 2 designs. A sample in which any of them fails is
-left out, and counted.
+with 95 % intervals. For n variables, each sample solves n + 2 designs. A sample in which a design fails is left
+out, and counted.
 Writes sobol.csv, and samples/, from which the same command continues after an interruption.
 For derivatives at one design, use squama design --sensitivity.
 Exit code: 0 done, 2 bad input or a disk error.")]
@@ -37,12 +37,12 @@ pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    // Accepted for scripts of earlier versions.
+    // This option of earlier versions has no effect; it is accepted because scripts may contain it.
     #[arg(long = "global", hide = true)]
     _global: bool,
 
     /// Number of samples
-    // One sample has no variance.
+    // At least two samples, because one sample has no variance.
     #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<2, 1_000_000>)]
     pub samples: u64,
 
@@ -50,9 +50,10 @@ pub struct Arguments {
     pub sampled: SampleArgs,
 }
 
+/// Name of the table of the Sobol' indices.
 const TABLE: &str = "sobol.csv";
 
-/// Computes the Sobol' indices of every measure.
+/// Computes and prints the Sobol' indices of every measure.
 pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(&sweep, &arguments.definition.path)?;
@@ -78,7 +79,7 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
     Ok(DONE)
 }
 
-/// Rejects a definition without variables, or with several designs besides them.
+/// Rejects a definition without variables, or with an axis of several values.
 fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
     let path = path.display();
     ensure!(
@@ -96,12 +97,13 @@ fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Formats the indices of the main measures.
 fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
     // Each sample has two independent points, and a mixture of them for each variable.
     let points = samples * (found.variables.len() + 2);
     let samples = counted(samples as u64, "sample");
     let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());
-    // Prints only the main measures; the table has all.
+    // Print only the main measures, because sobol.csv has all of them.
     for measure in
         found.measures.iter().filter(|m| MEASURE_TABLES.iter().any(|(table, _)| *table == m.name))
     {
@@ -141,7 +143,7 @@ fn constant(found: &GlobalSensitivity) -> String {
     format!("\nConstant, because they do not depend on {variables}: {}\n", constant.join(", "))
 }
 
-/// Formats an index in percent, with its interval.
+/// Formats an index and its 95 % interval in percent.
 fn percent(estimate: IndexEstimate) -> String {
     let [low, high] = estimate.interval().map(|end| 100.0 * end);
     format!("{:.0} % ({low:.0} to {high:.0} %)", 100.0 * estimate.value)

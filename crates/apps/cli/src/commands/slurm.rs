@@ -1,4 +1,4 @@
-//! The command `squama slurm`.
+//! The command `squama slurm`, which writes the scripts for a Slurm cluster.
 
 use std::path::{Path, PathBuf};
 
@@ -23,14 +23,14 @@ Examples:
 
 Writes submit.sh and the complete definition to DIR/slurm. submit.sh submits a job array with one element for
 each shard, and a job that merges the shards. Shards write to DIR/shards, the merged sweep to DIR. If they
-are submitted again, shards continue where they ended. The folder may be moved.
+are submitted again, shards continue where they stopped. The folder may be moved.
 Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
     /// Number of shards, 1 to 1000: the elements of the job array
-    // Any number is accepted here, because `check` reports the limits of Slurm.
+    // The parser accepts any number, because the function `check` explains the limit of Slurm.
     #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<0, { u64::MAX }>)]
     pub shards: u64,
 
@@ -39,14 +39,14 @@ pub struct Arguments {
     pub out: Option<PathBuf>,
 }
 
-/// The scripts, identical for every sweep.
+/// Names and texts of the scripts that are identical for every sweep.
 const SCRIPTS: [(&str, &str); 3] = [
     ("submit.sh", include_str!("../../slurm/submit.sh")),
     ("array.sh", include_str!("../../slurm/array.sh")),
     ("merge.sh", include_str!("../../slurm/merge.sh")),
 ];
 
-/// Largest index of a job array: below `MaxArraySize`, by default 1001.
+/// Largest index of a job array, one less than the default 1001 of Slurm's `MaxArraySize`.
 const LARGEST: u64 = 1000;
 
 /// Writes the scripts that run a sweep as a job array.
@@ -65,7 +65,8 @@ pub fn slurm(arguments: &Arguments) -> anyhow::Result<u8> {
         require_own(&folder.join(name))?;
     }
     write_text(&folder, "sweep.sh", &settings(&sweep, arguments.shards)?)?;
-    // The complete definition, so that later shards use the same settings and defaults.
+    // Write the complete definition with all defaults, so that shards submitted later use the same
+    // settings, also with another version of squama.
     let definition = format!("# Written by squama slurm.\n{}", sweep.to_toml());
     write_text(&folder, "sweep.toml", &definition)?;
     print(&format!(
@@ -79,10 +80,11 @@ pub fn slurm(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
+/// Rejects a number of shards beyond the limit of Slurm or the number of designs.
 fn check(shards: u64, sweep: &Sweep) -> anyhow::Result<()> {
     ensure!(
         (1..=LARGEST).contains(&shards),
-        "--shards {shards}: expected 1 to {LARGEST}, because Slurm's job arrays end there \
+        "--shards {shards}: expected 1 to {LARGEST}, the largest index of a job array in Slurm \
          (MaxArraySize is {} by default); a shard may have any number of designs",
         LARGEST + 1
     );
@@ -94,16 +96,16 @@ fn check(shards: u64, sweep: &Sweep) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the settings of the scripts for this sweep.
+/// Returns the text of `sweep.sh`, which contains the settings of the scripts for this sweep.
 fn settings(sweep: &Sweep, shards: u64) -> anyhow::Result<String> {
-    // The environment may override the path, because nodes may differ.
+    // The variable SQUAMA overrides this path, because the program may lie elsewhere on the nodes.
     let program = std::env::current_exe().context("the path of squama is not known")?;
     Ok(format!(
         "# Settings of the scripts in this folder for the sweep in sweep.toml. Written by squama slurm.\n\
          NAME={}\n\
          # Shards can be resumed only while this number is unchanged.\n\
          SHARDS={shards}\n\
-         # The program, on the nodes.\n\
+         # Path of squama on the nodes.\n\
          SQUAMA=${{SQUAMA:-{}}}\n",
         shell_quoted(sweep.name()),
         shell_quoted(&program.display().to_string())

@@ -1,4 +1,7 @@
-//! Definitions and results folders: commands accept either, and find the other.
+//! Finds and reads definitions and results folders.
+//!
+//! Most commands accept a definition or a results folder. If they need the definition, they read it
+//! from the record in the folder; if they need results, they use the folder of the definition.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -22,7 +25,7 @@ pub struct Partial {
 }
 
 impl Partial {
-    /// Returns the required completeness of the results.
+    /// Returns the completeness that results must have.
     pub fn completeness(&self) -> Completeness {
         if self.partial { Completeness::Partial } else { Completeness::Whole }
     }
@@ -48,23 +51,23 @@ pub fn settings(texts: &[String]) -> Result<Vec<Setting>, InvalidSetting> {
     texts.iter().map(|text| Setting::parse(text)).collect()
 }
 
-/// The content of a definition.
+/// A parsed definition.
 pub enum Defined {
     Sweep(Box<Sweep>),
     Goal(Box<DesignGoal>),
 }
 
-/// Error if a goal is given instead of a sweep.
+/// Message of the error if a goal is given instead of a sweep.
 pub const IS_GOAL: &str = "has a [goal], which defines no single design; run squama optimise, then use optimum.toml in its folder";
 
-/// Reads a definition with its settings.
+/// Reads a definition, or the definition in a results folder, and applies its settings.
 pub fn defined(definition: &Definition) -> anyhow::Result<Defined> {
     let settings = settings(&definition.settings)?;
     let file = definition_file(&definition.path)?;
     defined_by(&read_text(&file)?, &file, &settings)
 }
 
-/// Parses the `text` of a definition.
+/// Parses the `text` of the definition `file` and applies `settings`.
 pub fn defined_by(text: &str, file: &Path, settings: &[Setting]) -> anyhow::Result<Defined> {
     let name = file.display().to_string();
     let entries = entries(text, &name, settings)?;
@@ -76,7 +79,7 @@ pub fn defined_by(text: &str, file: &Path, settings: &[Setting]) -> anyhow::Resu
     Ok(Defined::Sweep(Box::new(Sweep::of_entries(&entries, &name)?)))
 }
 
-/// Reads a sweep with its settings.
+/// Reads a sweep, applies its settings and prints notes; a goal is an error.
 pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
     match defined(definition)? {
         Defined::Sweep(sweep) => {
@@ -94,19 +97,20 @@ pub fn print_notes(sweep: &Sweep) {
     }
 }
 
-/// Returns the file of the definition: `path`, or the record or optimum in the folder `path`.
+/// Returns the file that contains the definition.
 ///
-/// Files written by squama are verified.
+/// This is `path` itself, or the record or optimum in the results folder `path`. Verifies a file
+/// that squama wrote.
 pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_dir() {
-        // Rejects an edited run.toml.
+        // Reject a run.toml that was edited.
         verify_record(path)?;
         return Ok(path.to_owned());
     }
     let record = path.join(ResultsFolder::RUN_INFO);
     let optimum = path.join("optimum.toml");
     if !record.is_file() && optimum.is_file() {
-        // Rejects an edited optimum.
+        // Reject an optimum.toml that was edited.
         VerifiedFolder::open(path, Completeness::Partial)?.file("optimum.toml")?;
         return Ok(optimum);
     }
@@ -128,10 +132,12 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     Ok(record)
 }
 
-/// Returns the results folder of `path`: a folder, a record in a folder, or a definition.
+/// Returns the results folder of `path`.
+///
+/// `path` is the folder itself, the record in the folder, or a definition.
 pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_file() {
-        // A missing folder is reported when its files are opened, with the name of the file.
+        // Do not check that the folder exists: opening its files reports a better error.
         refuse_folder_of_runs(path)?;
         return Ok(path.to_owned());
     }
@@ -155,7 +161,7 @@ fn is_run(folder: &Path) -> bool {
     files.iter().any(|file| folder.join(file).is_file())
 }
 
-/// Rejects a folder that contains runs but is not one, and names the runs.
+/// Rejects a folder that holds a search, an analysis or folders of runs, but no run itself.
 fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
     if is_run(path) {
         return Ok(());
@@ -164,7 +170,7 @@ fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
     let runs = folders.filter(|folder| is_run(folder));
     let mut names: Vec<_> =
         runs.filter_map(|run| Some(run.file_name()?.to_string_lossy().into_owned())).collect();
-    // Directory order is arbitrary.
+    // Sort the names, because `read_dir` returns them in arbitrary order.
     names.sort();
     let folder = path.display();
     ensure!(
@@ -184,12 +190,12 @@ fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Opens and verifies the results of `path`.
+/// Opens and verifies the results folder of `path`, a definition or a folder.
 pub fn verified_folder(path: &Path, completeness: Completeness) -> anyhow::Result<VerifiedFolder> {
     Ok(VerifiedFolder::open(&results_folder(path)?, completeness)?.warning(warn_once))
 }
 
-/// Prints a warning about a table, although several steps of a command read it.
+/// Prints each warning only once, although several steps of a command read the same table.
 fn warn_once(text: &str) {
     static PRINTED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     if PRINTED.lock().is_ok_and(|mut printed| printed.insert(text.to_owned())) {
@@ -197,21 +203,23 @@ fn warn_once(text: &str) {
     }
 }
 
-/// Returns the results folder of `sweep`: `out`, or the default.
+/// Returns the results folder of `sweep`: `out`, or by default `results/NAME`.
 pub fn folder_of(sweep: &Sweep, out: Option<&Path>) -> PathBuf {
     out.map_or_else(|| Path::new("results").join(sweep.name()), Path::to_owned)
 }
 
-/// Returns the default folder of a product of designs.
+/// Returns the default folder for figures or tables of designs.
 ///
-/// It is `subfolder` in the results of the sweep.
+/// This is `subfolder` in the results folder of the sweep.
 pub fn folder_within(definition: &Definition, sweep: &Sweep, subfolder: &str) -> PathBuf {
     let path = &definition.path;
     let results = if path.is_dir() { path.clone() } else { folder_of(sweep, None) };
     results.join(subfolder)
 }
 
-/// Rejects a file in a folder that does not exist, because the path is probably mistyped.
+/// Returns an error if the folder of `file` does not exist, because the path is probably mistyped.
+///
+/// `option` is the name of the argument, for the message.
 pub fn require_folder_of(option: &str, file: &Path) -> anyhow::Result<()> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));

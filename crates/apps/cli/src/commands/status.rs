@@ -1,4 +1,4 @@
-//! The command `squama status`.
+//! The command `squama status`, which shows the state of a run or a search.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -53,7 +53,7 @@ pub fn status(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(if complete { DONE } else { INCOMPLETE })
 }
 
-/// Shows the status of a search.
+/// Prints the status of a search.
 fn search_status(folder: &Path, json: bool) -> anyhow::Result<u8> {
     let status = SearchStatus::read(folder)?;
     if json {
@@ -76,6 +76,7 @@ fn search_status(folder: &Path, json: bool) -> anyhow::Result<u8> {
     Ok(if is_done { DONE } else { INCOMPLETE })
 }
 
+/// Formats the status of a search, with its best design and its problems.
 pub fn search_report(status: &SearchStatus) -> String {
     let state = match (status.in_use, status.is_complete) {
         (true, _) => "search, running",
@@ -98,7 +99,7 @@ pub fn search_report(status: &SearchStatus) -> String {
     format!("{}: {state}\n{}{best}{problems}", status.goal, aligned(&rows))
 }
 
-/// Lists the variables, objectives and requirements of the best design so far.
+/// Lists variables, objectives and requirements of the evaluated design with the index `best`.
 fn best_so_far(status: &SearchStatus, best: usize) -> String {
     let (Some(goal), best) = (&status.definition, &status.evaluations[best]) else {
         return String::new();
@@ -119,7 +120,7 @@ fn best_so_far(status: &SearchStatus, best: usize) -> String {
     titled(title, &rows)
 }
 
-/// Returns the best design so far as JSON.
+/// Returns the evaluated design with the index `best` as JSON.
 fn best_record(status: &SearchStatus, best: usize) -> Value {
     let best = &status.evaluations[best];
     let Some(goal) = &status.definition else { return Value::Null };
@@ -131,6 +132,7 @@ fn best_record(status: &SearchStatus, best: usize) -> Value {
     json!({ "met": best.is_met, "variables": variables, "values": values })
 }
 
+/// Formats the status of a run.
 fn report(status: &run::RunStatus) -> String {
     let header = status.archive.header();
     let subset = header.subset().to_string();
@@ -151,13 +153,13 @@ fn report(status: &run::RunStatus) -> String {
     format!("{name}: {state}\n{}{lists}", aligned(&rows))
 }
 
-/// Lists problems of the files of the run.
+/// Lists the problems of the files of the run.
 fn problems(status: &run::RunStatus) -> String {
     let rows = status.problems.iter().map(|problem| [problem.clone()]);
     titled("problems", &rows.collect::<Vec<_>>())
 }
 
-/// Lists products that are out of date, and the commands that update them.
+/// Lists the figures and rankings that are out of date, and the commands that update them.
 fn outdated(status: &run::RunStatus) -> String {
     let rows = status.outdated.iter().map(|made| [made.product.clone(), made.command.clone()]);
     titled("out of date", &rows.collect::<Vec<_>>())
@@ -196,6 +198,7 @@ fn row(what: &str, value: String) -> [String; 2] {
     [what.to_owned(), value]
 }
 
+/// Formats the number of designs that `squama rerun` solved again.
 fn again(status: &run::RunStatus) -> String {
     match status.solved_again {
         0 => String::new(),
@@ -203,11 +206,11 @@ fn again(status: &run::RunStatus) -> String {
     }
 }
 
-/// Formats the rate of the last session and the remaining time.
+/// Formats the rate of the last session, in designs per second, and the remaining time.
 fn rate(status: &run::RunStatus) -> Option<String> {
     let rate = status.rate()?;
     let left = (status.running() + status.missing()) as f64 / rate;
-    // At a rate of zero this is infinite, which `Duration` rejects.
+    // At a rate of zero the time is infinite, which is no `Duration`.
     let left = match Duration::try_from_secs_f64(left) {
         Ok(left) if !left.is_zero() => format!(", {} for the rest", time(left)),
         _ => String::new(),
@@ -228,6 +231,7 @@ fn slowest(status: &run::RunStatus) -> String {
     titled("slowest designs", &status.slowest.iter().map(row).collect::<Vec<_>>())
 }
 
+/// Formats a table below its title; the text is empty if there are no rows.
 fn titled<const N: usize>(title: &str, rows: &[[String; N]]) -> String {
     if rows.is_empty() { String::new() } else { format!("{title}\n{}", aligned(rows)) }
 }

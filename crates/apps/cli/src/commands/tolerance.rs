@@ -1,4 +1,4 @@
-//! The command `squama tolerance`.
+//! The command `squama tolerance`, which predicts the effect of tolerances and the yield.
 
 mod figures;
 mod record;
@@ -64,7 +64,7 @@ pub struct Arguments {
     pub sampled: SampleArgs,
 }
 
-/// Maximum number of designs: each holds some kilobytes until the tables are written.
+/// Maximum number of designs, because each takes some kilobytes of memory until the end.
 const MOST: u64 = 100_000;
 
 /// Predicts the spread of the measures from tolerances, and the yield of the requirements.
@@ -87,7 +87,7 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     let mut files = write(folder, &all)?;
     if let [design] = all.as_slice() {
         for (name, svg) in figures::figures(&sweep, &requirements, design) {
-            // Histograms are named after requirements, so they are claimed one by one.
+            // Claim each figure, because the names of histograms depend on the requirements.
             claim.add(&name)?;
             folder.write_text(&name, &svg)?;
             files.push(name);
@@ -104,7 +104,7 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     Ok(if failed { INCOMPLETE } else { DONE })
 }
 
-/// Rejects a sweep without deviations.
+/// Rejects a sweep without deviations, and a single sample.
 fn check(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<()> {
     ensure!(
         !sweep.deviations().is_empty() || sweep.is_imperfect(),
@@ -118,7 +118,7 @@ fn check(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the indices of the requested designs.
+/// Returns the indices of the requested designs in the grid, without duplicates.
 fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     let grid = sweep.grid();
     let path = &arguments.definition.path;
@@ -126,7 +126,7 @@ fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     if arguments.numbers.is_empty() {
         ranges.push(0..=grid.len().saturating_sub(1));
     }
-    // Counted before listing: 10⁹ designs would exhaust the memory.
+    // Count the designs before listing them: a list of 10⁹ designs would exhaust the memory.
     let count = ranges.iter().fold(0_u64, |count, range| {
         count.saturating_add((range.end() - range.start()).saturating_add(1))
     });
@@ -136,7 +136,7 @@ fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
         path.display()
     );
     let mut designs: Vec<u64> = ranges.into_iter().flatten().collect();
-    // Removes duplicates.
+    // Remove duplicates without changing the order.
     let mut known = BTreeSet::new();
     designs.retain(|design| known.insert(*design));
     Ok(designs)
@@ -144,13 +144,14 @@ fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
 
 /// Analyses the tolerances of `designs` in parallel.
 ///
-/// With several designs the samples are dropped to save memory.
+/// If there are several designs, the results contain no samples, to save memory.
 fn analysed(
     analysis: &Analysis<'_>,
     designs: &[u64],
     store: &SampleStore,
 ) -> Result<Vec<DesignTolerance>, AnalysisError> {
-    // Designs and their samples share the threads, so that no thread idles during the last design.
+    // The samples of a design are solved in parallel, too, so that no thread idles during the last
+    // design.
     designs
         .par_iter()
         .map(|&index| {
@@ -164,7 +165,7 @@ fn analysed(
         .collect()
 }
 
-/// Writes the tables and returns the names of the files.
+/// Writes the tables and returns their file names.
 fn write(folder: &ResultsFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
     let mut files = Vec::new();
     let format = folder.csv_format();

@@ -1,4 +1,4 @@
-//! The command `squama validate`.
+//! The command `squama validate`, which writes the validation page.
 
 use std::path::PathBuf;
 
@@ -40,7 +40,7 @@ pub struct Arguments {
     pub search: Vec<PathBuf>,
 }
 
-/// Runs the validation, and prints and writes its page.
+/// Runs the validation, prints its page and writes it to a file.
 pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
     if !arguments.search.is_empty() {
         let sweeps = arguments.search.iter().map(|path| Sweep::read(path, &[]));
@@ -49,7 +49,7 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
         return Ok(DONE);
     }
     let out = &arguments.out;
-    // Checked before solving, which takes half a minute.
+    // Check the path of the page before solving, which takes half a minute.
     ensure!(
         out.file_name().is_some(),
         "--out {}: not accepted, expected the name of a file",
@@ -64,7 +64,8 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
     for benchmark in &outside {
         print(&format!("outside its band: {}\n", benchmark.row()))?;
     }
-    // Claims do not affect the exit code: squama may be right if it does not reproduce one.
+    // A claim of the paper that squama does not reproduce may be wrong, so only benchmarks
+    // determine the exit code.
     Ok(if outside.is_empty() { DONE } else { INCOMPLETE })
 }
 

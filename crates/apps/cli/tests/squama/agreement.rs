@@ -1,12 +1,12 @@
-//! Compares two pages: words must be equal, computed numbers equal up to round-off.
+//! Compares two pages: words must be equal, and computed numbers equal up to round-off.
 //!
-//! A computed number is written with a point and at least three digits, or with a point and an
-//! exponent. Its last digit may differ by one, because machines round differently. All other
+//! A number with a decimal point and at least three digits or an exponent counts as computed. The
+//! last digit of a computed number may differ by one, because machines round differently. All other
 //! numbers (designs, settings, bands, years, counts) must be equal.
 
 use std::iter::{from_fn, zip};
 
-/// A piece of a line.
+/// A part of a line: a number, or the words between two numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Piece<'t> {
     Words(&'t str),
@@ -22,6 +22,7 @@ struct Number<'t> {
     decimals: usize,
     /// Number of significant digits.
     significant: usize,
+    /// Power of ten after `e`; `None` if the number has no exponent.
     exponent: Option<i32>,
 }
 
@@ -41,22 +42,25 @@ impl<'t> Number<'t> {
         }
     }
 
+    /// Returns true if the number counts as computed, so that its last digit may differ.
     fn computed(&self) -> bool {
         self.decimals > 0 && (self.exponent.is_some() || self.significant >= 3)
     }
 
-    /// Returns one unit in the last digit.
+    /// Returns the value of one unit in the last digit.
     fn unit(&self) -> f64 {
         10_f64.powi(self.exponent.unwrap_or(0) - self.decimals as i32)
     }
 
+    /// Returns true if two numbers are equal, up to one unit in the last digit if both are computed.
     fn agrees(&self, other: &Self) -> bool {
         if !(self.computed() && other.computed()) {
             return self.text == other.text;
         }
         let alike = self.decimals == other.decimals || self.significant == other.significant;
         let apart = (self.value - other.value).abs();
-        // Half a unit more, for the rounding of the difference of two decimal fractions.
+        // Allow 1.5 units: the difference of two decimal fractions has a rounding error, so the
+        // limit must not be exactly one unit.
         alike && apart < 1.5 * self.unit().max(other.unit())
     }
 }
@@ -81,10 +85,12 @@ fn number_length(text: &str) -> usize {
     length
 }
 
+/// Returns the number of digits at the start of `text`.
 fn leading_digits(text: &str) -> usize {
     text.bytes().take_while(u8::is_ascii_digit).count()
 }
 
+/// Splits a line into words and numbers.
 fn pieces(mut line: &str) -> impl Iterator<Item = Piece<'_>> {
     from_fn(move || {
         let length = number_length(line);
@@ -100,6 +106,7 @@ fn pieces(mut line: &str) -> impl Iterator<Item = Piece<'_>> {
     })
 }
 
+/// Returns true if two lines have equal words and numbers that agree.
 fn lines_agree(ours: &str, theirs: &str) -> bool {
     let (ours, theirs): (Vec<_>, Vec<_>) = (pieces(ours).collect(), pieces(theirs).collect());
     ours.len() == theirs.len()
@@ -109,7 +116,9 @@ fn lines_agree(ours: &str, theirs: &str) -> bool {
         })
 }
 
-/// Returns the first pair of lines that disagree.
+/// Returns the first pair of lines that disagree; `None` if all lines agree.
+///
+/// If one text has more lines, its first additional line is compared with an empty line.
 pub fn disagreement<'t>(ours: &'t str, theirs: &'t str) -> Option<[&'t str; 2]> {
     let (mut one, mut other) = (ours.lines(), theirs.lines());
     loop {

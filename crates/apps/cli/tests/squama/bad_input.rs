@@ -1,4 +1,4 @@
-//! Bad input gives exit code 2 and one line with file, key, value and the expected value.
+//! Bad input gives exit code 2 and a line with file, key, value and the expected value.
 
 use crate::{FEW, Place};
 

@@ -1,14 +1,15 @@
-//! Effects of small changes of a parameter, in `squama rank` and `squama plot map`.
+//! Measures that change steeply with a parameter, in `squama rank` and `squama plot map`.
 
 use serde_json::Value;
 
 use crate::{FEW, Place};
 
-/// Designs with a steep dependence on the gap.
+/// A sweep of designs with measures that depend steeply on the gap.
 ///
-/// (0.1, 0.2, 60°) loses half of its critical force if its gap grows by a tenth.
+/// The design (0.1, 0.2, 60°) loses half of its critical force if its gap grows by a tenth.
 const STEEP: &str = "name = 'steep'\n[designs]\ngap_over_t = [0.1, 0.2, 0.4]\nlength_over_t = [0.1, 0.2]\nslant_deg = [45, 60, 75]\n";
 
+/// Runs a sweep and ranks it; returns the folder and the output of `squama rank`.
 fn ranked(definition: &str, arguments: &str) -> (Place, String) {
     let place = Place::with(definition);
     place.squama("run x.toml -q").assert().code(0);
@@ -76,7 +77,7 @@ fn the_best_design_is_solved_again_with_full_coupling() {
         }
     }
     assert!(moved.contains(&"penetration") && !moved.contains(&"coverage"), "{printed}");
-    // A sweep with full coupling needs no check.
+    // A sweep with full coupling needs no check with full coupling.
     let (_, printed) = ranked(&format!("substrate.coupling = 'full'\n{FEW}"), "--json");
     let ranking: Value = serde_json::from_str(&printed).expect("JSON");
     assert_eq!(ranking["full_coupling"], Value::Array(Vec::new()));
@@ -98,7 +99,8 @@ fn a_map_is_drawn_over_any_two_parameters() {
         place.prints("plot map x.toml --x gap_over_t --y slant_deg --of critical_force --out y");
     assert_eq!(printed, "y/map-of-critical-force-over-gap-over-t-and-slant-deg.svg\n");
     let map = place.read("y/map-of-critical-force-over-gap-over-t-and-slant-deg.svg");
-    // Two maps of nine designs, and 60 cells of the colour bar.
+    // Rectangles: nine designs in each of two maps, two borders, 60 cells of the colour bar, and
+    // the white paper.
     assert_eq!(map.matches("<g class=\"map\">").count(), 2);
     assert_eq!(map.matches("<rect").count(), 2 * 9 + 2 + 60 + 1, "{map}");
     assert!(map.contains("<g class=\"contours\""), "{map}");

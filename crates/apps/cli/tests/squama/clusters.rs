@@ -1,6 +1,6 @@
-//! `squama slurm`: its files, and its scripts without a cluster.
+//! `squama slurm`: tests its files, and runs its scripts without a cluster.
 //!
-//! `scripts/check-slurm` tests them with Slurm.
+//! `scripts/check-slurm` tests the scripts with Slurm.
 #![cfg(unix)]
 
 use crate::{FEW, Place};
@@ -9,7 +9,9 @@ use crate::{FEW, Place};
 const SBATCH: &str = "#!/bin/sh\necho \"$@\" >> sbatch.txt\nwc -l < sbatch.txt | tr -d ' '\n";
 
 impl Place {
-    /// Runs a script in the folder `r/slurm` as element `element` of a job array.
+    /// Returns the command that runs a script in `r/slurm` as the element `element` of a job array.
+    ///
+    /// The program `sbatch` is found in the folder of this test, if the folder contains it.
     fn script(&self, name: &str, arguments: &str, element: u64) -> assert_cmd::Command {
         let path =
             format!("{}:{}", self.path("").display(), std::env::var("PATH").expect("a path"));
@@ -28,7 +30,7 @@ fn slurm_scripts_write_the_tables_of_an_unsharded_run() {
     assert_eq!(place.list("r/slurm"), "array.sh merge.sh submit.sh sweep.sh sweep.toml");
     place.script("array.sh", "r/slurm", 1).assert().code(0);
     place.script("array.sh", "r/slurm", 3).assert().code(0);
-    // A shard that was killed before it wrote anything.
+    // Simulate a shard that was killed before it wrote anything.
     std::fs::create_dir(place.path("r/shards/2-of-3")).expect("writable");
     std::fs::write(place.path("r/shards/2-of-3/journal.jsonl"), "").expect("writable");
     let merged =
@@ -76,8 +78,8 @@ fn per_cent_signs_in_paths_are_preserved() {
 #[test]
 fn numbers_of_shards_out_of_range_are_rejected() {
     let place = Place::with(FEW);
-    insta::assert_snapshot!(place.refused("slurm x.toml --out r --shards 1001"), @"error: --shards 1001: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
-    insta::assert_snapshot!(place.refused("slurm x.toml --out r --shards 0"), @"error: --shards 0: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
+    insta::assert_snapshot!(place.refused("slurm x.toml --out r --shards 1001"), @"error: --shards 1001: expected 1 to 1000, the largest index of a job array in Slurm (MaxArraySize is 1001 by default); a shard may have any number of designs");
+    insta::assert_snapshot!(place.refused("slurm x.toml --out r --shards 0"), @"error: --shards 0: expected 1 to 1000, the largest index of a job array in Slurm (MaxArraySize is 1001 by default); a shard may have any number of designs");
     insta::assert_snapshot!(place.refused("slurm x.toml --out r --shards 9"), @"error: --shards 9: there are only 8 designs, expected 1 to 8");
     assert_eq!(place.list("."), "x.toml");
 }

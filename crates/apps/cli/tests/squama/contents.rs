@@ -1,10 +1,10 @@
-//! Every reader detects incomplete or modified results, and one command repairs them.
+//! Every command that reads results detects incomplete or modified files and names a remedy.
 
 use std::fs;
 
 use crate::{FEW, Place};
 
-/// The commands that read results, for the folder `r`.
+/// Commands that read the results in the folder `r`.
 const READERS: [&str; 5] = [
     "rank r --out ranked",
     "compare r r",
@@ -13,7 +13,7 @@ const READERS: [&str; 5] = [
     "report r --out page.html",
 ];
 
-/// Returns a place where `r` holds three of eight designs.
+/// Returns a folder in which the results `r` contain three of eight designs.
 fn incomplete() -> Place {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --shard 1/3 --out shard").assert().code(0);
@@ -21,7 +21,7 @@ fn incomplete() -> Place {
     place
 }
 
-/// Replaces the first `old` in a file by `new`.
+/// Replaces the first occurrence of `old` in a file with `new`.
 fn change(place: &Place, file: &str, old: &str, new: &str) {
     let text = place.read(file);
     let changed = text.replacen(old, new, 1);
@@ -39,7 +39,7 @@ fn an_incomplete_run_needs_the_option_partial() {
             "{message}"
         );
     }
-    assert_eq!(place.list("."), "r shard x.toml", "nothing is written");
+    assert_eq!(place.list("."), "r shard x.toml", "no file is written");
     for reader in READERS {
         let text = place.prints(&format!("{reader} --partial"));
         let files = reader.starts_with("plot") || reader.starts_with("report");
@@ -47,7 +47,7 @@ fn an_incomplete_run_needs_the_option_partial() {
     }
     assert!(place.read("page.html").contains("few (3 of 8 designs)"));
     assert!(place.read("figures/coverage-maps-by-slant.svg").contains("few (3 of 8 designs)"));
-    // After more designs are solved, earlier products are out of date.
+    // After more designs are solved, files made from the earlier tables are out of date.
     place.squama("run x.toml -q --resume --out r").assert().code(0);
     let status = place.prints("status r");
     for product in ["ranking", "workbook", "figures", "page"] {
@@ -97,10 +97,10 @@ fn a_changed_digit_is_detected_and_repaired() {
     place.squama("merge -q r --out r").assert().code(0);
     assert_eq!(place.read("r/designs.csv"), sound);
     place.prints("status r");
-    // A table that is read by one command only.
+    // The change of a table that only one command reads is detected, too.
     change(&place, "r/penetration.csv", "0001", "0002");
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/penetration.csv: was changed after squama wrote it; squama merge r --out r writes it again");
-    // A deleted table must not pass as one that was never written.
+    // A deleted table must not be treated as a table that was never written.
     std::fs::remove_file(place.path("r/penetration.csv")).expect("a table");
     let message = place.refused("export r --xlsx x.xlsx");
     assert!(
@@ -133,7 +133,7 @@ fn derivatives_are_verified_like_any_table() {
         message.starts_with("error: r/sensitivity.csv: was changed after squama wrote it"),
         "{message}"
     );
-    // A foreign table is not overwritten.
+    // A table that squama did not write is not overwritten.
     fs::create_dir(place.path("strange")).expect("a folder");
     fs::write(place.path("strange/sensitivity.csv"), "mine").expect("writable");
     let message = place.refused("run with.toml -q --out strange");
@@ -141,9 +141,9 @@ fn derivatives_are_verified_like_any_table() {
     assert_eq!(place.read("strange/sensitivity.csv"), "mine");
 }
 
-/// Changes the lines of a journal after the header, and renews their checksums.
+/// Changes the lines of a journal after its header, and renews their checksums.
 ///
-/// The header is the line with `key`.
+/// `key` is the key of the header line that contains the definition and the program.
 fn reseal(place: &Place, journal: &str, key: &str, change: impl Fn(&mut serde_json::Value)) {
     let text = place.read(journal);
     let (first, rest) = text.split_once('\n').expect("lines");
@@ -167,7 +167,7 @@ fn a_forged_journal_is_rejected() {
     let sound = place.read("r/journal.jsonl");
     // Change the coverage of the third design.
     reseal(&place, "r/journal.jsonl", "journal", |line| {
-        // Some lines are sessions.
+        // Other lines of the journal are sessions or designs with other numbers.
         if let Some(design) = line.get_mut("design").filter(|design| design["design"] == 3) {
             design["result"]["coverage"] = 0.875.into();
         }
@@ -196,7 +196,8 @@ fn forged_evaluations_are_rejected() {
     let (journal, sound) = ("found/evaluations.jsonl", place.read("found/evaluations.jsonl"));
     let tables = ["history.csv", "optimum.csv"];
     let tables = tables.map(|file| (file, place.read(&format!("found/{file}"))));
-    // A change in a column of the goal redirects the search.
+    // A changed value in a column of the goal would change the path of the search, so it is
+    // rejected.
     reseal(&place, journal, "optimisation", |line: &mut serde_json::Value| {
         let coverage = &mut line["solved"]["result"]["coverage"];
         if coverage.as_f64().is_some_and(|coverage| coverage > 0.76) {
@@ -207,7 +208,7 @@ fn forged_evaluations_are_rejected() {
     assert!(message.starts_with(&format!("error: {journal}: ")), "{message}");
     assert!(message.contains("differs from history.csv"), "{message}");
     fs::write(place.path(journal), &sound).expect("writable");
-    // A change in another column has no effect, because the best design is solved again.
+    // A changed value in another column has no effect, because the best design is solved again.
     reseal(&place, journal, "optimisation", |line: &mut serde_json::Value| {
         line["solved"]["result"]["flexure"]["measures"]["initial_compliance"] = 0.5.into();
     });
@@ -215,7 +216,7 @@ fn forged_evaluations_are_rejected() {
     for (file, table) in &tables {
         assert_eq!(place.read(&format!("found/{file}")), *table);
     }
-    // Lost lines are solved again; the order of the others does not matter.
+    // Designs on lost lines are solved again; the order of the other lines does not matter.
     let mut lines: Vec<&str> = sound.lines().collect();
     lines.swap(3, 5);
     fs::write(place.path(journal), lines[..lines.len() / 2].join("\n") + "\n").expect("writable");
@@ -246,7 +247,7 @@ fn forged_samples_are_rejected() {
     assert!(message.contains(&format!("sample 3 differs from {table}")), "{message}");
     assert_eq!(place.read(&format!("made/samples/{table}")), sound[1]);
     fs::write(place.path(&journal), &sound[0]).expect("writable");
-    // If the table was changed instead, the recorded sample restores it.
+    // If the table was changed instead of the journal, squama restores it from the journal.
     change(&place, &format!("made/samples/{table}"), "0.", "1.");
     place.prints(command);
     assert_eq!(place.read(&format!("made/samples/{table}")), sound[1]);
@@ -278,7 +279,7 @@ fn tables_older_than_the_journal_are_detected() {
     let before = tables.map(|table| place.read(&format!("r/{table}")));
     place.squama("rerun r -q --design 8 --set solver.max_points=3").assert().code(1);
     let after = place.read("r/critical_force.csv");
-    // First as if the rerun had been killed before its first table, then as if after it.
+    // Simulate a rerun that was killed before it wrote its first table.
     for (table, text) in tables.iter().zip(&before) {
         fs::write(place.path("r").join(table), text).expect("writable");
     }
@@ -288,6 +289,7 @@ fn tables_older_than_the_journal_are_detected() {
         "{message}"
     );
     place.prints("rank r --partial");
+    // Simulate a rerun that was killed after it wrote its first table.
     fs::write(place.path("r/critical_force.csv"), after).expect("writable");
     let message = place.refused("export r --xlsx x.xlsx --partial");
     assert!(
@@ -295,7 +297,7 @@ fn tables_older_than_the_journal_are_detected() {
         "{message}"
     );
     place.squama("merge -q r --out r").assert().code(1);
-    // The ranking belongs to the previous tables.
+    // The ranking was made from the previous tables.
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: was made from other tables; squama rank r writes it again");
     place.prints("rank r");
     place.prints("export r --xlsx x.xlsx");
@@ -310,7 +312,7 @@ fn an_interrupted_ranking_is_not_exported() {
     change(&place, "r/pareto.csv", "0006", "0007");
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/pareto.csv: was changed after squama wrote it; squama rank r writes it again");
     place.prints("rank r");
-    // Simulates a ranking that was killed before it wrote its checksums.
+    // Simulate a ranking that was killed before it wrote its checksums.
     let record = place.read("r/derived/ranking.toml");
     let digest = record.lines().find(|line| line.contains("ranking.csv")).expect("a file");
     change(&place, "r/derived/ranking.toml", digest, "\"ranking.csv\" = \"\"");
@@ -324,7 +326,7 @@ fn an_interrupted_ranking_is_not_exported() {
 }
 
 #[test]
-fn a_fresh_run_removes_products_of_the_earlier_run() {
+fn a_fresh_run_removes_files_made_from_the_earlier_run() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     for command in ["rank r", "plot r", "report r", "export r --xlsx r/a.xlsx"] {
@@ -361,7 +363,7 @@ fn lost_lines_of_a_journal_are_detected() {
     place.prints("rank r");
 }
 
-/// A spreadsheet that saves `designs.csv` again changes its bytes, but not its values.
+/// A spreadsheet program that saves `designs.csv` again changes its bytes, but not its values.
 #[test]
 fn a_table_saved_again_with_equal_values_is_read_with_a_warning() {
     let place = Place::with(FEW);

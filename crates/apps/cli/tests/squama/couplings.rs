@@ -1,4 +1,4 @@
-//! Coupling and law of the substrate as axes of a sweep.
+//! Coupling and law of the substrate are axes of a sweep.
 
 use crate::Place;
 use crate::table::cells;
@@ -25,7 +25,7 @@ fn the_coupling_is_an_axis_and_affects_only_punctures() {
         let cells = cells(&table, column);
         assert!(cells[0] != cells[2] && cells[1] != cells[3], "{column}");
     }
-    // The paper's coupling is the default.
+    // Coupling of nearest neighbours, as in the paper, is the default.
     place.squama("run x.toml -q --out paper --set designs.coupling=nearest").assert().code(0);
     let paper = place.read("paper/designs.csv");
     assert_eq!(cells(&paper, "critical_force"), cells(&table, "critical_force")[..2]);

@@ -1,9 +1,9 @@
-//! `squama design`: agreement of one design with its sweep, and its files.
+//! `squama design`: agreement of a design with the sweep, its files and its messages.
 
 use crate::table::{cell, columns};
 use crate::{FEW, Place};
 
-/// The files of the path of a design.
+/// Names of the files that `squama design` writes for a design with puncture and bending.
 const PATH_FILES: &str = "derived design.toml events.csv flexure_events.csv flexure_path.csv \
                       flexure_scales.csv flexure_steps.csv measures.csv path.csv scales.csv steps.csv";
 
@@ -29,7 +29,7 @@ fn design_prints_the_values_of_the_sweep() {
     }
     let longest = text.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).map(str::len);
     assert!(longest.max() <= Some("-1.23457e-10".len()), "{text}");
-    // The table has every digit.
+    // `measures.csv` has all digits of the table of the sweep.
     let measures = place.read("results/few/designs/0006/measures.csv");
     assert_eq!(measures.lines().next(), Some("measure,value,unit,meaning"));
     let rows = measures.lines().skip(1).map(|line| line.split(',').take(2).collect::<Vec<_>>());
@@ -69,7 +69,7 @@ fn design_follows_unloading_paths() {
     for value in values("0") {
         assert!(value.abs() < 1e-9, "{value}");
     }
-    // The curves contain loading and unloading in both tests.
+    // The curves of puncture and bending contain loading and unloading.
     let curves = design.replace("design", "plot curves");
     place.prints(&format!("{curves} --set contact.friction=.3 --out c"));
     for figure in ["force-displacement", "moment-curvature"] {
@@ -78,7 +78,7 @@ fn design_follows_unloading_paths() {
     }
 }
 
-/// Unloading that does not reach zero is reported with the reason.
+/// If unloading does not reach zero force, the status states the reason.
 #[test]
 fn incomplete_unloading_is_explained() {
     let place = Place::with("name = 'x'");
@@ -93,9 +93,9 @@ fn incomplete_unloading_is_explained() {
     assert_eq!(told, ["complete", "none", "jumps"], "{text}");
 }
 
-/// A round tip between two scales presses on both.
+/// A round tip between two scales presses on both scales.
 ///
-/// The components along the load add up to the force.
+/// Each contact force has a lateral component, so the sum of their sizes exceeds the load.
 #[test]
 fn design_writes_the_forces_of_a_round_tip() {
     let place = Place::with(FEW);
@@ -152,7 +152,7 @@ fn design_states_the_radius_at_which_scales_touch() {
     let line = text.lines().find(|line| line.starts_with("The scales touch")).expect("a radius");
     let radius = line.split_whitespace().nth(9).and_then(|radius| radius.parse::<f64>().ok());
     let radius = radius.expect("a number");
-    // Slightly farther apart, the scales do not overlap.
+    // With a slightly larger radius the scales do not overlap, with a smaller radius they do.
     place.squama(&format!("{design} --set body.radius_over_t={}", 1.001 * radius)).assert().code(0);
     let closer = format!("{design} --set body.radius_over_t={}", 0.999 * radius);
     place.squama(&closer).assert().code(1);
@@ -194,7 +194,8 @@ fn design_differentiates_its_measures() {
     let table = place.read(&format!("{folder}/sensitivity.csv"));
     let header = "design,measure,parameter,value,derivative,elasticity,left,right,kink";
     assert_eq!(table.lines().next(), Some(header));
-    // A gap of 0.1 between bases of 1 gives a coverage of 0.9; widening the gap reduces it equally.
+    // A gap of 0.1 between bases of 1 gives a coverage of 0.9. A wider gap reduces the coverage by
+    // the same amount, so the derivative is -1.
     let coverage = table.lines().find(|line| line.starts_with("0004,coverage,gap_over_t"));
     let cells: Vec<_> = coverage.expect("a line").split(',').collect();
     let [derivative, elasticity] = [4, 5].map(|cell| cells[cell].parse::<f64>().expect("a number"));
@@ -245,7 +246,8 @@ fn set_adds_axes_to_a_definition() {
     let design = "design x.toml --gap 0.2 --length 0.5 --slant 0";
     place.squama(design).assert().code(2);
     let text = place.prints(&format!("{design} --set designs.width_over_t=2"));
-    // Gap 0.2 is the 2nd of 10, length 0.5 the 7th of 12, width 2 the 2nd of 3.
+    // On the default axes, 0.2 is the 2nd of 10 gaps and 0.5 the 7th of 12 lengths; the width 2 is
+    // the 2nd of 3.
     assert!(text.starts_with("wide: design 0056 of 360\n"), "{text}");
 }
 
@@ -258,7 +260,7 @@ fn a_path_that_stops_early_gives_exit_code_1() {
     assert!(text.contains("too many points"), "{text}");
 }
 
-/// A load position without a force does not hide the others.
+/// If one load position has no force, the weakest of the other positions is reported.
 #[test]
 fn the_weakest_known_load_position_is_reported() {
     let place = Place::with(

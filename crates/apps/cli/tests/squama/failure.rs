@@ -1,4 +1,4 @@
-//! Failure modes in the answers of the commands.
+//! Failure modes in the output of the commands.
 
 use std::path::Path;
 
@@ -9,21 +9,23 @@ use crate::{FEW, Place};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../..");
 
-/// Strengths, for a sweep of a few designs.
+/// Material strengths and a tolerance, to append to a sweep.
 const JUDGED: &str = "[array]\nacross = true\n[material]\nthickness_mm = 2\nscale = 'PLA'\n\
                       tissue = 'polyurethane'\nmembrane_modulus_MPa = 4.5\n[tolerance]\n\
                       gap_mm = { batch_sd = 0.01 }\n";
 
+/// Parses a text as JSON.
 fn json(text: &str) -> Value {
     serde_json::from_str(text).expect("JSON")
 }
 
+/// Returns the measure `name` in the JSON output of `squama design`.
 fn number(json: &Value, name: &str) -> f64 {
     json["measures"][name].as_f64().expect("a number")
 }
 
 #[test]
-fn answers_name_the_mode_beside_a_failure_force() {
+fn outputs_with_a_failure_force_name_the_failure_mode() {
     let place = Place::with(&format!("{FEW}{JUDGED}"));
     place.squama("run x.toml -q --out r").assert().code(0);
     let table = place.read("r/designs.csv");
@@ -42,7 +44,7 @@ fn answers_name_the_mode_beside_a_failure_force() {
     // A ranking without the failure force does not name modes.
     assert!(!place.prints("rank r --maximize coverage").contains("Failure modes"));
 
-    // A map has a coloured cell for every design with a mode, and a legend.
+    // A map has a coloured cell for every design with a failure mode, and a legend of the modes.
     let map = "plot map r --x gap_over_t --y slant_deg --of first_failure --at length_over_t=1";
     place.squama(&format!("{map} --out f")).assert().code(0);
     let map = "f/map-of-first-failure-over-gap-over-t-and-slant-deg-length-over-t-1.svg";
@@ -73,7 +75,7 @@ fn answers_name_the_mode_beside_a_failure_force() {
     assert!(page.contains("not judged: the needle is not guided"));
 }
 
-/// A curve has the name and force of the first failure, as the table, and of later limits.
+/// The figure states the name and the force of the first failure, as in the table.
 #[test]
 fn curves_mark_the_limits_of_a_design() {
     let weak = "scale_modulus_MPa = 3000\nscale_strength_MPa = 0.15";
@@ -91,7 +93,7 @@ fn curves_mark_the_limits_of_a_design() {
             assert!(!figure.contains("font-weight=\"bold\"><tspan"), "{figure}");
             continue;
         };
-        // Three significant digits.
+        // The figure states the force with three significant digits.
         let force = format!("{force:.*}", (2.0 - force.log10().floor()).max(0.0) as usize);
         assert!(figure.contains(&format!(">{mode} {force}<")), "{mode} {force} {figure}");
         seen.push((*mode).to_owned());
@@ -99,22 +101,20 @@ fn curves_mark_the_limits_of_a_design() {
         assert!(limits + figure.matches("class=\"level\"").count() > 0, "{figure}");
     }
     assert!(["break", "tilt"].iter().all(|mode| seen.iter().any(|s| s == mode)), "{seen:?}");
-    // Beyond the critical tilt the path continues, and the limits stay the same.
+    // With `--to` the path continues beyond the critical tilt, and the limits are still marked.
     place.squama("plot curves x.toml --design 4 --to 0.3 --out c").assert().code(0);
     let figure = place.read("c/force-displacement-curves-to-u-0.3-of-0004.svg");
     assert!(figure.contains("dots: limits of failure, the first one bold"), "{figure}");
-    // Without strengths there are no limits to mark.
+    // A design without strengths has no limits to mark.
     let place = Place::with(FEW);
     place.squama("plot curves x.toml --design 4 --out c").assert().code(0);
     let figure = place.read("c/force-displacement-curves-of-0004.svg");
     assert!(!figure.contains("class=\"limits\""), "{figure}");
 }
 
-/// Searches with the goal for a strong skin, and checks every failure mode.
-///
-/// The result is solved again for the check.
+/// Solves the optimum of the goal for a strong skin again, and checks every failure mode.
 #[test]
-fn the_advised_skin_fails_in_no_mode_below_its_failure_force() {
+fn the_recommended_skin_fails_in_no_mode_below_its_failure_force() {
     let place = Place::new();
     let goal = Path::new(ROOT).join("sweeps/goals/strong-under-a-needle.toml");
     let goal = goal.display();
@@ -124,19 +124,19 @@ fn the_advised_skin_fails_in_no_mode_below_its_failure_force() {
 
     let solved = json(&place.prints("design found/optimum.toml --design 1 --json"));
     let force = number(&solved, "failure_force_N");
-    // The puncture along the row ends at the critical tilt, at a larger force, and no strength is
-    // exceeded before that.
+    // The row across fails first: along the row, the critical tilt needs a larger force, and no
+    // strength is exceeded before.
     assert!(number(&solved, "critical_force_N") > force);
     assert!(number(&solved, "scale_stress_max_MPa") < 50.0);
     assert!(number(&solved, "bond_stress_max_MPa") < 0.3);
     let length =
         number(&json(&place.prints("design found/optimum.toml --design 1 --json")), "length_mm");
-    // The limit is a tip rotation of 5°. The tip of a cantilever under an end load rotates by 1.5
-    // times the angle of its chord.
+    // The limit of the mode `bend` is a tip rotation of 5°. The tip of a cantilever under an end
+    // load rotates by 1.5 times the angle of its chord.
     assert!(number(&solved, "scale_deflection_max_mm") < length * 5.0_f64.to_radians() / 1.5);
     assert_eq!(solved["measures"]["fold_force"], Value::Null);
 
-    // The row across is a row of upright blocks.
+    // Solve the row across as a design of its own: a row of upright blocks.
     let gap = solved["parameters"]["designs.gap_over_t"].as_f64().expect("a gap");
     let base = solved["parameters"]["designs.length_over_t"].as_f64().expect("a length");
     let across = format!(
@@ -147,7 +147,7 @@ fn the_advised_skin_fails_in_no_mode_below_its_failure_force() {
     assert!((number(&across, "critical_force_N") / force - 1.0).abs() < 1e-6, "{across} {force}");
 }
 
-/// Runs the commands of the page and compares its tables with their results.
+/// Runs the commands of `docs/failure.md`, and compares the values on the page with the results.
 #[test]
 fn the_page_on_failure_quotes_values_of_its_commands() {
     let page = std::fs::read_to_string(Path::new(ROOT).join("docs/failure.md")).expect("a page");
@@ -167,14 +167,15 @@ fn the_page_on_failure_quotes_values_of_its_commands() {
     assert_first_failures_by_slant(&place, &page);
 }
 
-/// Runs the commands in the blocks of a page, and returns their output.
+/// Runs the commands in the shell blocks of a page, and returns their joined output.
 fn output_of_commands(place: &Place, blocks: &[&str]) -> String {
     let mut printed = String::new();
     for line in blocks.iter().filter_map(|block| block.strip_prefix("sh\n")).flat_map(str::lines) {
         let Some(arguments) = line.strip_prefix("squama ") else { continue };
         let arguments: Vec<String> =
             arguments.split(' ').map(|word| word.trim_matches('\'').to_owned()).collect();
-        // Upright scales that are pushed straight down have no critical force.
+        // `squama run` reports failed designs: upright scales that are pushed straight down have no
+        // critical force.
         let code = i32::from(arguments[0] == "run");
         let output = place.squama_with(&arguments).assert().code(code).get_output().stdout.clone();
         printed.push_str(&String::from_utf8_lossy(&output));
@@ -182,7 +183,7 @@ fn output_of_commands(place: &Place, blocks: &[&str]) -> String {
     printed
 }
 
-/// Compares the skins with the largest critical force and the largest failure force.
+/// Compares the 20 skins with the largest critical force with the 20 with the largest failure force.
 fn assert_strongest_skins(place: &Place, page: &str) {
     let table = place.read("results/first-failure/designs.csv");
     let modes = cells(&table, "first_failure");
@@ -210,7 +211,7 @@ fn assert_strongest_skins(place: &Place, page: &str) {
     assert!(page.contains(&format!("{median:.1} %")), "{median}");
 }
 
-/// Compares the number of skins by first failure, slant and width.
+/// Compares the table of numbers of skins by first failure, slant and width with the results.
 fn assert_first_failures_by_slant(place: &Place, page: &str) {
     for (folder, title) in [("first-failure", "width `t`"), ("wide", "width `3 t`")] {
         let table = place.read(&format!("results/{folder}/designs.csv"));

@@ -1,4 +1,4 @@
-//! First steps with the program alone: definitions, completions, manual pages, version.
+//! Commands that need no files: templates of definitions, completions, manual pages, version.
 
 use crate::Place;
 
@@ -83,11 +83,11 @@ fn manual_pages_are_written_for_every_command() {
 }
 
 #[test]
-fn the_version_has_a_revision() {
+fn the_version_states_the_source_revision() {
     let text = Place::new().prints("--version");
     let revision = text.trim_end().rsplit_once(" (").expect("a revision").1;
     let revision = revision.trim_end_matches(')');
-    // Sources that differ from the commit have an additional hash.
+    // If the sources differ from the commit, the revision also contains a hash of the sources.
     let (commit, changes) = revision.split_once("-dirty-").unwrap_or((revision, ""));
     let is_hash = commit.chars().chain(changes.chars()).all(|c| c.is_ascii_hexdigit());
     let is_named = commit.len() == 12 && is_hash;

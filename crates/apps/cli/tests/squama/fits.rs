@@ -1,4 +1,4 @@
-//! Measured curves: overlaid on solved curves, and fitted.
+//! Overlays measured curves on solved curves, and fits parameters to them.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -21,7 +21,7 @@ fn measured_curves_are_overlaid_in_their_units() {
     assert!(!figure.contains("dimensionless"), "{figure}");
     let measured = figure.split("class=\"measured\"").nth(1).expect("a curve");
     assert!(measured.split("/>").next().is_some_and(|line| line.contains("stroke=\"#000\"")));
-    // If one column is dimensionless, the other one is dimensionless, too.
+    // A file with dimensionless columns makes the axes of its figure dimensionless.
     fs::write(place.path("c.csv"), "displacement,force\n0,0\n0.1,0.4\n").expect("writable");
     place.prints("plot curves x.toml --design 1 --measured c.csv --out o");
     assert!(place.read(name).contains("dimensionless"));
@@ -54,7 +54,7 @@ fn incompatible_measured_curves_are_rejected() {
     assert!(!place.path("o").exists());
 }
 
-/// Returns the folder of the example.
+/// Returns the path of the example definition of a fit.
 fn example() -> std::path::PathBuf {
     std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../sweeps/fit/palm.toml")
 }
@@ -66,7 +66,7 @@ fn the_fit_of_the_example_writes_a_valid_definition() {
     for word in ["palm-test: 4 unknowns from 120 points of 3 curves", "95 % interval", "noise"] {
         assert!(text.contains(word), "{text}");
     }
-    // No estimate is at a bound, undetermined, or worse than the noise.
+    // No warning: no estimate is at a bound or undetermined, and no residuals are correlated.
     assert!(!text.contains("(!)"), "{text}");
     assert_eq!(
         place.list("f"),
@@ -77,13 +77,12 @@ fn the_fit_of_the_example_writes_a_valid_definition() {
     for (row, truth) in table.lines().skip(1).zip(truth) {
         let numbers: Vec<f64> = row.split(',').filter_map(|cell| cell.parse().ok()).collect();
         let [value, low, high] = [numbers[0], numbers[1], numbers[2]];
-        // The curves are one random sample: the true values are close, but not within every
-        // interval.
+        // The curves contain random noise, so not every interval contains the true value.
         assert!((value - truth).abs() < 1.5 * (high - low), "{row}");
     }
     assert_eq!(place.read("f/residuals.csv").lines().count(), 121);
     place.prints("design f/fitted.toml --design 1 --out d");
-    // A foreign file is not replaced.
+    // A file that squama did not write is not replaced.
     fs::create_dir(place.path("g")).expect("a folder");
     fs::write(place.path("g/fit.csv"), "mine").expect("writable");
     let refused = place.refused(&format!("fit {} --out g", example().display()));
@@ -105,7 +104,9 @@ fn undetermined_parameters_give_exit_code_1() {
     assert!(place.path("results/palm/fit/fit.csv").exists());
 }
 
-/// Fits `x.toml` to a file `a.csv`, and returns the output.
+/// Writes `file` to `a.csv`, runs `squama fit x.toml`, and returns its output.
+///
+/// `exit` is the expected exit code.
 fn fitted(place: &Place, file: &str, exit: i32) -> String {
     fs::write(place.path("a.csv"), file).expect("writable");
     let assert = place.squama("fit x.toml").assert().code(exit);
@@ -128,14 +129,15 @@ fn doubtful_fits_are_reported() {
     );
     let wave = (1..60).map(|k| format!("{k},{}", 2 * k + 20 * (k / 10 % 2)));
     let wave = wave.collect::<Vec<_>>().join("\n");
-    // So few residuals are independent that the curve excludes no modulus.
+    // Exit code 1: so few of the correlated residuals are independent that the curve excludes no
+    // modulus.
     let text = fitted(&place, &format!("displacement_um,force_mN\n{wave}"), 1);
     assert!(text.contains("(!) a.csv: neighbouring residuals are correlated (0."), "{text}");
     let text = fitted(&place, "displacement,force\n0.1,0.2\n0.2,0.4\n0.3,0.6\n", 1);
     assert!(text.contains("displacement and force have no units in the file"), "{text}");
 }
 
-/// The zero of the displacement is at contact, or `offsets` fits it.
+/// The model needs a displacement that is zero at contact; otherwise `offsets` fits the zero.
 #[test]
 fn an_approach_is_reported_with_its_last_line() {
     let skin = SKIN.replace("substrate_modulus_MPa = 0.5\n", "");
@@ -151,23 +153,26 @@ fn an_approach_is_reported_with_its_last_line() {
     let text = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
     let approach = "a.csv: the force does not rise up to line 22, at the displacement 0.1";
     assert!(text.contains(&format!("(!) {approach}")), "{text}");
-    assert!(text.contains("offsets = [\"displacement\"] in [[curve]] fits its end"), "{text}");
+    assert!(
+        text.contains("offsets = [\"displacement\"] in [[curve]] fits the point of contact"),
+        "{text}"
+    );
     let offset = place.read("x.toml") + "offsets = ['displacement']\n";
     fs::write(place.path("x.toml"), offset).expect("writable");
     let text = place.prints("fit x.toml");
     assert!(text.contains(&format!("\n  {approach}")), "{text}");
-    // Without an approach, nothing is reported.
+    // A curve that begins at contact gives no such message.
     let points = (1..40).map(|k| 0.005 * f64::from(k)).map(|x| format!("{x},{}\n", SLOPE * x));
     let file = format!("displacement_mm,force_N\n{}", points.collect::<String>());
     fs::write(place.path("a.csv"), file).expect("writable");
     let text = place.prints("fit x.toml");
     assert!(!text.contains("does not rise"), "{text}");
-    // The same command may replace its own files.
+    // The command may replace its own files, so it can run again.
     let record = place.prints("fit x.toml --json");
     assert!(serde_json::from_str::<serde_json::Value>(&record).is_ok(), "{record}");
 }
 
-/// Stiffness before contact in newtons per millimetre, for a modulus of 0.5.
+/// Stiffness before contact in N/mm, for a substrate modulus of 0.5 `MPa`.
 const SLOPE: f64 = 0.0583;
 
 #[test]
@@ -196,7 +201,7 @@ fn the_scatter_of_specimens_becomes_a_tolerance() {
     assert!(text.contains("mean of a.csv, specimen A, a.csv, specimen B"), "{text}");
     assert_eq!(place.read("f/mean_curves.csv").lines().count(), 61);
     place.prints("tolerance f/fitted.toml --design 1 --samples 4 --out t");
-    // The figure shows the mean of the specimens, and the message the line that is left out.
+    // The figure shows the mean of the specimens, and a message names the omitted line.
     let mut assert = place.squama("plot curves f/fitted.toml --design 1 --measured a.csv --out o");
     let assert = assert.assert().success();
     let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
@@ -216,7 +221,7 @@ fn the_protocol_of_two_blocks_recovers_modulus_and_friction() {
     let single = format!("{single}\n[contact]\nfriction = 0.2\n");
     fs::write(place.path("x.toml"), single).expect("writable");
     place.prints("design x.toml --design 1 --set solver.max_step=0.02 --out d");
-    // The unit of the force is E_s L t/(1 - nu^2).
+    // The unit of the dimensionless force is E_s L t/(1 - nu^2).
     let (length, force) = (10.0, 0.31 * 100.0 / 0.75);
     let mut curve = "displacement_mm,force_N\n".to_owned();
     for line in place.read("d/path.csv").lines().skip(1) {

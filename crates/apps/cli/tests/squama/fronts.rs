@@ -1,4 +1,4 @@
-//! Designs found by a search, on the page of a sweep.
+//! The option `--front` shows designs of a search in the report of a sweep.
 
 use crate::Place;
 use crate::table::cell;
@@ -9,7 +9,7 @@ const GOAL: &str = "name = 'goal'\nmeasures = 'coverage'\n[variables]\ngap_over_
                     slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\nwidth_over_t = 2\n[goal]\nsamples = 32\n\
                     points = 4\nrequire = 'slant_deg <= 50'\n";
 
-/// Returns the data of the page of the grid, with the designs of a search for `objectives`.
+/// Searches for `objectives`, and returns the report of the grid with the designs of the search.
 fn page(place: &Place, objectives: &str) -> String {
     std::fs::write(place.path("goal.toml"), format!("{GOAL}{objectives}\n")).expect("writable");
     place.squama("optimise goal.toml --out found --fresh").assert().code(0);
@@ -17,6 +17,7 @@ fn page(place: &Place, objectives: &str) -> String {
     place.read("grid/report.html")
 }
 
+/// Returns a folder with the results of the sweep in `grid`.
 fn grid() -> Place {
     let place = Place::with(GRID);
     place.squama("run x.toml --out grid --quiet").assert().code(0);
@@ -24,7 +25,7 @@ fn grid() -> Place {
 }
 
 #[test]
-fn fronts_are_shown_over_the_designs_of_the_grid() {
+fn a_front_is_shown_with_the_designs_of_the_grid() {
     let html = page(&grid(), "maximize = ['coverage', 'gap_over_t']");
     let (_, found) = html.split_once("\"found\":{").expect("a front");
     let (found, _) = found.split_once("\"values\"").expect("its designs");
@@ -35,7 +36,7 @@ fn fronts_are_shown_over_the_designs_of_the_grid() {
         "{found}"
     );
     assert!(html.contains("\"variables\":[\"gap_over_t\",\"slant_deg\"]"));
-    // Different fixed parameters are reported; variables are not.
+    // The page reports fixed parameters that differ from the grid, but not variables.
     assert!(found.contains("\"differences\":[\"scale.width_over_t 2 instead of 1\"]"), "{found}");
 }
 
@@ -58,7 +59,7 @@ fn designs_of_a_front_are_selected_by_number() {
     );
     let drawing = place.read("found/drawings/design-0004-puncture-at-critical-tilt.svg");
     assert!(drawing.contains(" width=\"85mm\" height=\""));
-    // Letters scale with the width, so half the letter size takes half the width.
+    // The size of letters is proportional to the width, so half the size gives half the width.
     let [large, small] = ["8", "4"].map(|size| -> f64 {
         place.prints(&format!("draw found --design 2 --font-size {size} --set puncture.scales=3"));
         let drawing = place.read("found/drawings/design-0002-puncture-at-critical-tilt.svg");

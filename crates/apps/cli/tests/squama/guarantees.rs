@@ -1,4 +1,6 @@
-//! The guarantees of results also hold for searches, analyses, rankings and comparisons.
+//! Guarantees for the files of runs, searches, analyses, rankings and other commands.
+//!
+//! No command overwrites files of another origin, and readers detect changed files.
 
 use std::fs;
 use std::path::Path;
@@ -6,15 +8,15 @@ use std::time::Duration;
 
 use crate::{FEW, Place};
 
-/// A sweep that needs no mechanics, with deviations.
+/// A sweep with tolerances that measures only coverage, which is quick to compute.
 const COVERED: &str = "name = 'covered'\nmeasures = 'coverage'\n[designs]\ngap_over_t = [0.1, 0.3]\nlength_over_t = 1\n\
     slant_deg = [30, 45]\n[tolerance]\ngap_over_t = { batch_sd = 0.01 }\n";
 
-/// The same sweep with variables and a goal.
+/// A goal that measures only coverage.
 const GOAL: &str = "name = 'goal'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
     slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n[goal]\nmaximize = 'coverage'\nsamples = 16\n";
 
-/// The commands that write tables to the folder `out`, each with one of its files.
+/// Commands that write tables to the folder `out`, each with the name of one of its files.
 const WRITERS: [(&str, &str); 9] = [
     ("optimise my/goal.toml --out out", "goal.toml"),
     ("optimise my/goal.toml --out out --fresh", "optimum.csv"),
@@ -27,7 +29,7 @@ const WRITERS: [(&str, &str); 9] = [
     ("design x.toml --design 1 --out out", "measures.csv"),
 ];
 
-/// Returns a place with a sweep, its results in `r`, and a goal.
+/// Returns a folder with a sweep, its results in `r`, a goal, and a definition with variables.
 fn place() -> Place {
     let place = Place::with(COVERED);
     fs::create_dir(place.path("my")).expect("a folder");
@@ -39,7 +41,7 @@ fn place() -> Place {
 }
 
 #[test]
-fn no_command_overwrites_a_foreign_file() {
+fn no_command_overwrites_tables_that_squama_did_not_write() {
     for (command, file) in WRITERS {
         let place = place();
         fs::create_dir(place.path("out")).expect("a folder");
@@ -48,7 +50,7 @@ fn no_command_overwrites_a_foreign_file() {
         let message = place.refused(command);
         assert!(message.starts_with(&format!("error: {file}: cannot be written")), "{message}");
         assert_eq!(place.read(&file), "mine", "{command}");
-        // The command may overwrite its own file.
+        // The command may overwrite files that it wrote itself.
         fs::remove_file(place.path(&file)).expect("a file");
         for _ in 0..2 {
             let again = command.replace("--out out", "--out again").replace("--fresh", "");
@@ -60,7 +62,7 @@ fn no_command_overwrites_a_foreign_file() {
 }
 
 #[test]
-fn obsolete_tables_are_removed_and_foreign_ones_kept() {
+fn obsolete_tables_are_removed_but_files_of_the_user_are_kept() {
     let place = place();
     place.prints("tolerance x.toml --samples 4 --require coverage>=0.1 --out out");
     assert!(place.list("out").contains("yield.csv"));
@@ -122,7 +124,8 @@ fn a_changed_analysis_or_optimum_is_detected_and_repaired() {
         assert_eq!(place.read(file), sound);
         place.prints(reader);
     }
-    // A modified table is not accepted as a table of the next analysis, which does not write it.
+    // The next analysis has no requirements and writes no `yield.csv`. A `yield.csv` of the user is
+    // kept, but not accepted as a table of this analysis.
     fs::write(place.path("made/yield.csv"), "mine").expect("writable");
     place.prints("tolerance x.toml --samples 4 --out made");
     let message = place.refused("export made --xlsx x.xlsx");
@@ -131,7 +134,7 @@ fn a_changed_analysis_or_optimum_is_detected_and_repaired() {
 }
 
 #[test]
-fn a_foreign_record_removes_nothing_outside_its_folder() {
+fn a_forged_record_removes_nothing_outside_its_folder() {
     let place = place();
     let record = "product = 'p'\ncommand = 'c'\nfrom = ''\n[files]\n'../mine.txt' = ''\n";
     fs::write(place.path("mine.txt"), "mine").expect("writable");
@@ -143,7 +146,7 @@ fn a_foreign_record_removes_nothing_outside_its_folder() {
     assert_eq!(place.list("r/derived"), "notes.txt");
 }
 
-/// Returns the journals of the samples in the folder `out`.
+/// Returns the texts of the journals of samples in the folder `out`.
 fn sample_journals(place: &Place) -> Vec<String> {
     let names = place.list("out/samples");
     let names = names.split(' ').filter(|name| name.contains(".jsonl"));
@@ -156,11 +159,11 @@ fn samples_of_each_definition_are_kept() {
     let tolerance = "tolerance x.toml --samples 20 --design 1 --out out";
     place.prints(tolerance);
     let [first] = sample_journals(&place).try_into().expect("one journal");
-    // A foreign file, or a file of an earlier version of squama.
+    // A table of the user, or of an earlier version of squama, is kept as well.
     fs::write(place.path("out/samples/0001.csv"), "mine").expect("writable");
     place.prints(&format!("{tolerance} --set designs.length_over_t=2"));
     assert_eq!(sample_journals(&place).len(), 2);
-    assert_eq!(place.list("out/samples").matches(".csv").count(), 3, "a table for each");
+    assert_eq!(place.list("out/samples").matches(".csv").count(), 3, "two tables of squama");
     assert_eq!(place.read("out/samples/0001.csv"), "mine");
     place.prints(tolerance);
     assert!(sample_journals(&place).contains(&first), "nothing is solved again");
@@ -202,7 +205,7 @@ fn partial_files_of_a_killed_process_are_removed() {
     }
 }
 
-/// Commands that write files outside of the records of a results folder, with these files.
+/// Commands that write files for the user, such as drawings and pages, with the names of the files.
 const FILE_WRITERS: [(&str, &[&str]); 12] = [
     ("make m.toml --design 1 --out out/s.3mf", &["s.3mf", "s.parts.txt"]),
     ("make m.toml --design 1 --out out/s.stl", &["s.stl", "s.parts.txt"]),
@@ -228,7 +231,7 @@ fn files_that_squama_did_not_write_are_never_replaced() {
     fs::write(place.path("m.toml"), material).expect("writable");
     for (command, files) in FILE_WRITERS {
         fs::create_dir_all(place.path("out/slurm")).expect("a folder");
-        // A command replaces its own files.
+        // Run the command twice, because it must replace its own files.
         for _ in 0..2 {
             place.squama(command).assert().code(0);
         }
@@ -247,7 +250,7 @@ fn files_that_squama_did_not_write_are_never_replaced() {
     }
 }
 
-/// Returns the CSV files in a folder and its subfolders.
+/// Returns the paths of the CSV files in a folder and its subfolders.
 fn tables_below(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
     let mut tables = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
@@ -330,6 +333,7 @@ fn endless_inputs_are_rejected() {
     }
 }
 
+/// Creates a named pipe at `path`.
 fn make_pipe(path: &Path) {
     let made = std::process::Command::new("mkfifo").arg(path).status();
     assert!(made.expect("mkfifo").success());

@@ -1,4 +1,4 @@
-//! `--png` writes images of drawings, if squama is built with that feature.
+//! The option `--png` writes images of drawings if squama is built with the feature `png`.
 
 use crate::{FEW, Place};
 
@@ -24,5 +24,5 @@ fn each_drawing_has_an_image() {
 fn builds_without_images_explain_how_to_enable_them() {
     let place = Place::with(FEW);
     insta::assert_snapshot!(place.refused(DRAW), @"error: --png: this squama was built without images; build it with them: cargo run --release --features png -- followed by the same arguments");
-    assert_eq!(place.list("y"), "", "nothing is written");
+    assert_eq!(place.list("y"), "", "no file is written");
 }

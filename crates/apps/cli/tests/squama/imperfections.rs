@@ -1,9 +1,9 @@
-//! Sweeps with imperfect samples give the same values however they are run.
+//! Sweeps with imperfect samples draw the same samples in any run of the same designs.
 
 use crate::Place;
 use crate::table::cell;
 
-/// Few designs, few samples.
+/// A sweep of four designs with four imperfect samples each.
 const UNEVEN: &str = "name = 'uneven'\n[designs]\nlength_over_t = [0.5, 1]\nslant_deg = 45\n\
                       gap_cv = [0, 0.1]\n[imperfection]\nslant_sd_deg = 0.5\nsamples = 4\n\
                       [flexure]\nmembrane_length_over_t = 20\n";
@@ -24,7 +24,7 @@ fn threads_shards_and_subsets_draw_the_same_samples() {
     let (all, some) = (place.read("one/designs.csv"), place.read("some/designs.csv"));
     assert_eq!(some.lines().count(), 4);
     assert!(some.lines().all(|row| all.lines().any(|other| other == row)));
-    // A sweep of one of these designs has another grid, but the same samples.
+    // A sweep that consists of one of these designs draws the same samples.
     place
         .squama("run x.toml -q --out alone --set designs.gap_cv=0.1 --set designs.length_over_t=1")
         .assert()
@@ -39,7 +39,7 @@ fn threads_shards_and_subsets_draw_the_same_samples() {
 }
 
 #[test]
-fn nominal_values_stay_and_another_seed_gives_other_samples() {
+fn another_seed_changes_the_samples_but_not_the_nominal_values() {
     let place = Place::with(UNEVEN);
     place.squama("run x.toml -q --out first --set designs.length_over_t=1").assert().code(0);
     place

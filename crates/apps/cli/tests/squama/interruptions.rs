@@ -1,6 +1,6 @@
-//! A run that is killed, interrupted, or meets a full disk loses no completed design.
+//! A run loses no completed design if it is killed or interrupted, or if the disk is full.
 //!
-//! After `--resume`, its tables are identical to the tables of an uninterrupted run.
+//! After `--resume`, the tables are identical to the tables of an uninterrupted run.
 
 use std::path::Path;
 use std::time::Duration;
@@ -9,19 +9,20 @@ use crate::process::Running;
 use crate::runs::TABLES;
 use crate::{FEW, Place};
 
-/// Designs that take some time.
+/// A sweep of 54 designs, which takes long enough to be interrupted.
 pub const MANY: &str = "name = 'many'\n[designs]\ngap_over_t = [0.1, 0.2, 0.4]\n\
                     length_over_t = [0.1, 0.3, 1]\nslant_deg = { from = 0, to = 75, step = 15 }\n\
                     [puncture]\nscales = 61\n";
 
 impl Place {
+    /// Starts `squama` in this folder.
     fn spawn(&self, arguments: &str) -> Running {
         Running::spawn(&self.path(""), arguments)
     }
 
-    /// Runs `arguments` and kills the process `delay` after `file` has at least `lines` lines.
+    /// Runs `squama` and kills the process `delay` after `file` has at least `lines` lines.
     ///
-    /// Returns false if the process had ended before.
+    /// Returns true if the process was killed, false if it ended by itself before.
     pub fn kill_at(&self, arguments: &str, file: &str, lines: usize, delay: Duration) -> bool {
         let mut run = self.spawn(arguments);
         while self.lines(file) < lines {
@@ -32,10 +33,12 @@ impl Place {
         run.end_within(delay).is_none() && run.kill().code().is_none()
     }
 
+    /// Returns the number of lines of a file; 0 if the file does not exist.
     pub fn lines(&self, file: &str) -> usize {
         std::fs::read_to_string(self.path(file)).map_or(0, |text| text.lines().count())
     }
 
+    /// Asserts that the results folders `one` and `other` have identical tables.
     pub fn assert_same_tables(&self, one: &str, other: &str) {
         for table in TABLES {
             let [one, other] = [one, other].map(|folder| self.read(&format!("{folder}/{table}")));
@@ -45,7 +48,7 @@ impl Place {
 }
 
 #[test]
-fn a_torn_last_line_is_solved_again() {
+fn the_design_on_a_truncated_last_line_is_solved_again() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out a").assert().code(0);
     let journal = place.read("a/journal.jsonl");
@@ -82,7 +85,7 @@ fn results_are_not_overwritten_without_fresh() {
 }
 
 #[test]
-fn foreign_files_are_not_touched() {
+fn files_of_other_programs_are_not_overwritten() {
     let names = ["run.toml", "failures.csv", "penetration.csv", "reruns.csv", "contents.toml"];
     for name in names {
         let place = Place::with(FEW);
@@ -97,16 +100,16 @@ fn foreign_files_are_not_touched() {
         assert_eq!(place.list("r"), name);
         assert_eq!(place.read(&format!("r/{name}")), "a stranger's");
     }
-    // A foreign journal, and tables that the user did not ask to replace.
+    // A file with the name of the journal, which squama did not write, is not overwritten either.
     let place = Place::with(FEW);
     std::fs::create_dir(place.path("r")).expect("a folder");
     std::fs::write(place.path("r/journal.jsonl"), "{\"a\": 1}").expect("writable");
-    insta::assert_snapshot!(place.refused("run x.toml --out r"), @"error: r/journal.jsonl:1: not the first line of a journal (it does not begin with a checksum); restore it, or use --fresh to discard everything");
+    insta::assert_snapshot!(place.refused("run x.toml --out r"), @"error: r/journal.jsonl:1: not the first line of a journal (it does not begin with a checksum); restore the line, or use --fresh to discard all results");
     assert_eq!(place.read("r/journal.jsonl"), "{\"a\": 1}");
 }
 
 #[test]
-fn many_zeros_are_rejected_as_a_journal() {
+fn a_file_of_zeros_is_rejected_as_a_journal() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let journal = place.read("r/journal.jsonl");
@@ -116,7 +119,7 @@ fn many_zeros_are_rejected_as_a_journal() {
         let message = place.refused(command);
         assert!(message.contains("not the first line of a journal"), "{message}");
     }
-    // After valid lines, zeros are a damaged tail.
+    // Zeros after valid lines are treated as a damaged end of the journal.
     add_zeros(&place.path("r/journal.jsonl"));
     let status = place.squama("status r").assert().code(1).get_output().stdout.clone();
     assert!(String::from_utf8_lossy(&status).contains("done        8\n"));
@@ -124,7 +127,7 @@ fn many_zeros_are_rejected_as_a_journal() {
     place.prints("status r");
 }
 
-/// Appends 256 MiB of zeros, in a sparse file that takes no space on the disk.
+/// Appends 256 MiB of zeros to a file; the file is sparse, so the zeros take no disk space.
 fn add_zeros(path: &Path) {
     let file = std::fs::OpenOptions::new().append(true).create(true).open(path).expect("writable");
     file.set_len(file.metadata().expect("a file").len() + (1 << 28)).expect("a hole");
@@ -178,16 +181,17 @@ mod signals {
             run.send(signal);
             run.send(signal);
             assert_eq!(run.end().code(), Some(code));
-            assert!(place.path("results/many/contents.toml").exists(), "all is written");
+            assert!(place.path("results/many/contents.toml").exists(), "all tables are written");
             let journal = place.lines("results/many/journal.jsonl");
             let rows = place.lines("results/many/designs.csv");
-            assert_eq!(rows, journal - 1, "a header and a session; a header");
+            // The journal begins with a header and a session, the table with a header.
+            assert_eq!(rows, journal - 1, "the table has every design of the journal");
             assert!((3..54).contains(&rows), "{rows}");
         }
     }
 
     #[test]
-    fn a_first_signal_is_acknowledged() {
+    fn the_first_signal_prints_a_message() {
         let place = Place::with(ENDLESS);
         let mut run = place.spawn("run x.toml --threads 1");
         run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
@@ -196,7 +200,8 @@ mod signals {
         run.until_said(word);
         assert_eq!(run.end().code(), Some(130));
 
-        // The analysis solves the designs in the order of their numbers.
+        // Unlike a run, `squama tolerance` begins with the first design, so make the first one
+        // quick.
         let place = Place::with(&ENDLESS.replace("[10001, 1]", "[1, 10001]"));
         let mut tolerance = place.spawn(
             "tolerance x.toml --samples 2 --threads 1 --set tolerance.slant_deg={batch_sd=1}",
@@ -223,25 +228,27 @@ mod signals {
         search.until_said("a design of the search: ");
     }
 
-    /// Ten thousand steps of ten thousand scales, which take minutes, and of one scale.
+    /// A sweep of a slow design with 10,001 scales, which takes minutes, and a quick one with one.
     ///
-    /// A run begins in the middle of the grid, so it solves the quick second design first.
-    /// On a nonlinear substrate all scales are part of the system.
+    /// Both take ten thousand steps. A run begins in the middle of the grid, so it solves the quick
+    /// second design first. The substrate is nonlinear, because then the system of equations
+    /// contains all scales.
     const ENDLESS: &str = "name = 'endless'\nmeasures = ['puncture']\n[designs]\ngap_over_t = 0.1\n\
                            length_over_t = 1\nslant_deg = 0\nscales = [10001, 1]\n\
                            [substrate]\nlaw = 'neo-hookean'\n[solver]\nmax_step = 1e-4\nfirst_step = 1e-4\n";
 
-    /// A design takes minutes, but an interrupted one counts as not solved, not as failed.
+    /// An interrupted design counts as not solved, not as failed.
     #[test]
     fn a_first_signal_ends_the_design_in_progress() {
         let place = Place::with(ENDLESS);
         let mut run = place.spawn("run x.toml -q --threads 1");
-        // After the header, the session and the second design, the first design is in progress.
+        // The three lines are the header, the session and the second design; now the first design
+        // is in progress.
         run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
-        // Like `timeout`: one signal to the process, one to its group.
+        // Send two signals, as the program `timeout` does: to the process and to its group.
         run.send(SIGTERM);
         run.send(SIGTERM);
-        let ended = run.end_within(Duration::from_secs(10)).expect("it ends the design");
+        let ended = run.end_within(Duration::from_secs(10)).expect("the run ends");
         assert_eq!(ended.code(), Some(143));
         assert_eq!(place.lines("results/endless/journal.jsonl"), 3);
         assert_eq!(place.lines("results/endless/designs.csv"), 2, "a header and one design");
@@ -254,7 +261,7 @@ mod signals {
         let mut search = place.spawn("optimise goal.toml --out search");
         search.until_said("a design of the search: ");
         search.send(SIGTERM);
-        let ended = search.end_within(Duration::from_secs(10)).expect("it ends the design");
+        let ended = search.end_within(Duration::from_secs(10)).expect("the search ends");
         assert_eq!(ended.code(), Some(143));
         let journal = place.read("search/evaluations.jsonl");
         assert!(!journal.contains("internal"), "{journal}");
@@ -276,7 +283,7 @@ mod signals {
             assert_eq!(export.end().code(), Some(128 + signal));
             assert!(!partial(), "{}", place.list("r"));
         }
-        // The next run removes partial files of a killed process.
+        // A killed process leaves a partial file, which the next run removes.
         let mut export = place.spawn("export r --xlsx r/x.xlsx");
         export.until(partial);
         export.kill();
@@ -296,7 +303,7 @@ mod signals {
             ["run x.toml --out r", "status r", "merge r --out all", "rerun r --failed", "rank r"]
         {
             let mut squama = place.spawn(command);
-            let code = squama.end_within(Duration::from_secs(20)).expect("it does not hang").code();
+            let code = squama.end_within(Duration::from_secs(20)).expect("squama ends").code();
             assert_eq!(code, Some(2), "{command}");
         }
         insta::assert_snapshot!(place.refused("run x.toml --fresh --out r"), @"error: r/journal.jsonl: is not a regular file, expected a journal that squama writes");
@@ -306,8 +313,8 @@ mod signals {
     fn runs_can_be_resumed_after_a_full_disk() {
         let place = Place::with(MANY);
         place.squama("run x.toml -q --out whole").assert().code(0);
-        // Each limit cuts the journal (70 kB) at another line. Tables are smaller than the journal, so
-        // a limit on the file size cannot cut them.
+        // Each limit truncates the journal (70 kB) at another line. A limit on the file size cannot
+        // truncate tables, which are smaller than the journal.
         for blocks in [5, 8, 15] {
             let out = format!("out{blocks}");
             let run = format!("run x.toml -q --out {out}");
@@ -327,7 +334,7 @@ fn fail_fast_ends_a_run_at_the_first_failure() {
     let run = "run x.toml -q --threads 1 --set solver.max_points=3";
     place.squama(&format!("{run} --fail-fast")).assert().code(1);
     let done = place.lines("results/many/designs.csv") - 1;
-    // `done` counts the designs that one thread solved before the first failure was recorded.
+    // The run solves some designs before the first failure, but not all 54.
     assert!((1..27).contains(&done), "{done}");
     place.squama(&format!("{run} --resume")).assert().code(1);
     assert_eq!(place.lines("results/many/failures.csv"), 1 + 2 * 54);

@@ -1,4 +1,4 @@
-//! JSON output of commands.
+//! The JSON output of commands.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use crate::table::cell;
 use crate::{FEW, Place};
 
 impl Place {
-    /// Returns the JSON that `squama` prints.
+    /// Runs `squama`, which must succeed, and returns the JSON that it prints.
     fn json(&self, arguments: &str) -> Value {
         serde_json::from_str(&self.prints(arguments)).expect("JSON")
     }

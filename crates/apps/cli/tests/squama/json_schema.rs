@@ -1,29 +1,31 @@
-//! Validation against the part of JSON Schema (draft 7) that `squama schema` uses.
+//! Validates JSON against the part of JSON Schema (draft 7) that `squama schema` uses.
 //!
-//! Published validators bring dozens of dependencies into every build. `scripts/check-python` runs
-//! one of them, taplo, on all definitions under `sweeps/`.
+//! A published validator would add dozens of dependencies to every build. `scripts/check-python`
+//! runs the published validator taplo on all definitions under `sweeps/`.
 
 use serde_json::{Map, Value};
 
-/// Returns why `value` does not conform to `schema`.
+/// Returns a message that states why `value` does not conform to `schema`; `None` if it conforms.
 ///
 /// # Panics
-/// If the schema has a keyword that is not known here.
+/// If the schema has a keyword that this validator does not know.
 pub fn mismatch(schema: &Value, value: &Value) -> Option<String> {
     let (keyword, expected) = violated(schema, value)?;
     Some(format!("{value} violates {keyword} {expected}"))
 }
 
-/// Returns the first keyword that `value` violates, with its value in the schema.
+/// Returns the first keyword of `schema` that `value` violates, with the value of the keyword.
 ///
 /// # Panics
-/// If the schema has a keyword that is not known here.
+/// If the schema has a keyword that this validator does not know.
 pub fn violated<'s>(schema: &'s Value, value: &Value) -> Option<(&'s String, &'s Value)> {
     let Value::Object(keywords) = schema else { panic!("no schema: {schema}") };
     keywords.iter().find(|(keyword, expected)| !conforms(keywords, keyword, expected, value))
 }
 
-/// Returns whether `value` conforms to one keyword of a schema.
+/// Returns true if `value` conforms to one keyword of a schema.
+///
+/// `expected` is the value of this keyword, `keywords` the whole schema.
 fn conforms(keywords: &Map<String, Value>, keyword: &str, expected: &Value, value: &Value) -> bool {
     match keyword {
         "$schema" | "title" | "description" | "default" => true,
@@ -68,7 +70,7 @@ fn conforms(keywords: &Map<String, Value>, keyword: &str, expected: &Value, valu
     }
 }
 
-/// Returns whether the fields that `properties` does not name conform to `expected`.
+/// Returns true if all fields that `properties` does not name conform to `additionalProperties`.
 fn others_conform(
     keywords: &Map<String, Value>,
     expected: &Value,
@@ -83,6 +85,7 @@ fn others_conform(
     })
 }
 
+/// Returns true if `value` has the type that `expected` names.
 fn has_type(expected: &Value, value: &Value) -> bool {
     match expected.as_str().expect("one type") {
         "object" => value.is_object(),
@@ -90,13 +93,13 @@ fn has_type(expected: &Value, value: &Value) -> bool {
         "string" => value.is_string(),
         "boolean" => value.is_boolean(),
         "number" => value.is_number(),
-        // 21.0 is an integer, too.
+        // In JSON Schema, 21.0 is an integer, too.
         "integer" => value.as_f64().is_some_and(|number| number.fract() == 0.0),
         other => panic!("unknown type {other} of a schema"),
     }
 }
 
-/// Compares values; numbers are equal if their values are, as 1 and 1.0.
+/// Returns true if two JSON values are equal; 1 equals 1.0.
 fn is_equal(one: &Value, other: &Value) -> bool {
     match (one, other) {
         (Value::Array(one), Value::Array(other)) => {
@@ -107,13 +110,14 @@ fn is_equal(one: &Value, other: &Value) -> bool {
     }
 }
 
-/// Matches a list of words in any case, such as `^([Pp][Ll][Aa]|[Tt][Pp][Uu])$`.
+/// Returns true if `text` is a word of `pattern`, in upper or lower case.
+///
+/// The pattern is a list of words such as `^([Pp][Ll][Aa]|[Tt][Pp][Uu])$`.
 fn matches(pattern: &Value, text: &str) -> bool {
     let pattern = pattern.as_str().expect("a pattern");
     let words = pattern.strip_prefix("^(").and_then(|rest| rest.strip_suffix(")$"));
     words.expect("a list of words").split('|').any(|word| {
-        // The pattern has a pair of brackets for each letter, with its upper and lower case; a
-        // blank has no brackets.
+        // Each letter of a word is a bracket with its upper and lower case; a blank has no bracket.
         let letters: String =
             word.split(['[', ']']).filter_map(|class| class.chars().last()).collect();
         letters == text.to_lowercase()

@@ -1,6 +1,6 @@
-//! Runs that are killed at random moments, some several times.
+//! Kills runs at random moments, some runs several times, and resumes them.
 //!
-//! Each resumes to the tables of an undisturbed run, for any number of threads and shards.
+//! The tables must equal the tables of an undisturbed run, for any number of threads and shards.
 
 use std::time::Duration;
 
@@ -19,27 +19,28 @@ const DESIGNS: &str = "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.3, 0.5, 1]\n\
 /// Counts of killed processes.
 #[derive(Debug, Default)]
 struct Kills {
-    /// Killed before completion.
+    /// Number of processes killed before they completed.
     all: usize,
-    /// Killed with some designs in the journal, but not all.
+    /// Number of processes killed with at least one design in the journal.
     midway: usize,
-    /// Runs that were killed more than once.
+    /// Number of runs that were killed more than once.
     repeated: usize,
 }
 
+/// A series of runs that are killed.
 struct Campaign {
     place: Place,
     random: ChaCha8Rng,
-    /// Lines of the journal of an undisturbed run.
+    /// Number of lines of the journal of an undisturbed run.
     lines: usize,
     kills: Kills,
 }
 
 impl Campaign {
-    /// Kills `arguments`, which writes to `folder`, up to `times` times, then lets it complete.
+    /// Runs a command that writes to `folder`, kills it up to `times` times, then completes it.
     ///
-    /// Each process is killed up to 10 ms after its journal has a random number of lines, at most
-    /// `most`. A delay from the start of the process would depend on the load of the machine.
+    /// A process is killed up to 10 ms after its journal has a random number of lines, at most
+    /// `most`. A random time after the start of the process would depend on the load of the machine.
     fn survive(&mut self, arguments: &str, folder: &str, times: usize, most: usize) {
         let before = self.kills.all;
         let journal = format!("{folder}/journal.jsonl");
@@ -55,7 +56,7 @@ impl Campaign {
         self.place.squama(arguments).assert().code(1);
     }
 
-    /// Performs one run in the folder `name`.
+    /// Performs a run, or the shards of a run and their merge, into the folder `name`.
     fn run(&mut self, name: &str, threads: u32, shards: u32) {
         let run = format!("run x.toml -q --resume --threads {threads}");
         if shards == 1 {
@@ -76,15 +77,15 @@ impl Campaign {
     }
 }
 
-/// Returns the number of runs.
+/// Returns the number of runs: 9, or 50 in a long campaign.
 ///
-/// One for each number of threads and shards, or fifty in a long campaign.
+/// Nine runs cover all combinations of 1, 2 and 8 threads with 1, 3 and 7 shards.
 fn runs() -> usize {
     if crate::long_campaigns() { 50 } else { 9 }
 }
 
 #[test]
-fn runs_killed_at_random_moments_make_the_same_tables() {
+fn runs_killed_at_random_moments_resume_to_the_same_tables() {
     let place = Place::with(DESIGNS);
     place.squama("run x.toml -q --threads 1 --out whole").assert().code(1);
     let (lines, random) = (place.lines("whole/journal.jsonl"), ChaCha8Rng::seed_from_u64(50));
@@ -98,8 +99,8 @@ fn runs_killed_at_random_moments_make_the_same_tables() {
         assert!(!list.contains(".partial"), "{list}");
     }
     let kills = campaign.kills;
-    // Fifty runs must contain at least fifty kills, twenty of them midway through a run, and three
-    // runs with several kills.
+    // Check that the test is effective: fifty runs must have at least fifty kills, twenty of them
+    // after the first design, and three runs that were killed several times.
     for (found, of_fifty) in [(kills.all, 50), (kills.midway, 20), (kills.repeated, 3)] {
         assert!(found >= of_fifty * runs() / 50, "{kills:?}");
     }

@@ -1,4 +1,4 @@
-//! Tests of the command line: exit codes, messages, files.
+//! Tests of the `squama` program: exit codes, messages and files of its commands.
 
 mod agreement;
 mod bad_input;
@@ -42,7 +42,7 @@ use std::path::{Path, PathBuf};
 use assert_cmd::Command;
 use tempfile::TempDir;
 
-/// A few designs of each kind: flat and slanted, with and without contact.
+/// A sweep of eight designs: upright and slanted scales, with and without contact.
 const FEW: &str = "name = 'few'\n[designs]\ngap_over_t = [0.1, 0.5]\nlength_over_t = [0.2, 1]\n\
                    slant_deg = [0, 45]\n[puncture]\nscales = 21\n";
 
@@ -51,7 +51,7 @@ fn long_campaigns() -> bool {
     std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
 }
 
-/// A temporary folder to work in, initially empty.
+/// A temporary folder, initially empty, in which tests run `squama`.
 struct Place {
     folder: TempDir,
 }
@@ -61,22 +61,24 @@ impl Place {
         Self { folder: TempDir::new().expect("a folder") }
     }
 
-    /// Creates a place with the file `x.toml`.
+    /// Creates a folder with the file `x.toml`, which contains `text`.
     fn with(text: &str) -> Self {
         let place = Self::new();
         std::fs::write(place.path("x.toml"), text).expect("writable");
         place
     }
 
+    /// Returns the path of a file in the folder.
     fn path(&self, file: impl AsRef<Path>) -> PathBuf {
         self.folder.path().join(file)
     }
 
+    /// Returns the text of a file in the folder.
     fn read(&self, file: &str) -> String {
         std::fs::read_to_string(self.path(file)).expect("a file")
     }
 
-    /// Returns the sorted names of the files in `folder`.
+    /// Returns the sorted names of the files in the subfolder `folder`, separated by spaces.
     fn list(&self, folder: &str) -> String {
         let entries = std::fs::read_dir(self.path(folder)).expect("a folder");
         let mut names: Vec<_> = entries
@@ -86,25 +88,23 @@ impl Place {
         names.join(" ")
     }
 
-    /// Returns `squama` with `arguments`, separated by spaces.
+    /// Returns the command `squama` with `arguments`, a text that is split at spaces.
     fn squama(&self, arguments: &str) -> Command {
         let mut command = Command::new(assert_cmd::cargo::cargo_bin!("squama"));
         command.current_dir(self.folder.path()).args(arguments.split_whitespace());
         command
     }
 
-    /// Returns `squama` with these arguments.
+    /// Returns the command `squama` with `arguments`, which may contain spaces.
     fn squama_with(&self, arguments: &[String]) -> Command {
         let mut command = self.squama("");
         command.args(arguments);
         command
     }
 
-    /// Runs `squama` with a file size limit, and returns its error.
+    /// Runs `squama` with a limit on the size of files, and returns its error message.
     ///
-    /// The limit is `blocks` of 512 or 1024 bytes each.
-    ///
-    /// The command must fail.
+    /// The limit is a number of blocks of 512 or 1024 bytes. The command must fail.
     fn refused_on_a_full_disk(&self, blocks: u32, arguments: &str) -> String {
         let squama = assert_cmd::cargo::cargo_bin!("squama").display();
         let output = std::process::Command::new("sh")
@@ -117,7 +117,9 @@ impl Place {
         message
     }
 
-    /// Returns the one-line error of `squama` for `arguments`; there must be no other output.
+    /// Runs `squama`, which must fail, and returns its error message.
+    ///
+    /// The message must be one line, and there must be no other output.
     fn refused(&self, arguments: &str) -> String {
         let assert = self.squama(arguments).assert().code(2).stdout("");
         let message = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
@@ -125,18 +127,19 @@ impl Place {
         message
     }
 
-    /// Returns the one-line error of `squama optimise` for `goal` with `from` replaced by `to`.
+    /// Returns the error message of `squama optimise` for a modified goal.
     ///
-    /// Nothing may be written.
+    /// The goal is `goal` with `from` replaced by `to`. The message must be one line, and no file
+    /// may be written.
     fn refused_goal(goal: &str, from: &str, to: &str) -> String {
         assert!(goal.contains(from), "{from}");
         let place = Self::with(&goal.replace(from, to));
         let message = place.refused("optimise x.toml");
-        assert_eq!(place.list("."), "x.toml", "nothing is written");
+        assert_eq!(place.list("."), "x.toml", "no file is written");
         message
     }
 
-    /// Returns the output of `squama`, which must succeed.
+    /// Runs `squama`, which must succeed, and returns its output.
     fn prints(&self, arguments: &str) -> String {
         let output = self.squama(arguments).assert().code(0).get_output().stdout.clone();
         String::from_utf8(output).expect("text")

@@ -1,8 +1,8 @@
-//! `squama make`: files for manufacturing.
+//! `squama make` writes files for manufacturing.
 
 use crate::Place;
 
-/// One design, 2 mm thick, with deviations of gap and slant.
+/// A sweep of one design, 2 mm thick, with a deviation of the gap.
 const SKIN: &str = "name = 'skin'\nmeasures = ['coverage']\n[designs]\ngap_over_t = 0.3\nlength_over_t = 0.8\nslant_deg = 60\n\
                     [material]\nthickness_mm = 2\nscale_density_kg_m3 = 1100\n[tolerance]\ngap_mm = { batch_sd = 0.1 }\n";
 
@@ -50,7 +50,7 @@ fn a_patch_has_at_most_the_requested_size() {
     assert!(refusal.contains("--patch: smaller than one scale"), "{refusal}");
 }
 
-/// Solids lie on the arc of a body, outlines for laser cutters and `--flat` do not.
+/// Outlines for laser cutters, and solids with `--flat`, do not lie on the arc.
 #[test]
 fn a_patch_lies_on_the_arc_of_a_body() {
     let place = Place::with(&format!("{SKIN}[body]\nradius_mm = 10\n"));
@@ -64,7 +64,7 @@ fn a_patch_lies_on_the_arc_of_a_body() {
         std::fs::read(place.path("glued.stl")).ok(),
         std::fs::read(place.path("flat.stl")).ok()
     );
-    // The ends of the arc are lower than its middle by R − R cos θ, with θ = 11.6 mm/2R, or more.
+    // The ends of the arc are lower than its middle by at least R − R cos θ, with θ = 11.6 mm/2R.
     let bytes = std::fs::read(place.path("arc.stl")).expect("a file");
     let heights =
         bytes[84..].chunks(50).flat_map(|facet| [20, 32, 44].map(|at| &facet[at..at + 4]));
@@ -77,7 +77,7 @@ fn a_patch_lies_on_the_arc_of_a_body() {
         }
         assert_eq!(place.read(&format!("of-body.{flat}")), place.read(&format!("of-plane.{flat}")));
     }
-    // On a concave body the faces are closer together than the 0.3 mm on a plane.
+    // On a concave body, the faces of two neighbours are closer together than on a plane.
     let text = place.prints("make x.toml --design 1 --set body.radius_mm=-40 --out concave.stl");
     let line = text.lines().find(|line| line.contains("distance of the faces"));
     assert!(line.is_some_and(|line| line.contains(" 0.0944567 ")), "{text}");
@@ -116,10 +116,10 @@ fn impossible_patches_are_rejected() {
     let unknown = ["--design 1", "--gap 0.2,0.3 --set material.thickness_mm=2"]
         .map(|options| place.refused(&format!("make y.toml {options}")));
     insta::assert_snapshot!([refused.concat(), unknown.concat()].concat());
-    assert_eq!(place.list("."), "x.toml y.toml", "nothing is written");
+    assert_eq!(place.list("."), "x.toml y.toml", "no file is written");
 }
 
-/// A lossy conversion of the name could overwrite an unrelated file.
+/// A lossy conversion of such a name to UTF-8 could overwrite an unrelated file.
 #[cfg(target_os = "linux")]
 #[test]
 fn names_that_are_not_utf_8_are_refused() {

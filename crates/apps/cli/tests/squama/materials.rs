@@ -1,4 +1,4 @@
-//! A material adds columns in physical units and changes nothing else.
+//! A material adds columns in physical units and changes no other column.
 
 use crate::table::{cells, columns};
 use crate::{FEW, Place};
@@ -6,11 +6,12 @@ use crate::{FEW, Place};
 const MATERIAL: &str = "[material]\nthickness_mm = 2\nsubstrate_modulus_MPa = 0.3\n\
                         membrane_modulus_MPa = 4.5\nscale_density_kg_m3 = 1200\n";
 
+/// Returns the numbers in a column of a table.
 fn numbers(table: &str, column: &str) -> Vec<f64> {
     cells(table, column).iter().map(|cell| cell.parse().expect("a number")).collect()
 }
 
-/// Computes a physical value from a dimensionless one and the length of the scales.
+/// Function that computes a physical value from a dimensionless value and the length `L/t`.
 type Conversion = fn(f64, f64) -> f64;
 
 #[test]
@@ -28,7 +29,7 @@ fn a_material_adds_columns_and_changes_none() {
         }
     }
     let table = place.read("given/designs.csv");
-    // E_s/(1 − ν²) = 0.4 MPa; I_m = 2 · 0.25³/12 mm⁴.
+    // E_s/(1 − ν²) = 0.4 MPa, t² = 4 mm², and I_m = 2 · 0.25³/12 mm⁴.
     let by_hand: [(&str, &str, Conversion); 5] = [
         ("critical_force_N", "critical_force", |value, length| value * 0.4 * length * 4.0),
         ("penetration_mm", "penetration", |value, _| 2.0 * value),
@@ -67,7 +68,7 @@ fn a_gap_that_cannot_close_bends_to_any_radius() {
     }
 }
 
-/// The mark of a fold also begins other warnings.
+/// Other warnings begin with the same mark as a fold, but must not add its legend.
 #[test]
 fn other_warnings_do_not_add_the_legend_of_folds() {
     let thin = MATERIAL.replace("thickness_mm = 2", "thickness_mm = 0.5");
@@ -119,7 +120,8 @@ fn suspicious_units_of_a_modulus_are_noted_and_the_scale_modulus_sets_contact_ra
     let checked = place.squama("check x.toml").assert().code(0).get_output().stderr.clone();
     let question = "note: material.substrate_modulus_MPa is 310000 MPa, 310 GPa:";
     assert!(String::from_utf8_lossy(&checked).starts_with(question));
-    // The scales are 100 times as stiff as the substrate.
+    // Scales 100 times as stiff as the substrate, defined by the ratio or by the modulus, give the
+    // same force.
     let known = "design x.toml --set material.substrate_modulus_MPa=0.31 --json";
     let ratio = "--set puncture.contact_modulus_over_substrate=100";
     let modulus = "--set material.scale_modulus_MPa=31";
@@ -160,7 +162,7 @@ fn strengths_add_failure_columns_and_change_no_other_column() {
     for name in columns(&bare) {
         assert_eq!(cells(&bare, name), cells(&judged, name), "{name}");
     }
-    // The strength in MPa is the same multiple of the modulus.
+    // A strength of 0.15 MPa with a modulus of 0.3 MPa is the same ratio of 0.5.
     let in_mpa = "--set material.thickness_mm=2 --set material.substrate_modulus_MPa=0.3 \
                   --set material.bond_strength_MPa=0.15";
     place.squama(&format!("run x.toml -q --out given {in_mpa}")).assert().code(0);
@@ -202,7 +204,7 @@ fn design_states_which_failure_modes_were_judged() {
     assert!(!place.prints("design x.toml --design 1 --json").contains("failure_modes"));
 }
 
-/// The page repeats the sentence of `design` about a design that was solved flat.
+/// The page warns that a leading design, which was solved flat, withstands less force on bodies.
 #[test]
 fn the_page_of_a_flat_sweep_names_the_forces_on_bodies() {
     let definition = FEW.replace("slant_deg = ", "slant_deg = 60 # ");
@@ -216,7 +218,7 @@ fn the_page_of_a_flat_sweep_names_the_forces_on_bodies() {
     assert_eq!(notes_of_page(&place, "--set body.radius_mm=10"), "");
 }
 
-/// Runs `x.toml` with a setting, and returns the notes on its page.
+/// Runs `x.toml` with the options `set`, and returns the notes on the page of its report.
 fn notes_of_page(place: &Place, set: &str) -> String {
     place.squama(&format!("run x.toml -q --fresh --out r {set}")).assert().code(0);
     place.squama("report r").assert().code(0);

@@ -1,8 +1,8 @@
-//! `squama optimise`: goals, output and invalid goals.
+//! `squama optimise`: output, tables, checks of the best design, and invalid goals.
 
 use crate::Place;
 
-/// A goal that needs no mechanics.
+/// A goal on coverage and mass, which are quick to compute.
 const GOAL: &str = "name = 'light'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
     slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n[material]\nthickness_mm = 1\n\
     scale_density_kg_m3 = 1000\n[goal]\nminimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'\nsamples = 64\n";
@@ -118,13 +118,13 @@ fn json_output_contains_the_optimum() {
     let output = place.squama(told).assert().code(1).get_output().stdout.clone();
     let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     let infeasible = &record["infeasible"];
-    // The values beside the requirements belong to the reported design.
+    // The values listed with the requirements belong to the nearest design.
     assert_eq!(infeasible["requirements"][0]["nearest"], infeasible["nearest"]["gap_over_t"]);
-    // The nearest design is a valid definition, like the best one.
+    // `nearest.toml` is a valid definition of the nearest design.
     place.squama("run y/nearest.toml -q --out z").assert().code(0);
 }
 
-/// The drawing shows the row at rest, and under its load if the goal measures it.
+/// The drawing shows the row at rest (a), and under its load (b) if the goal measures punctures.
 #[test]
 fn the_best_design_is_drawn() {
     let place = Place::with(GOAL);
@@ -247,7 +247,7 @@ fn the_fitness_reports_its_criteria_and_their_bounds() {
     results/light: goal.toml history.csv optimum.csv optimum.toml history.svg optimum.svg
     ");
     assert!(place.read("results/light/optimum.csv").contains(",fitness,binding,"));
-    // With explicit bounds of the criteria the result is the same without samples.
+    // The goal may also state the bounds of the criteria.
     let ends = "--set goal.rescale={coverage=[0,0.9],areal_mass_kg_m2=[1,0.5]}";
     let record = place.prints(&format!("optimise x.toml --out ends --json {ends}"));
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
@@ -271,15 +271,13 @@ fn incomparable_measures_are_rejected_as_objectives() {
     }
 }
 
-/// At the smallest critical tilt for a required force, the requirement is active.
-///
-/// Its price follows from the derivative.
+/// At the smallest critical tilt that meets a required force, the force is at its limit.
 #[test]
 fn the_least_critical_tilt_for_a_force_is_found() {
     let text = "name = 'x'\nmeasures = 'puncture'\n[variables]\ncritical_tilt_deg = { from = 5, to = 15 }\n[goal]\nminimize = 'critical_tilt_deg'\n\
         require = ['critical_force >= 0.5']\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.5\nslant_deg = 60\n";
     let place = Place::with(text);
-    // Full coupling lowers the force slightly below its limit.
+    // Exit code 1: full coupling lowers the force slightly below its limit.
     let output = place.squama("optimise x.toml --out tilt --json").assert().code(1);
     let record: serde_json::Value =
         serde_json::from_slice(&output.get_output().stdout).expect("JSON");
@@ -290,14 +288,14 @@ fn the_least_critical_tilt_for_a_force_is_found() {
 }
 
 #[test]
-fn a_search_does_not_touch_the_folder_of_a_run() {
+fn a_search_does_not_write_to_the_folder_of_a_run() {
     let place = Place::with(crate::FEW);
     place.squama("run x.toml --out r -q --set measures=coverage").assert().code(0);
     std::fs::write(place.path("g.toml"), GOAL).expect("writable");
     insta::assert_snapshot!(place.refused("optimise g.toml --out r --fresh"), @"error: r: holds the results of a run; choose another folder with --out DIR");
 }
 
-/// Finite tissue is slow to solve, and checked nevertheless.
+/// The best design is checked even if tissue of finite thickness makes it slow to solve.
 #[test]
 fn a_design_on_finite_tissue_is_checked() {
     let goal = "name = 'firm'\nmeasures = ['coverage', 'puncture']\n[variables]\n\
@@ -310,7 +308,7 @@ fn a_design_on_finite_tissue_is_checked() {
     assert!(text.contains("✗ With full substrate coupling, critical_force is "), "{text}");
 }
 
-/// The limits of the search cannot be tightened far enough: the answer fails its check.
+/// The limits cannot be tightened far enough within the variables, so the answer fails a check.
 #[test]
 fn a_sampled_search_that_cannot_be_confirmed_keeps_its_best_design() {
     let goal = "name = 'firm'\nmeasures = ['coverage', 'puncture']\n[variables]\n\
@@ -323,7 +321,7 @@ fn a_sampled_search_that_cannot_be_confirmed_keeps_its_best_design() {
     assert!(text.contains("fails a check"), "{text}");
 }
 
-/// The force at one load position is not the smallest force of the skin.
+/// The search uses one load position, but another position may have a smaller force.
 #[test]
 fn a_weaker_load_position_of_the_best_design_is_reported() {
     let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nslant_deg = { from = 30, to = 40 }\n\
@@ -335,7 +333,7 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
         line.split_once("critical_force = ").and_then(|(_, rest)| rest.split_once(" there, "));
     let printed: f64 = force.expect("a force").0.parse().expect("a number");
     assert!((printed / weakest - 1.0).abs() < 1e-4, "{line} {weakest}");
-    // A goal on the weakest position needs no note, and a dead load has only one position.
+    // There is no note if the goal already uses the weakest position, or if the needle is free.
     let weakest = goal.replace("critical_force", "weakest_force");
     let (text, _) =
         weakest_load_position(&weakest.replace("[puncture]\n", "[puncture]\nplaces = 11\n"));
@@ -344,9 +342,9 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
     assert!(!text.contains("Weakest load position"), "{text}");
 }
 
-/// Returns the report of a search, and the weakest force of the optimum.
+/// Returns the report of a search, and the smallest force of its optimum.
 ///
-/// The weakest force is over eleven load positions.
+/// The force is the smallest of eleven load positions, with full substrate coupling.
 fn weakest_load_position(goal: &str) -> (String, f64) {
     let place = Place::with(goal);
     let text = place.prints("optimise x.toml");
@@ -357,7 +355,7 @@ fn weakest_load_position(goal: &str) -> (String, f64) {
     (text, found["measures"]["weakest_force"].as_f64().expect("a number"))
 }
 
-/// A failure force is judged at every load position with full coupling, in one check.
+/// One check computes the failure force at every load position with full substrate coupling.
 #[test]
 fn a_failure_at_another_load_position_fails_the_search() {
     let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nlength_over_t = { from = 1, to = 2 }\n\
@@ -371,7 +369,7 @@ fn a_failure_at_another_load_position_fails_the_search() {
     let weakest = &record["optimum"]["weakest_place"][0];
     assert!((weakest["requested"].as_f64().expect("a force") - 0.1).abs() < 1e-7, "{weakest}");
     assert_eq!(weakest["place"], 1.0);
-    // A definition with this position and coupling has the same failure.
+    // A definition with the weakest position and full coupling has the same failure force and mode.
     let again = place.prints("design results/pinned --json --set substrate.coupling=full --set puncture.load_inset_over_t=0");
     let again: serde_json::Value = serde_json::from_str(&again).expect("JSON");
     assert_eq!(again["measures"]["failure_force"], weakest["weakest"]);
@@ -380,7 +378,7 @@ fn a_failure_at_another_load_position_fails_the_search() {
     assert_eq!(record["optimum"]["failed_checks"], serde_json::json!([failed]));
 }
 
-/// A path that ends early at another load position confirms no force.
+/// If the path at another load position ends early, no check confirms the failure force there.
 #[test]
 fn a_load_position_without_a_force_fails_the_search() {
     let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nlength_over_t = { from = 0.8, to = 1 }\n\
@@ -394,7 +392,7 @@ fn a_load_position_without_a_force_fails_the_search() {
     assert!(text.contains(failed), "{text}");
 }
 
-/// Full coupling lowers the force of the best design below its limit.
+/// With full substrate coupling, the force of the best design is below its limit.
 #[test]
 fn a_requirement_that_a_check_contradicts_fails_the_search() {
     let goal = "name = 'firm'\nmeasures = ['coverage', 'puncture']\n[variables]\n\
@@ -411,7 +409,7 @@ fn a_requirement_that_a_check_contradicts_fails_the_search() {
         let warnings = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
         assert!(warnings.contains(sentence), "{command}: {warnings}");
     }
-    // The interactive page and the report repeat the sentence, too.
+    // The interactive page and the report of a sweep repeat the sentence.
     place.prints("explore results/firm --out e.html");
     let page = place.read("e.html");
     let (_, header) = page.split_once("</h1>").expect("a header");
@@ -429,7 +427,7 @@ fn a_requirement_that_a_check_contradicts_fails_the_search() {
             .contains("\"notes\":[\"The optimum of results/firm fails a check: ")
     );
     std::fs::write(place.path("x.toml"), goal).expect("writable");
-    // With `confirm` the search tightens the limit only as far as the check requires.
+    // With `confirm = true` the search tightens the limit only as far as the check requires.
     place.squama("optimise x.toml --set goal.confirm=true --out c").assert().code(0);
     let full = place.prints("design c --set substrate.coupling=full --json --out d");
     let full: serde_json::Value = serde_json::from_str(&full).expect("JSON");

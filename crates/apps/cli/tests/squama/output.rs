@@ -1,4 +1,4 @@
-//! Text output of commands.
+//! The text that commands print, and the pages that `squama explore` writes.
 
 use std::process::Stdio;
 
@@ -12,13 +12,13 @@ fn check_describes_the_run() {
     insta::assert_snapshot!(
         place.prints("check x.toml --set designs.c1={from=0.01,to=1,step=0.01}")
     );
-    assert_eq!(place.list("."), "x.toml", "nothing is written");
+    assert_eq!(place.list("."), "x.toml", "no file is written");
 }
 
 #[test]
 fn calibrate_prints_six_coefficients() {
     let text = Place::new().prints("calibrate --gap 0.1 --length 1");
-    // Three square bases, separated by a tenth of their side.
+    // Expected stiffnesses of three square bases, separated by a tenth of their side.
     for (name, expected) in [("alpha", [2.699, 3.376, 2.473]), ("beta", [0.993, 1.082, -0.428])] {
         let line = text.lines().find(|line| line.trim_start().starts_with(name));
         let words = line.expect("a line").split_whitespace().skip(1);
@@ -27,9 +27,9 @@ fn calibrate_prints_six_coefficients() {
     }
 }
 
-/// On a thin layer, forces along the row couple with rotation and normal force.
+/// On a layer, a force along the row also rotates a scale and displaces its neighbours vertically.
 ///
-/// The layer is twice as thick as the scales.
+/// The layer here is twice as thick as the scales.
 #[test]
 fn calibrate_prints_the_couplings_of_a_layer() {
     let place = Place::new();
@@ -39,14 +39,14 @@ fn calibrate_prints_the_couplings_of_a_layer() {
     assert!(text.contains("a quarter of the half-width"), "{text}");
 }
 
-/// Returns the data of an interactive page.
+/// Returns the JSON data in the text of an interactive page.
 fn page_data(page: &str) -> Value {
     let (_, data) = page.split_once("id=\"live-data\">").expect("data");
     let (data, _) = data.split_once("</script>").expect("an end");
     serde_json::from_str(data).expect("JSON")
 }
 
-/// The pages of a goal and of its optimum have the ranges of its variables in mm.
+/// The sliders of the page have the ranges of the goal's variables, in mm.
 #[test]
 fn explore_keeps_the_ranges_of_a_goal_and_of_its_optimum() {
     let place = Place::with(
@@ -67,9 +67,9 @@ fn explore_keeps_the_ranges_of_a_goal_and_of_its_optimum() {
     }
 }
 
-/// Solved designs of a run are candidates for the requirements on the page.
+/// The page searches the solved designs of a run for one that meets the requirements.
 #[test]
-fn explore_of_a_run_carries_its_solved_designs() {
+fn the_page_of_a_run_contains_its_solved_designs() {
     let place = Place::with(
         "name = 'x'\nmeasures = ['coverage']\ndesigns.gap_over_t = [0.1, 0.2]\ndesigns.slant_deg = 30",
     );
@@ -88,7 +88,7 @@ fn explore_accepts_a_layer() {
     assert!(place.read("explore.html").contains("tissue_thickness_mm = 5"));
 }
 
-/// Requirements on samples do not apply to a single design, which has no value for them.
+/// The page solves single designs, which have no statistics over samples.
 #[test]
 fn explore_leaves_out_requirements_on_samples() {
     let place = Place::with("name = 'x'");
@@ -101,16 +101,16 @@ fn explore_leaves_out_requirements_on_samples() {
     assert!(page.contains("coverage >= 0.5") && !page.contains("yield >="));
 }
 
-/// The command on a page uses the definition and settings of the page.
+/// The page shows a command to copy, with the definition and settings from which it was made.
 #[test]
-fn a_page_contains_its_settings() {
+fn the_page_contains_its_definition_and_settings() {
     let place = Place::with("name = 'x'");
     place.prints("explore x.toml --no-open --set contact.friction=0.1 --set scale.base=2L");
     let source = "x.toml --set contact.friction=0.1 --set scale.base=2L";
     assert!(place.read("explore.html").contains(&format!("\"source\":\"{source}\"")));
 }
 
-/// A goal has no design of its own; the options on its page select one by value.
+/// A goal defines no single design, so options must give a value for each variable.
 #[test]
 fn designs_of_a_goal_are_selected_by_value() {
     let place = Place::with(
@@ -211,7 +211,7 @@ fn a_closed_pipe_is_no_error() {
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
 }
 
-/// The strongest design of the paper has a fold at a fifth of its critical force.
+/// The design with the largest critical force folds the surface at a fifth of this force.
 #[test]
 fn a_folded_best_design_is_marked_in_the_summary() {
     let folding = FEW.replace("[0.1, 0.5]", "0.1").replace("[0, 45]", "[45, 75]");

@@ -1,7 +1,7 @@
-//! A running `squama` process, observed by a test.
+//! Starts `squama` as a background process, and waits for events.
 //!
-//! Every wait has a timeout. It is an error if the process ends too early or the expected event
-//! does not occur.
+//! Every wait has a timeout. A test fails if the process ends before the expected event, or if the
+//! event does not occur in time.
 
 #[cfg(unix)]
 use std::io::Read as _;
@@ -10,10 +10,10 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Timeout for an expected event, even on a busy machine.
+/// Time in which an expected event must occur, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Polling interval.
+/// Time between two checks for an event.
 const PAUSE: Duration = Duration::from_millis(2);
 
 /// A running process; dropping it kills the process.
@@ -21,9 +21,10 @@ pub struct Running {
     child: Child,
 }
 
-/// Returns the command with default signal handling.
+/// Returns the command `squama` with default signal handling.
 ///
-/// A shell may start the tests in the background with signals ignored, which children inherit.
+/// A shell that runs the tests in the background may ignore signals. Child processes would inherit
+/// this, and `squama` would never receive a signal.
 fn squama() -> Command {
     let program = assert_cmd::cargo::cargo_bin!("squama");
     let listening = "--default-signal=HUP,INT,TERM";
@@ -38,7 +39,7 @@ fn squama() -> Command {
 }
 
 impl Running {
-    /// Starts `squama` in `folder` with `arguments` separated by spaces.
+    /// Starts `squama` in `folder` with `arguments`, a text that is split at spaces.
     pub fn spawn(folder: &Path, arguments: &str) -> Self {
         let child = squama()
             .args(arguments.split_whitespace())
@@ -63,7 +64,7 @@ impl Running {
         }
     }
 
-    /// Waits until the process prints `word` on standard error.
+    /// Waits until the process prints `word` as its next output on standard error.
     #[cfg(unix)]
     pub fn until_said(&mut self, word: &str) {
         let mut said = vec![0; word.len()];
@@ -71,7 +72,7 @@ impl Running {
         assert_eq!(String::from_utf8_lossy(&said), word);
     }
 
-    /// Returns the exit status if the process ends within `time`.
+    /// Returns the exit status if the process ends within `time`, otherwise `None`.
     pub fn end_within(&mut self, time: Duration) -> Option<ExitStatus> {
         let begun = Instant::now();
         loop {
@@ -84,14 +85,14 @@ impl Running {
         }
     }
 
-    /// Returns the exit status of a process that ends by itself.
+    /// Waits until the process ends by itself, and returns its exit status.
     pub fn end(&mut self) -> ExitStatus {
         self.end_within(PATIENCE).expect("the process ends")
     }
 
-    /// Kills the process.
+    /// Kills the process and returns its exit status.
     ///
-    /// The exit status has a code only if the process had ended before.
+    /// The status has a code only if the process had already ended by itself.
     pub fn kill(&mut self) -> ExitStatus {
         self.child.kill().expect("a process");
         self.child.wait().expect("an end")
@@ -108,7 +109,7 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // Both have no effect on a process that has ended.
+        // The calls fail, without consequences, if the process has already ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

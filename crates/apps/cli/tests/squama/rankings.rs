@@ -1,4 +1,4 @@
-//! `squama rank` and `squama compare`: output, files and errors.
+//! `squama rank` and `squama compare`: their output, files and errors.
 
 use crate::{FEW, Place};
 
@@ -13,13 +13,14 @@ const TABLE: &str =
 0006,0.5,1,60,0.5,,,0.4,no convergence,complete
 ";
 
-/// Returns a place with the results `a`.
+/// Returns a folder with the results `a`, a table without a definition.
 fn place() -> Place {
     let place = Place::new();
     put(&place, "a", TABLE);
     place
 }
 
+/// Writes `table` as `designs.csv` to a new folder.
 fn put(place: &Place, folder: &str, table: &str) {
     std::fs::create_dir(place.path(folder)).expect("a folder");
     std::fs::write(place.path(folder).join("designs.csv"), table).expect("writable");
@@ -37,7 +38,7 @@ fn the_best_designs_are_printed() {
     insta::assert_snapshot!(place.read("a/winners.csv"));
 }
 
-/// The strongest of these designs has a fold long before its critical force.
+/// A table in which the strongest design folds the surface long before its critical force.
 const FOLDED: &str =
     "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,fold_force,sound_force
 0001,0.1,0.1,75,0.5,20,0.5,0.1,5,5
@@ -52,7 +53,7 @@ fn the_best_design_without_a_fold_is_listed_beside_a_folded_winner() {
     let printed = place.prints("rank a --weights 0,1,0,0");
     let best = printed.lines().find(|line| line.contains("  0002 ")).expect("a row");
     assert!(best.contains("best without a fold"), "{printed}");
-    // The folded design is marked in every line that lists it.
+    // Every line that lists the folded design marks it.
     let named = printed.lines().filter(|line| line.contains("0001"));
     assert!(
         named.clone().count() > 1 && named.clone().all(|line| line.contains("0001⚠")),
@@ -177,13 +178,13 @@ fn a_run_with_another_base_is_compared_design_by_design() {
     assert!(text.lines().any(|line| line.trim_start().starts_with("coverage  8 ")), "{text}");
 }
 
-/// Splits the output of a ranking before its answer.
+/// Splits the output of `squama rank` into the ranking and the answer.
 fn split(printed: &str) -> (String, String) {
     let (ranking, answer) = printed.split_once("\nThe best design").expect("an answer");
     (ranking.to_owned(), answer.to_owned())
 }
 
-/// The answer solves the best design again, although designs on a layer are slow to solve.
+/// The best design is solved again for the answer, although designs on a layer are slow to solve.
 #[test]
 fn a_ranking_on_a_layer_has_an_answer_with_warnings() {
     let place = Place::with(
@@ -205,13 +206,13 @@ fn a_ranking_on_a_layer_has_an_answer_with_warnings() {
     assert_eq!(record["answer"]["requirements"][0]["requirement"], "coverage >= 0.2");
 }
 
-/// The text has two blocks: the ranking with its legend, and the answer.
+/// The output has two main blocks: the ranking with its legend, and the answer.
 #[test]
 fn rank_prints_the_ranking_and_the_answer() {
     let place = place();
     let printed = place.prints("rank a --require coverage>=0.1");
     let blocks: Vec<&str> = printed.trim_end().split("\n\n").collect();
-    // The other two blocks are the title and the names of the files.
+    // The first and the last block are the title and the names of the files.
     assert_eq!(blocks.len(), 4, "{printed}");
     assert!(blocks[1].starts_with("Best by") && blocks[2].starts_with("The best design: 0002"));
     assert!(blocks[1].contains("best coverage") && blocks[1].contains("pareto.csv"), "{printed}");
@@ -221,14 +222,14 @@ fn rank_prints_the_ranking_and_the_answer() {
 fn tables_saved_by_spreadsheets_are_ranked() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
-    // A table alone has no definition, so designs cannot be solved again.
     let (ranked, answer) = split(&place.prints("rank r"));
     assert!(answer.contains("with full coupling"), "{answer}");
     let table = place.read("r/designs.csv");
-    // In a separate folder: next to its journal, a table must be as written by the run.
+    // Use a separate folder: in the folder of a run, a changed table is rejected. Without the
+    // definition there, designs cannot be solved again.
     put(&place, "s", &format!("\u{feff}{table}"));
     let (own, answer) = split(&place.prints("rank s"));
-    assert_eq!(own, ranked.replace("r: ", "s: "), "commas after a byte-order mark");
+    assert_eq!(own, ranked.replace("r: ", "s: "), "a table with commas and a byte-order mark");
     assert!(answer.contains("critical_force") && !answer.contains("full coupling"), "{answer}");
     place.squama("run x.toml -q --out eu --csv excel-eu").assert().code(0);
     let table = place.read("eu/designs.csv");
@@ -236,7 +237,11 @@ fn tables_saved_by_spreadsheets_are_ranked() {
     assert_ne!(without, table);
     put(&place, "own", without);
     let (own, _) = split(&place.prints("rank own"));
-    assert_eq!(own, ranked.replace("r: ", "own: "), "semicolons without one");
+    assert_eq!(
+        own,
+        ranked.replace("r: ", "own: "),
+        "a table with semicolons and no byte-order mark"
+    );
 }
 
 #[test]
@@ -255,9 +260,7 @@ fn round_off_is_not_a_difference() {
     assert!(text.lines().any(|line| line.trim_start().starts_with("critical_force ")), "{text}");
 }
 
-/// With full coupling the surface of the best design folds.
-///
-/// The next design keeps the requirement.
+/// The best design fails a check: with full coupling its surface folds. The next design passes.
 #[test]
 fn the_best_design_that_passes_all_checks_is_listed() {
     let place = Place::with(
@@ -282,7 +285,7 @@ fn the_best_design_that_passes_all_checks_is_listed() {
     assert!(!rank_by_force(&place, "0.5", "").contains('✗'), "the best design passes");
 }
 
-/// Ranks designs with at least this critical force in N.
+/// Ranks the designs with a critical force of at least `limit`, in N, and returns the output.
 fn rank_by_force(place: &Place, limit: &str, format: &str) -> String {
     let requirement = format!("critical_force_N >= {limit}");
     let mut command = place.squama(&format!("rank x {format}"));

@@ -1,8 +1,8 @@
-//! Failed designs are results, and can be solved again.
+//! Failed designs are listed in the tables, and `squama rerun` solves designs again.
 
 use crate::{FEW, Place};
 
-/// A few designs that all stop early, in puncture and in bending.
+/// Runs eight designs, which all stop early in puncture and in bending.
 const STOPPED: &str = "run x.toml -q --out r --set solver.max_points=3";
 
 #[test]
@@ -54,7 +54,7 @@ fn reruns_of_failed_designs_report_the_changes() {
 }
 
 #[test]
-fn a_list_is_a_single_setting_in_commands() {
+fn commands_in_tables_quote_a_setting_that_contains_a_list() {
     let place = Place::with(FEW);
     place.squama(STOPPED).assert().code(1);
     let again =
@@ -144,7 +144,7 @@ fn tables_may_have_decimal_commas() {
     assert!(table.contains("\r\n0003;0,1;1;0;0,") || table.contains("\r\n0002;0,1;0,2;45;0,"));
     let plain = table.trim_start_matches('\u{feff}').replace(',', ".").replace(';', ",");
     assert_eq!(plain, place.read("plain/coverage.csv"));
-    // The format stays as requested until another one is requested.
+    // The folder keeps the requested format until a command requests another one.
     place.squama("rerun r --design 1 -q").assert().code(0);
     assert_eq!(place.read("r/coverage.csv"), table);
     place.squama("run x.toml -q --resume --out r --csv plain").assert().code(0);

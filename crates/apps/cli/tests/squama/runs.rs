@@ -1,9 +1,9 @@
-//! `squama run`: files, exit codes, and independence of the number of threads.
+//! `squama run`: its files and exit codes, and tables that do not depend on the threads.
 
 use crate::table::cell;
 use crate::{FEW, Place};
 
-/// The files that must not depend on the time and the number of threads of a run.
+/// Tables that must not depend on interruptions or on the number of threads of a run.
 pub const TABLES: [&str; 6] = [
     "designs.csv",
     "coverage.csv",
@@ -70,7 +70,7 @@ fn designs_that_stop_early_have_a_row_and_give_exit_code_1() {
     let table = place.read("results/few/critical_force.csv");
     let row = table.lines().nth(1).expect("a row");
     assert!(row.starts_with("0001,0.1,0.2,0,,too many points,"), "{row}");
-    // The largest force is kept, but measures at the critical tilt have no value.
+    // The largest force on the path has a value, but measures at the critical tilt have none.
     let none = ["critical_force", "critical_displacement", "secant_stiffness"];
     assert!(none.iter().all(|column| cell(&table, "0001", column).is_empty()), "{row}");
     assert!(!cell(&table, "0001", "peak_force").is_empty(), "{row}");
@@ -135,7 +135,7 @@ fn solved(place: &Place) -> usize {
     place.read("r/journal.jsonl").matches("\"design\":{").count()
 }
 
-/// A definition with more designs reuses the solved ones and gives the tables of a fresh run.
+/// `--resume` with more values on an axis keeps solved designs and gives the tables of a fresh run.
 #[test]
 fn a_resumed_run_reuses_the_designs_of_a_shorter_axis() {
     let place = Place::with(FEW);
@@ -162,13 +162,15 @@ fn a_resumed_run_reuses_the_designs_of_a_shorter_axis() {
     );
     assert_eq!(solved(&place), 24, "nothing is solved again");
     assert_eq!(place.read("r/designs.csv"), place.read("fresh/designs.csv"));
-    // Solved designs are never dropped, and other parameters give other designs.
+    // A definition with fewer designs is rejected, because solved designs are never dropped. A
+    // definition with other parameters is rejected, because its designs are different.
     assert!(place.refused("run x.toml --out r --resume").contains("has another definition"));
     let other = "run list.toml --out r --resume --set scale.width_over_t=2";
     assert!(place.refused(other).contains("has another definition"));
     assert_eq!(solved(&place), 24);
 }
 
+/// Resumes the run in `r` with another definition, and returns the messages.
 fn resume(place: &Place, definition: &str) -> String {
     let run = place.squama(&format!("run {definition} -q --out r --resume")).assert().code(0);
     String::from_utf8(run.get_output().stderr.clone()).expect("text")

@@ -1,4 +1,4 @@
-//! `squama optimise` on statistics over samples: output and invalid goals.
+//! `squama optimise` with goals on statistics over samples: output, tables and invalid goals.
 
 use crate::Place;
 
@@ -30,7 +30,7 @@ fn the_best_design_is_confirmed_on_new_samples() {
     assert_eq!(made["estimates"][0]["quantity"], "yield");
 }
 
-/// A yield alone does not show which requirement is the obstacle.
+/// The yield alone would not show which requirement prevents a larger yield.
 #[test]
 fn an_infeasible_search_names_the_requirements_that_samples_miss() {
     let required = "['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54', 'yield >= 0.99']";
@@ -58,8 +58,8 @@ fn tolerance_confirms_the_yield_of_a_search() {
     let output = place.squama_with(&arguments).assert().code(0).get_output().stdout.clone();
     let told: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     let told = told["designs"][0]["yields"][0]["yield"].as_f64().expect("a yield");
-    // The two sets of 1000 samples are independent, so allow three standard deviations of their
-    // difference.
+    // Search and analysis use independent sets of 1000 samples, so allow three standard deviations
+    // of the difference of their yields.
     assert!((told - others).abs() < 0.04 && told != others, "{told} {others}");
 }
 

@@ -1,4 +1,4 @@
-//! `squama schema`: agreement of the JSON schema with the parser.
+//! The JSON schema of `squama schema` accepts the same definitions as the parser.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,9 +13,9 @@ use sweep::{PARAMETERS, Parameter, Role, Sweep};
 use crate::json_schema::{mismatch, violated};
 use crate::{Place, long_campaigns};
 
-/// Messages about several keys together, or about the steps of a range.
+/// Parts of error messages about conditions that a schema cannot express.
 ///
-/// A schema cannot express these conditions.
+/// These conditions concern several keys together, or the steps of a range.
 const TOGETHER: [&str; 11] = [
     "cannot be combined",
     "needs ",
@@ -26,19 +26,22 @@ const TOGETHER: [&str; 11] = [
     "has fractions",
     "must be at most solver.",
     "a radius of at least",
-    "beyond, between two scales",
+    "a load above 1, between two scales",
     "its arctangent is the critical tilt",
 ];
 
+/// Returns the schema that `squama schema` prints.
 fn schema() -> serde_json::Value {
     serde_json::from_str(&Place::new().prints("schema")).expect("JSON")
 }
 
+/// Converts TOML to JSON.
 fn json(text: &str) -> serde_json::Value {
     let value: toml::Table = toml::from_str(text).expect("TOML");
     serde_json::to_value(value).expect("JSON")
 }
 
+/// Appends the paths of all TOML files below `folder` to `all`.
 fn definitions(folder: &Path, all: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
@@ -63,7 +66,7 @@ fn all_sweeps_goals_and_fits_are_valid() {
     }
 }
 
-/// Returns a random value of a key, often near the values that the parameter accepts.
+/// Returns a random TOML value for a key; many values are near those that the parameter accepts.
 fn value(rng: &mut ChaCha8Rng, parameter: &Parameter) -> String {
     let default = parameter.default().to_toml();
     let numbers = [
@@ -97,16 +100,18 @@ fn value(rng: &mut ChaCha8Rng, parameter: &Parameter) -> String {
     }
 }
 
-/// Returns true for a list of numbers that do not ascend, which a schema cannot express.
+/// Returns true for a list of numbers that are not in ascending order.
+///
+/// The parser rejects such a list, but a schema cannot express this.
 fn is_out_of_order(value: &serde_json::Value) -> bool {
     let numbers: Option<Vec<f64>> =
         value.as_array().and_then(|items| items.iter().map(serde_json::Value::as_f64).collect());
     numbers.is_some_and(|numbers| !numbers.is_sorted_by(|a, b| a < b))
 }
 
-/// The parser refuses every definition that the schema refuses.
+/// The parser rejects every definition that the schema rejects.
 ///
-/// Other definitions are refused only because of several keys together.
+/// It rejects other definitions only for conditions that a schema cannot express.
 #[test]
 fn schema_and_parser_agree_on_random_definitions() {
     let schema = schema();
@@ -127,7 +132,7 @@ fn schema_and_parser_agree_on_random_definitions() {
         let text = format!("name = 'x'\n[{section}]\n{key} = {value}\n");
         let value = json(&text);
         let parser = Sweep::parse(&text, "x.toml", &[]);
-        // The text of a mismatch contains the schema, so only a failure formats it.
+        // Use `violated` instead of `mismatch`: a message would be slow to format for each case.
         match (violated(&schema, &value), parser) {
             (None, Ok(_)) => accepted += 1,
             (Some(_), Err(_)) => refused += 1,
@@ -145,7 +150,7 @@ fn schema_and_parser_agree_on_random_definitions() {
     assert!(accepted > 300 && refused > 300, "{accepted} {refused}");
 }
 
-/// Goals and fits have keys of their own.
+/// Goals and fits have keys that sweeps do not have.
 #[test]
 fn schema_and_parser_agree_on_keys_of_goals_and_fits() {
     let schema = schema();

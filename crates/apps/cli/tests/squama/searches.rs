@@ -1,4 +1,4 @@
-//! Status and page of a search, also while it is running.
+//! Status and HTML page of a search, also while the search is running.
 
 use serde_json::Value;
 
@@ -9,7 +9,7 @@ const GOAL: &str = "name = 'firm'\nmeasures = ['coverage', 'puncture']\n[variabl
     length_over_t = { from = 0.3, to = 1 }\n[designs]\ngap_over_t = 0.3\nslant_deg = 60\n[goal]\n\
     minimize = 'length_over_t'\nrequire = 'critical_force >= 0.3'\nsamples = 8\n";
 
-/// Returns a place with a finished search.
+/// Returns a folder with a finished search in `results/firm`.
 fn searched() -> Place {
     let place = Place::with(GOAL);
     place.squama("optimise x.toml -q").assert().code(1);
@@ -44,7 +44,7 @@ fn a_running_search_has_a_page_that_reloads_itself() {
     assert!(text.contains("critical_force &gt;= 0.3") && text.contains("class=\"axis\""));
     assert!(!text.contains("location.reload"), "the search has ended");
     assert!(place.refused("report results/firm --front x").contains("--front"));
-    // A search holds this lock while it is running.
+    // Simulate a running search, which locks its journal.
     let journal = std::fs::File::open(place.path("results/firm/evaluations.jsonl"));
     let journal = journal.expect("a journal");
     journal.lock().expect("a lock");

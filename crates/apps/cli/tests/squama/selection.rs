@@ -1,4 +1,4 @@
-//! Selection of designs and results: by definition or folder, by number, range or value.
+//! Selects results by a definition or a folder, and designs by number, range or value.
 
 use crate::{FEW, Place};
 
@@ -73,13 +73,13 @@ fn designs_are_selected_by_values() {
 }
 
 #[test]
-fn many_designs_have_a_short_name() {
+fn file_names_of_many_designs_are_short() {
     let place = Place::with("name = 'x'\n[puncture]\nscales = 5\n[solver]\nmax_points = 3");
     place.squama("plot curves x.toml --design 1-45 --out c").assert().code(1);
     assert!(place.list("c").contains("force-displacement-curves-of-0001-to-0045-45-designs.svg"));
 }
 
-/// Returns a definition with gaps and lengths in a unit.
+/// Returns a definition with gaps and lengths in the unit `mm` or `over_t`.
 fn with_lengths(unit: &str, gaps: &str, lengths: &str) -> String {
     format!(
         "name = \"{unit}\"\nmeasures = [\"coverage\", \"flexure\"]\n[designs]\n\
@@ -87,9 +87,9 @@ fn with_lengths(unit: &str, gaps: &str, lengths: &str) -> String {
     )
 }
 
-/// A design is the same in mm and in units of the thickness, although `0.3/3` is not 0.1.
+/// Round-off must not matter: in floating-point arithmetic, `0.3/3` is not exactly 0.1.
 #[test]
-fn a_design_in_mm_is_the_design_over_the_thickness() {
+fn lengths_in_mm_and_divided_by_the_thickness_give_the_same_designs() {
     let place = Place::with(FEW);
     let in_mm = with_lengths("mm", "{ from = 0.3, to = 3, step = 0.3 }", "[0.9, 2.1]");
     let write =
@@ -113,11 +113,11 @@ fn a_design_in_mm_is_the_design_over_the_thickness() {
         table.lines().skip(1).map(|line| line[..4].to_owned()).collect()
     });
     assert_eq!(in_mm, over_t);
-    // Commands accept lengths in mm by their keys in mm, as axes, conditions and values.
+    // Commands accept the keys of lengths in mm as axes of maps and in conditions.
     let map = "plot map mm --of compliance --no-title --out maps";
     place.prints(&format!("{map} --x gap_mm --y length_mm"));
     let drawn = place.read("maps/map-of-compliance-over-gap-mm-and-length-mm.svg");
-    assert_eq!(drawn.matches("<g class=\"map\">").count(), 2, "one for each slant");
+    assert_eq!(drawn.matches("<g class=\"map\">").count(), 2, "one map for each slant");
     let titles = drawn.lines().filter(|line| line.contains("(mm)")).collect::<String>();
     assert!(titles.contains("gap ") && titles.contains("length "), "{drawn}");
     place.prints(&format!("{map} --x gap_mm --y slant_deg --at length_mm=2.1"));

@@ -38,7 +38,7 @@ fn missing_designs_are_listed_and_can_be_added_later() {
     place.squama("run x.toml -q --shard 2/3 --out 2").assert().code(0);
     place.squama("merge 1 2 3 --out all").assert().code(0);
     place.assert_same_tables("whole", "all");
-    // A merged folder can be resumed.
+    // A run can be resumed in a merged folder.
     place.squama("merge 1 3 --out part").assert().code(1);
     place.squama("run x.toml -q --resume --out part").assert().code(0);
     place.assert_same_tables("whole", "part");
@@ -54,7 +54,7 @@ fn shards_of_different_sweeps_are_rejected() {
 }
 
 #[test]
-fn reruns_survive_a_merge() {
+fn a_merge_keeps_designs_that_were_solved_again() {
     let place = Place::with(FEW);
     for shard in [1, 2] {
         place.squama(&format!("run x.toml -q --shard {shard}/2 --out {shard}")).assert().code(0);

@@ -1,4 +1,4 @@
-//! Access to the cells of tables without quotes, as strings.
+//! Reads cells of CSV tables that contain no quotes, as text.
 
 /// Returns the column names of a table.
 pub fn columns(table: &str) -> impl Iterator<Item = &str> {
@@ -11,7 +11,7 @@ pub fn cells<'t>(table: &'t str, column: &str) -> Vec<&'t str> {
     table.lines().skip(1).map(|row| row.split(',').nth(place).expect("a cell")).collect()
 }
 
-/// Returns the cell of a design in a column.
+/// Returns the cell of the design with the number `design` in a column.
 pub fn cell<'t>(table: &'t str, design: &str, column: &str) -> &'t str {
     let row = cells(table, "design").iter().position(|number| *number == design);
     cells(table, column)[row.expect("a design")]

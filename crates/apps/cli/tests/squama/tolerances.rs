@@ -1,4 +1,4 @@
-//! Tolerances and global sensitivity: reproducible tables, and one-line errors.
+//! `squama tolerance` and `squama sensitivity`: reproducible tables, output and errors.
 
 use crate::Place;
 
@@ -17,7 +17,7 @@ fn tables_are_the_same_for_any_number_of_threads_and_after_an_interruption() {
     let command = "tolerance x.toml --require critical_force_N>=0.5 --require coverage>=0.8";
     place.prints(&format!("{command} --samples 120 --threads 1 --out one"));
     place.prints(&format!("{command} --samples 120 --threads 2 --out two"));
-    // First fewer samples, then more, as after an interruption.
+    // Solve fewer samples first and then more, as after an interruption.
     place.prints(&format!("{command} --samples 30 --out three"));
     place.prints(&format!("{command} --samples 120 --out three"));
     let samples = place.list("one/samples");
@@ -57,7 +57,7 @@ fn a_single_design_is_reported_as_text_and_json() {
         let svg = place.read(&format!("results/skin/tolerance/{figure}"));
         assert!(svg.contains("<svg") && svg.contains("skin design 0002"), "{figure}");
     }
-    // The linear prediction alone.
+    // Without samples, the command computes only the linear prediction.
     let text = place.prints("tolerance x.toml --samples 0 --out linear");
     assert!(text.contains("2 designs of 2"), "{text}");
     assert_eq!(place.list("linear"), "derived tolerance.csv tolerance_sources.csv");
@@ -75,7 +75,7 @@ fn global_sensitivity_is_the_same_for_any_number_of_threads() {
     assert_eq!(of_force.count(), 3, "{table}");
 }
 
-/// The coverage of upright scales is 0, whatever their width and friction.
+/// The coverage of upright scales is 0 for any width and friction.
 #[test]
 fn constant_measures_are_named() {
     let constant = "name = 'constant'\nmeasures = ['coverage']\n[designs]\ngap_over_t = 0.1\n\

@@ -1,4 +1,4 @@
-//! Runs every command of the tutorial and compares its output.
+//! Runs the commands of the tutorial and of the README, and compares values with their output.
 
 use std::fs;
 use std::path::Path;
@@ -7,14 +7,14 @@ use crate::{Place, long_campaigns};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../..");
 
-/// Returns the contents of the fenced blocks of a kind.
+/// Returns the contents of the fenced code blocks of a kind, such as `sh`.
 fn blocks(text: &str, kind: &str) -> Vec<String> {
     let fence = format!("```{kind}\n");
     let blocks = text.split(&fence).skip(1);
     blocks.map(|block| block.split("```").next().expect("a fence").to_owned()).collect()
 }
 
-/// Splits a command into words like a shell, with quotes.
+/// Splits a command into words as a shell does, with single quotes.
 fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     for (k, part) in line.split('\'').enumerate() {
@@ -30,6 +30,7 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
+/// Copies the definitions of sweeps and goals to a folder.
 fn copy_sweeps(place: &Place) {
     for folder in ["sweeps", "sweeps/goals"] {
         fs::create_dir_all(place.path(folder)).expect("a folder");
@@ -44,12 +45,12 @@ fn copy_sweeps(place: &Place) {
 }
 
 #[test]
-fn every_command_of_the_tutorial_prints_its_block() {
+fn every_command_of_the_tutorial_runs_and_writes_its_files() {
     let text = fs::read_to_string(Path::new(ROOT).join("docs/tutorial.md")).expect("a tutorial");
     let place = Place::new();
     copy_sweeps(&place);
     if !long_campaigns() {
-        // The search for a yield takes minutes, and steep scales half of the time without it.
+        // Make the search quick: the yield takes minutes, and steep slants half of the other time.
         let mut goal = place.read("sweeps/goals/pin.toml");
         for (slow, quick) in [
             (r#", "yield >= 0.9""#, ""),
@@ -109,7 +110,7 @@ fn the_readme_quotes_values_of_the_tables() {
     for line in answer[0].lines() {
         assert!(printed.lines().any(|printed| printed == line), "{line}\n{printed}");
     }
-    // On a flat body 9 designs of the glove meet requirements that none meets on a finger.
+    // Nine designs of the glove meet the requirements on a flat body, but none on a finger.
     assert!(text.contains("On a flat body 9 of 240 designs cover 0.6 and withstand 1.2 N, on the"));
     let require = "--require coverage>=0.6 --require failure_force_N>=1.2";
     place.prints("run sweeps/glove.toml --set body.curvature_times_t=0");

@@ -1,4 +1,4 @@
-//! The validation command and its page.
+//! `squama validate` and its page, `docs/validation.md`.
 
 use crate::agreement::disagreement;
 use crate::{Place, long_campaigns};
@@ -6,7 +6,7 @@ use crate::{Place, long_campaigns};
 #[test]
 fn the_committed_page_matches_the_command() {
     let place = Place::new();
-    // Exit code 0 means that every benchmark lies in its band.
+    // `prints` requires exit code 0, which means that every benchmark lies in its band.
     let options = if long_campaigns() { "" } else { "--quick" };
     let printed = place.prints(&format!("validate {options} --out page.md"));
     let page = place.read("page.md");
@@ -15,7 +15,7 @@ fn the_committed_page_matches_the_command() {
     let committed = std::fs::read_to_string(committed).expect("a page");
     let (sweeps, searches) =
         committed.split_once("\n## Between the grid points").expect("a section");
-    // No grid contains a better design than the search over the same ranges.
+    // No grid contains a better design than the optimum of the search over the same ranges.
     assert!(searches.contains("neither equals nor dominates: 0."), "{searches}");
     let gains: Vec<&str> = searches.lines().filter(|line| line.ends_with(" % |")).collect();
     assert!(gains.len() == 5 && gains.iter().all(|row| row.contains("| +")), "{gains:?}");

@@ -1,9 +1,9 @@
-//! `squama export`: the workbook of a run, and write errors.
+//! `squama export`: workbooks of runs, searches and analyses, and write errors.
 
 use crate::{FEW, Place};
 
 #[test]
-fn a_run_becomes_a_workbook() {
+fn export_writes_the_tables_of_a_run_as_a_workbook() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r --set solver.max_points=3").assert().code(1);
     std::fs::create_dir(place.path("out")).expect("a folder");
@@ -20,7 +20,7 @@ fn a_run_becomes_a_workbook() {
     assert_eq!(place.list("out"), "x.xlsx");
 }
 
-/// A fitness has no meaning without its criteria and weights.
+/// The fitness in a ranking has no meaning without the criteria and weights in `ranking.toml`.
 #[test]
 fn rankings_without_preferences_are_rejected() {
     let place = Place::with(FEW);
@@ -53,7 +53,7 @@ fn searches_and_tolerances_are_exported_and_rejected_elsewhere() {
       tolerance          1 row
       tolerance_sources  1 row
     ");
-    // The sheet `columns` explains every column of every sheet.
+    // The sheet `columns` explains the columns of all other sheets.
     for book in ["f.xlsx", "t.xlsx"] {
         let mut book: calamine::Xlsx<_> =
             calamine::open_workbook(place.path(book)).expect("a workbook");
@@ -84,10 +84,11 @@ fn a_full_disk_is_an_error_and_leaves_the_old_workbook() {
         .squama(&format!("run x.toml -q --out r --set measures=coverage --set {many}"))
         .assert()
         .code(0);
-    // A real workbook, because a file that squama did not write is rejected before the export.
+    // Write a workbook first: the export would reject an existing file that squama did not write.
     place.prints("export r --xlsx r/x.xlsx");
     let old = std::fs::read(place.path("r/x.xlsx")).expect("a workbook");
-    // The disk is full at once, while rows go to a temporary file, or at the very end.
+    // The limits end the export at once, while rows are written to a temporary file, and at the
+    // end.
     for blocks in [1, 20, 60] {
         let message = place.refused_on_a_full_disk(blocks, "export r --xlsx r/x.xlsx");
         assert_eq!(

@@ -1,4 +1,4 @@
-//! Figures of a search, and the drawing of its best design.
+//! Draws the figures of a search, and its best design.
 
 use optimisation::{Answer, BestDesign, DesignGoal, Found, Judgement};
 use ranking::Goal;
@@ -7,7 +7,9 @@ use sweep::Measure;
 
 use super::super::draw::draw_row;
 
-/// Draws the history of the search, and the front or the best design if there is one.
+/// Draws the history of the search, and the front or the best design.
+///
+/// If no design meets the requirements, draws only the history.
 pub fn figures(goal: &DesignGoal, found: &Found) -> anyhow::Result<Vec<Figure>> {
     let mut figures = vec![history(goal, found)];
     match &found.answer {
@@ -18,7 +20,7 @@ pub fn figures(goal: &DesignGoal, found: &Found) -> anyhow::Result<Vec<Figure>> 
     Ok(figures)
 }
 
-/// Draws the best design, with its load if the goal measures the puncture.
+/// Draws the best design, also at the critical tilt if the goal measures the puncture.
 fn optimum(goal: &DesignGoal, best: &BestDesign) -> anyhow::Result<Figure> {
     let with_load = goal.space.sweep().measures().contains(&Measure::Puncture);
     let title = format!("{}: the best design", goal.name());
@@ -26,7 +28,9 @@ fn optimum(goal: &DesignGoal, best: &BestDesign) -> anyhow::Result<Figure> {
     Ok(Figure::new("optimum", svg))
 }
 
-/// Lists the evaluated designs with their position in a figure.
+/// Lists the evaluated designs with their positions in a figure.
+///
+/// `place` computes the position from the index and the objectives of a design.
 fn designs(found: &Found, place: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<SearchedDesign> {
     found
         .history
@@ -41,7 +45,7 @@ fn designs(found: &Found, place: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<Sear
         .collect()
 }
 
-/// Draws the first objective of every design, and the best so far.
+/// Draws the first objective of every evaluated design, and the best value so far.
 fn history(goal: &DesignGoal, found: &Found) -> Figure {
     let designs = designs(found, |index, objectives| [(index + 1) as f64, objectives[0]]);
     let sign = if goal.objectives[0].goal == Goal::Maximize { 1.0 } else { -1.0 };
@@ -62,7 +66,7 @@ fn history(goal: &DesignGoal, found: &Found) -> Figure {
     Figure::new("history", figure.svg())
 }
 
-/// Draws the first two objectives of every design, and the front.
+/// Draws the first two objectives of every evaluated design, and the front.
 fn front(goal: &DesignGoal, found: &Found, front: &[BestDesign]) -> Figure {
     let designs = designs(found, |_, objectives| [objectives[0], objectives[1]]);
     let line: Vec<[f64; 2]> = front

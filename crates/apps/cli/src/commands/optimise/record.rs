@@ -1,4 +1,4 @@
-//! JSON output of `squama optimise`.
+//! The JSON output of `squama optimise`.
 
 use optimisation::{
     Answer, BestDesign, BindingText, Candidate, DesignGoal, Found, Judgement, Rounding,
@@ -91,7 +91,7 @@ fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Valu
     design
 }
 
-/// Returns the nominal objectives, including the fitness, but no statistics over samples.
+/// Returns the values of the objectives that are no statistics over samples.
 fn objectives(goal: &DesignGoal, best: &BestDesign) -> Map<String, Value> {
     let Judgement::Judged(worth) = &best.candidate.verdict else { return Map::new() };
     let values = goal.objectives.iter().zip(&worth.objectives);
@@ -99,6 +99,7 @@ fn objectives(goal: &DesignGoal, best: &BestDesign) -> Map<String, Value> {
     drawn.map(|(objective, value)| (objective.column.to_string(), json!(value))).collect()
 }
 
+/// Returns the requirements and the nearest design, if no design meets the requirements.
 fn infeasible(
     goal: &DesignGoal,
     words: &BindingText<'_>,

@@ -1,4 +1,4 @@
-//! Text output of `squama optimise`.
+//! The text output of `squama optimise`.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -19,13 +19,14 @@ use super::samples;
 use crate::commands::answer::DesignAnswer;
 use crate::print::{FAILED, FOLDED, aligned, counted, digits, marked, rounded, time};
 
-/// Formats the result of a search.
+/// A goal and the result of its search, for the output.
 pub struct SearchReport<'a> {
     pub goal: &'a DesignGoal,
     pub found: &'a Found,
 }
 
 impl SearchReport<'_> {
+    /// Formats the result of the search, which took `duration` on `threads` threads.
     pub fn text(&self, duration: Duration, threads: usize) -> String {
         let mut text = format!(
             "{}: {} evaluated in {} on {}\n{}",
@@ -44,7 +45,9 @@ impl SearchReport<'_> {
         text
     }
 
-    /// Formats the bounds of the rescaled criteria as a line for the goal.
+    /// Formats the bounds of the rescaled criteria as a line for `[goal]`.
+    ///
+    /// The text is empty if no criteria were rescaled.
     fn rescaled(&self) -> String {
         let ends = self.found.rescaled.iter();
         let ends = ends.map(|ends| {
@@ -58,7 +61,7 @@ impl SearchReport<'_> {
         }
     }
 
-    /// Counts the designs that were left out, by reason.
+    /// Lists the numbers of designs that the search left out, each with its reason.
     fn left_out(&self) -> String {
         let left_out = &self.found.left_out;
         let failed =
@@ -72,6 +75,7 @@ impl SearchReport<'_> {
         aligned(&rows)
     }
 
+    /// Formats the best design, its active limits and the results of its checks.
     fn optimum(&self, best: &BestDesign) -> String {
         let words = BindingText::new(self.goal);
         let rows = self.answer_rows(best);
@@ -103,8 +107,8 @@ impl SearchReport<'_> {
         if let Some(reason) = &best.reason {
             let _ = writeln!(text, "\n{reason}");
         }
-        // At the requested position the check differs from the search only by its full coupling,
-        // which is reported below.
+        // Omit the requested load position: there, the check differs from the search only by full
+        // coupling, which `couplings_report` describes.
         let requested = best.row.case.punctured().load_position;
         let places = best.checks.places.iter().filter(|of| of.place != requested);
         text += &places.filter_map(weakest_place).collect::<String>();
@@ -119,7 +123,7 @@ impl SearchReport<'_> {
         text + &self.tightened() + &self.contradicted(best)
     }
 
-    /// States the loss of a rounded design; empty if the goal does not round.
+    /// States the change of the objective by rounding; empty if the goal requests no rounding.
     fn rounding(&self) -> String {
         let Some(Rounding { step, unit, exact, rounded }) = &self.found.rounding else {
             return String::new();
@@ -127,7 +131,7 @@ impl SearchReport<'_> {
         let step = text::number::text(*step);
         let Some(value) = rounded else {
             return format!(
-                "\n{FAILED} No design near it with lengths in multiples of {step} {unit} meets all requirements: this design is not rounded.\n"
+                "\n{FAILED} No design near the best one with lengths in multiples of {step} {unit} meets all requirements: this design is not rounded.\n"
             );
         };
         let objective = &self.goal.objectives[0];
@@ -142,7 +146,9 @@ impl SearchReport<'_> {
         )
     }
 
-    /// Lists the limits that the search tightened, so that the checks pass.
+    /// Lists the limits that the search tightened so that the checks pass.
+    ///
+    /// The text is empty if the search tightened no limit.
     fn tightened(&self) -> String {
         let limits = self.goal.requirements.iter().zip(&self.found.searched);
         let limits = limits.filter(|(meant, searched)| meant != searched).map(|(_, searched)| {
@@ -159,7 +165,9 @@ impl SearchReport<'_> {
         )
     }
 
-    /// Names the requirements that a check contradicts, with the remedy.
+    /// Names the requirements that a check contradicts, and a remedy.
+    ///
+    /// The text is empty if all checks pass.
     fn contradicted(&self, best: &BestDesign) -> String {
         let contradictions = best.contradictions(self.goal);
         if contradictions.is_empty() {
@@ -183,6 +191,7 @@ impl SearchReport<'_> {
         format!(" from {starts} in {regions} of the space")
     }
 
+    /// Returns the keys and values of the variables of a design.
     fn variables(&self, candidate: &Candidate) -> Vec<[String; 2]> {
         let case = self.goal.space.case(&candidate.point);
         let values = self.goal.space.parameters().map(|parameter| {
@@ -195,12 +204,14 @@ impl SearchReport<'_> {
         values.collect()
     }
 
-    /// Returns the answer about the best design.
+    /// Returns the values, margins and warnings of the design `best`.
     pub fn answer<'a>(&'a self, best: &'a BestDesign) -> DesignAnswer<'a> {
         DesignAnswer::new(self.goal.space.sweep(), &best.row, &self.goal.requirements)
     }
 
-    /// Lists variables, objectives and criteria, then required values with limits and margins.
+    /// Returns table rows of the variables, objectives and criteria of a design.
+    ///
+    /// Then follow the values with requirements, with limits and margins.
     fn answer_rows(&self, best: &BestDesign) -> Vec<Vec<String>> {
         let is_required =
             |column: &str| self.goal.requirements.iter().any(|of| of.column == column);
@@ -216,7 +227,9 @@ impl SearchReport<'_> {
         rows
     }
 
-    /// Lists the objectives and required columns, without duplicates.
+    /// Lists the objectives, required columns, criteria and failure mode, without duplicates.
+    ///
+    /// Variables and statistics over samples are listed elsewhere.
     fn values(&self, best: &BestDesign) -> Vec<[String; 2]> {
         let Judgement::Judged(worth) = &best.candidate.verdict else { return Vec::new() };
         let mut rows: Vec<[String; 2]> = Vec::new();
@@ -232,7 +245,7 @@ impl SearchReport<'_> {
         rows
     }
 
-    /// Adds the first failure if the goal names a failure force.
+    /// Appends the first failure mode to `rows`, if the goal names a failure force.
     fn add_mode(&self, best: &BestDesign, rows: &mut Vec<[String; 2]>) {
         let Some(mode) = goal_columns(self.goal).find_map(mode_column) else { return };
         let columns = design_columns(self.goal.space.sweep());
@@ -240,7 +253,7 @@ impl SearchReport<'_> {
         rows.extend(column.map(|column| [mode.to_owned(), column.cell(&best.row).to_string()]));
     }
 
-    /// Adds the criteria of the fitness that are not listed yet.
+    /// Appends the criteria of the fitness to `rows`, unless they are already listed.
     fn add_criteria(&self, best: &BestDesign, rows: &mut Vec<[String; 2]>) {
         let columns = design_columns(self.goal.space.sweep());
         for criterion in self.goal.fitness.iter().flat_map(|fitness| &fitness.criteria) {
@@ -281,6 +294,7 @@ impl SearchReport<'_> {
         [self.variables(&best.candidate), self.values(best), statistics].concat()
     }
 
+    /// Formats the designs of the front with the prices of their objectives.
     fn front(&self, front: &Front) -> String {
         let words = BindingText::new(self.goal);
         let (title, designs) = (self.title(front), &front.designs);
@@ -292,8 +306,8 @@ impl SearchReport<'_> {
         rows.extend(designs.iter().map(|best| {
             let row = self.named_values(best).into_iter();
             let mut row: Vec<String> = row.map(|[_, value]| value).collect();
-            // A floor is a lower bound on another objective (ε-constraint). Its price is the
-            // trade-off between the two objectives.
+            // `Limit::Floor` is a lower bound on another objective (ε-constraint). Its price is the
+            // trade-off between both objectives.
             let floors = best
                 .bindings
                 .iter()
@@ -315,12 +329,13 @@ impl SearchReport<'_> {
         title + &aligned(&rows) + folded + prices + &samples::of_all(designs) + &constant
     }
 
+    /// Formats the obstacles and the nearest design, if no design meets all requirements.
     fn infeasible(&self, nearest: Option<usize>) -> String {
         let words = BindingText::new(self.goal);
         let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
         let unmet = unmet(self.goal, self.found, &requirements, nearest);
-        // Designs that miss a requirement on a column have no samples, so their counts by
-        // requirement would not be comparable.
+        // Do not count designs by requirement if the goal uses samples: designs that miss a
+        // requirement on a column have no samples, so the counts would not be comparable.
         let obstacle = if has_samples(self.goal, self.found) {
             samples::shortfalls(&unmet, &self.found.missed)
         } else {
@@ -336,13 +351,14 @@ impl SearchReport<'_> {
     }
 }
 
+/// Legend of the mark of a fold.
 const FOLDED_MEANS: &str =
     "  ⚠ the surface of the substrate folds: values at the critical tilt are not valid\n";
 
-/// A force above this fraction of the force at the requested position is not reported.
+/// Fraction of the force at the requested position below which a weaker position is reported.
 const WEAKER: f64 = 0.99;
 
-/// States the weakest load position, if it is weaker than the position of the search.
+/// Describes the weakest load position; `None` if it is about as strong as the requested one.
 fn weakest_place(place: &WeakestPlace) -> Option<String> {
     let weakest = place.weakest.filter(|weakest| *weakest < WEAKER * place.requested)?;
     let failure = place.failure.as_ref().map(|mode| format!(" ({mode})")).unwrap_or_default();
@@ -355,13 +371,13 @@ fn weakest_place(place: &WeakestPlace) -> Option<String> {
     ))
 }
 
-/// Returns the force at which the surface folds, if that invalidates a column of the goal.
+/// Returns the force at which the surface folds, if a fold invalidates a column of the goal.
 fn fold_force(goal: &DesignGoal, best: &BestDesign) -> Option<f64> {
     goal_columns(goal).find(|column| is_invalid_after_fold(column))?;
     best.row.result.puncture?.measures.fold_force
 }
 
-/// Returns the columns of objectives, requirements and fitness.
+/// Returns the columns of the objectives, the requirements and the criteria of the fitness.
 fn goal_columns(goal: &DesignGoal) -> impl Iterator<Item = &str> {
     let objectives = goal.objectives.iter().map(|objective| &*objective.column);
     let required = goal.requirements.iter().map(|requirement| &*requirement.column);
@@ -369,13 +385,13 @@ fn goal_columns(goal: &DesignGoal) -> impl Iterator<Item = &str> {
     objectives.chain(required).chain(fitness.map(|criterion| &*criterion.column))
 }
 
-/// Returns the failure modes that a design is judged by, if the goal names a failure force.
+/// Returns the judged failure modes of a design, if the goal names a failure force.
 pub fn judged_modes(goal: &DesignGoal, best: &Candidate) -> Option<JudgedModes> {
     goal_columns(goal).find_map(mode_column)?;
     goal.space.case(&best.point).judged_modes()
 }
 
-/// Returns the objectives that had the same value in all evaluated designs, with the value.
+/// Returns each objective that has the same value in all evaluated designs, with this value.
 pub fn constant_objectives<'a>(goal: &'a DesignGoal, found: &Found) -> Vec<(&'a str, f64)> {
     let mut constant = Vec::new();
     for objective in &goal.objectives {
@@ -386,7 +402,7 @@ pub fn constant_objectives<'a>(goal: &'a DesignGoal, found: &Found) -> Vec<(&'a 
             }
             _ => None,
         });
-        // A single design cannot show that the objective is constant.
+        // At least two designs are necessary to show that an objective is constant.
         let (Some(first), Some(second)) = (values.next(), values.next()) else { continue };
         if same(first, second) && values.all(|value| same(first, value)) {
             constant.push((column, first));
@@ -405,7 +421,7 @@ fn constant_text(constant: &[(&str, f64)]) -> String {
     lines.collect()
 }
 
-/// Reports how many local searches agree on the best design.
+/// States how many local searches found the best design.
 fn agreement(best: &BestDesign) -> String {
     let Some(Agreement { searches, agreeing, spread }) = best.agreement else {
         return String::new();
@@ -422,15 +438,16 @@ fn agreement(best: &BestDesign) -> String {
     }
 }
 
-/// Returns true if the goal is about samples, and some design was sampled.
+/// Returns true if the goal uses samples, and the samples of at least one design were solved.
 fn has_samples(goal: &DesignGoal, found: &Found) -> bool {
     let mut judged = found.history.iter().map(|c| matches!(c.verdict, Judgement::Judged(_)));
     goal.is_about_samples() && judged.any(|is_judged| is_judged)
 }
 
-/// Finds the obstacle to the requirements among all evaluated designs.
+/// Counts how many evaluated designs meet each requirement, which shows the obstacle.
 ///
-/// If no design has samples, only requirements on nominal values count.
+/// `nearest` is the index of the nearest design. If no design has samples, requirements on
+/// statistics are ignored.
 pub fn unmet(
     goal: &DesignGoal,
     found: &Found,
@@ -448,7 +465,7 @@ pub fn unmet(
     Unmet::of_search(&values.collect::<Vec<_>>(), &requirements, nearest)
 }
 
-/// Returns the values of a design that the requirements are about.
+/// Returns the value of a design for each requirement; `None` if there is no value.
 fn required_values(
     goal: &DesignGoal,
     requirements: &[Requirement],
@@ -457,8 +474,8 @@ fn required_values(
     match verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
         Judgement::Nominal(worth) => {
-            // A design without samples has values only for the nominal requirements, in their
-            // order.
+            // A design without samples has values only for requirements on nominal columns, in the
+            // order of these requirements.
             let mut drawn = worth.required.iter().copied();
             let values = requirements.iter().map(|requirement| {
                 let is_drawn = goal.statistic(&requirement.column).is_none();

@@ -1,4 +1,4 @@
-//! Statistics over new samples of the designs found by a search.
+//! Describes the statistics over new samples of the designs that a search found.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use ranking::{Requirement, Unmet};
 use super::super::rank::distance;
 use crate::print::{aligned, counted, digits, rounded};
 
-/// Formats the statistics of the best design.
+/// Formats the statistics of the best design over the samples of the search and over new samples.
 pub fn text(made: &Confirmation) -> String {
     let header = ["", "search", "new samples", "95 % interval"].map(str::to_owned);
     let rows: Vec<_> = [header]
@@ -45,7 +45,7 @@ pub fn text(made: &Confirmation) -> String {
     text
 }
 
-/// Names the requirements that samples miss, in one sentence; empty if none is missed.
+/// Returns a sentence on the requirements that samples miss; empty if there are none.
 pub fn missed(missed: &[MissedRequirement]) -> String {
     let (mut parts, mut invalid) = (Vec::new(), None);
     for MissedRequirement { requirement, share } in missed {
@@ -65,9 +65,9 @@ pub fn missed(missed: &[MissedRequirement]) -> String {
     if parts.is_empty() { String::new() } else { format!("{}.\n", parts.join(", ")) }
 }
 
-/// Lists the distance of the nearest design from each requirement.
+/// Lists how far the nearest design is from each requirement.
 ///
-/// Adds the requirements that the samples of this design miss.
+/// Adds a sentence on the requirements that the samples of this design miss.
 pub fn shortfalls(unmet: &Unmet, of_samples: &[MissedRequirement]) -> String {
     let header = ["requirement", "nearest", "short by"].map(str::to_owned);
     let rows: Vec<_> =
@@ -79,12 +79,12 @@ fn joined(requirements: &[&Requirement]) -> String {
     requirements.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the statistics of a design of a front over its new samples.
+/// Returns the names and values of the statistics of a design over its new samples.
 pub fn row(made: &Confirmation) -> Vec<[String; 2]> {
     made.estimates.iter().map(|of| [of.name.clone(), value(of.value)]).collect()
 }
 
-/// Explains the statistics of a front.
+/// Explains the statistics in the table of a front; empty if there are none.
 pub fn of_all(designs: &[BestDesign]) -> String {
     let made: Vec<&Confirmation> =
         designs.iter().filter_map(|best| best.confirmation.as_ref()).collect();

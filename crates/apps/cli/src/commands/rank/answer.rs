@@ -1,4 +1,4 @@
-//! The answer of a ranking: values, margins and warnings of its best design.
+//! Describes the best design of a ranking: its values, margins and warnings.
 
 use ranking::{Preferences, RankedDesign, Requirement};
 use results::columns::mode_column;
@@ -12,7 +12,7 @@ use super::columns::preferred_columns;
 use super::gap_changes::{cell, missed, words};
 use crate::print::{FOLDED, aligned, digits, marked};
 
-/// Headers of the table; a column without a value is left out.
+/// Headers of the table; a column without any value is omitted.
 const HEADERS: [&str; 5] =
     ["", "value", "required", "gap 10 % smaller / larger", "with full coupling"];
 
@@ -21,13 +21,15 @@ pub struct RankedAnswer<'a> {
     results: &'a Results,
     preferences: &'a Preferences,
     best: RankedDesign<'a>,
+    /// The sweep and the solved design; `None` if the results have no definition.
     solved: Option<(&'a Sweep, DesignRow)>,
 }
 
 impl<'a> RankedAnswer<'a> {
+    /// Solves the design `best` of `results` again.
     pub fn new(results: &'a Results, preferences: &'a Preferences, best: RankedDesign<'a>) -> Self {
         let sweep = results.definition();
-        // Solve the best design without a time limit, also on a layer: it is only one design.
+        // Solve without a time limit, even if a layer makes it slow, because it is only one design.
         let solved = sweep.and_then(|sweep| {
             Some((sweep, solved_row(sweep, best.design(), Patience::Unlimited)?))
         });
@@ -40,7 +42,10 @@ impl<'a> RankedAnswer<'a> {
         Some(DesignAnswer::new(sweep, row, &self.preferences.requirements))
     }
 
-    /// Formats values, limits, margins and warnings.
+    /// Formats values, limits, margins and warnings of the best design.
+    ///
+    /// `change` contains its measures with smaller and larger gaps, and `coupling` its measures with
+    /// full substrate coupling, if they are known.
     pub fn text(&self, change: Option<&GapChange>, coupling: Option<&CouplingChange>) -> String {
         let mut rows = vec![HEADERS.map(str::to_owned).to_vec()];
         rows.extend(self.rows(change, coupling));
@@ -68,7 +73,7 @@ impl<'a> RankedAnswer<'a> {
         text
     }
 
-    /// Returns a row for each criterion and requirement.
+    /// Returns table rows for the columns of criteria and requirements.
     fn rows(
         &self,
         change: Option<&GapChange>,
@@ -94,7 +99,7 @@ impl<'a> RankedAnswer<'a> {
                 gap.map_or_else(String::new, cell),
                 full.map_or_else(String::new, |full| words(full.nearest, full.full)),
             ]);
-            // A column may have several requirements.
+            // Add a row for each further requirement on the same column.
             rows.extend(limits.map(|limit| padded(vec![String::new(), String::new(), limit])));
             let mode = mode_column(column).map(|mode| (mode, self.word(mode)));
             rows.extend(mode.map(|(mode, word)| padded(vec![mode.to_owned(), word])));
@@ -102,11 +107,13 @@ impl<'a> RankedAnswer<'a> {
         rows
     }
 
+    /// Returns the number in a column of the best design.
     fn number(&self, column: &str) -> Option<f64> {
         let column = self.results.column(column).ok()?;
         self.results.table().number(self.best.row(), column)
     }
 
+    /// Returns the text in a column of the best design.
     fn word(&self, column: &str) -> String {
         let column = self.results.column(column).ok();
         let text = column.map(|column| self.results.text(self.best.row(), column).into_owned());
@@ -121,7 +128,7 @@ impl<'a> RankedAnswer<'a> {
     }
 }
 
-/// Returns true if a requirement is met only with the simplified coupling.
+/// Returns true if a requirement is met with nearest-neighbour coupling but not with full coupling.
 fn is_missed(change: &CouplingChange, requirement: &Requirement) -> bool {
     change.measures.iter().any(|measure| {
         measure.column == requirement.column
@@ -130,7 +137,7 @@ fn is_missed(change: &CouplingChange, requirement: &Requirement) -> bool {
     })
 }
 
-/// Fills a row with empty cells.
+/// Appends empty cells to a row, up to the number of headers.
 fn padded(mut row: Vec<String>) -> Vec<String> {
     row.resize(HEADERS.len(), String::new());
     row

@@ -1,4 +1,4 @@
-//! Checks of the best designs against the requirements, and the best design that passes them.
+//! Checks the best designs of a ranking, and finds the best design that passes all checks.
 
 use ranking::{Preferences, RankedDesign, Ranking, Requirement};
 use results::Results;
@@ -7,10 +7,10 @@ use run::{CouplingChange, GapChange, Patience};
 
 use super::columns::{is_folded, measured_columns};
 
-/// Maximum number of designs that are checked, so that users do not have to wait.
+/// Maximum number of designs that are checked, which limits the waiting time.
 const MOST: usize = 50;
 
-/// Designs that fail a check, and the best design that passes all.
+/// Designs that fail a check, and the best design that passes all checks.
 ///
 /// A design fails if its surface folds, with the coupling of the run or with full coupling, or if it
 /// misses a requirement with full coupling or with a gap 10 % smaller or larger.
@@ -18,14 +18,16 @@ const MOST: usize = 50;
 pub struct Checks<'a> {
     /// Numbers of the designs that fail, in the order of the ranking.
     pub failed: Vec<String>,
-    /// The best design that passes, if the best of all fails.
+    /// The best design that passes all checks; `None` if this is the first of the ranking.
+    ///
+    /// Also `None` if no checked design passes, or if there are no requirements.
     pub best: Option<RankedDesign<'a>>,
 }
 
 impl<'a> Checks<'a> {
-    /// Checks designs from the best on, until one passes.
+    /// Checks designs in the order of the ranking until a design passes.
     ///
-    /// Without a requirement there is nothing that a design could miss.
+    /// Without requirements no design is checked, because it could not miss any.
     pub fn new(results: &Results, ranking: &'a Ranking<'a>) -> Self {
         let preferences = ranking.preferences();
         let mut checks = Self::default();
@@ -48,13 +50,15 @@ impl<'a> Checks<'a> {
     }
 }
 
+/// Returns true if a design passes all checks.
 fn passes(results: &Results, preferences: &Preferences, design: &RankedDesign<'_>) -> bool {
     let columns = measured_columns(preferences);
     let depends_on_fold = columns.iter().any(|column| is_invalid_after_fold(column));
     if depends_on_fold && is_folded(results, design.row()) {
         return false;
     }
-    // Designs that are slow to solve are not checked, and pass.
+    // Without a definition the design cannot be solved again, and passes. Below, a design that is
+    // slow to solve passes as well: `solve` returns `None`.
     let Some(sweep) = results.definition() else { return true };
     let coupled = CouplingChange::solve(sweep, design.design(), &columns, Patience::Milliseconds);
     let is_coupled = coupled.is_none_or(|change| {
@@ -72,13 +76,13 @@ fn passes(results: &Results, preferences: &Preferences, design: &RankedDesign<'_
         )
 }
 
-/// Returns true if a requirement is met with full coupling.
+/// Returns true if a requirement is met with full substrate coupling.
 fn is_met_coupled(change: &CouplingChange, requirement: &Requirement) -> bool {
     let mut measures = change.measures.iter().filter(|m| m.column == requirement.column);
     measures.all(|measure| measure.full.is_some_and(|full| requirement.is_met(full)))
 }
 
-/// Returns true if a requirement is met with smaller and larger gaps.
+/// Returns true if a requirement is met with a smaller and with a larger gap.
 fn is_met_nearby(change: &GapChange, requirement: &Requirement) -> bool {
     let measures = change.measures.iter().filter(|m| m.column == requirement.column);
     measures

@@ -1,4 +1,4 @@
-//! Sensitivity of the best designs to their gaps, as text.
+//! Solves the best designs of a ranking with other gaps and with full substrate coupling.
 
 use ranking::{RankedDesign, Ranking, Requirement, Weights};
 use rayon::prelude::*;
@@ -7,13 +7,14 @@ use run::{CouplingChange, GapChange, MeasureChange, Patience};
 
 use super::columns::measured_columns;
 
-/// Changes by this factor or its inverse are printed as factors.
+/// Ratio from which on a change is printed as a factor, and not in percent.
 const LARGE: f64 = 2.0;
 
-/// Solves the best designs again with smaller and larger gaps.
+/// Solves the best designs of a ranking again with smaller and larger gaps.
 ///
-/// They are the best by weights, the best without a fold, and the best by each criterion. Returns
-/// nothing if the results have no definition.
+/// These are the best design by the weights, the design `passing` that passes the checks, the best
+/// design without a fold, and the best design by each criterion. The list is empty if the results
+/// have no definition.
 pub fn gap_changes(
     results: &Results,
     ranking: &Ranking<'_>,
@@ -25,8 +26,8 @@ pub fn gap_changes(
     let alone = Weights::alone_among(criteria.len()).map(|weights| ranking.winner(weights));
     let winner = ranking.winner(ranking.preferences().weights);
     let best = [Some(winner), passing, ranking.best_unfolded()];
-    // Remove duplicates: one design is often the best by several criteria, and each is solved three
-    // times.
+    // Remove duplicates, because a design is often the best by several criteria, and each design is
+    // solved three times.
     let mut numbers: Vec<&str> = Vec::new();
     for number in best.iter().flatten().chain(&alone.collect::<Vec<_>>()).map(RankedDesign::design)
     {
@@ -40,9 +41,10 @@ pub fn gap_changes(
         .collect()
 }
 
-/// Solves three designs again with full substrate coupling.
+/// Solves up to three designs again with full substrate coupling.
 ///
-/// They are the best design, the best one without a fold, and the best one that passes the checks.
+/// These are the best design by the weights, the design `passing` that passes the checks, and the
+/// best design without a fold. The list is empty if the results have no definition.
 pub fn couplings(
     results: &Results,
     ranking: &Ranking<'_>,
@@ -61,18 +63,18 @@ pub fn couplings(
     numbers.iter().filter_map(|n| CouplingChange::solve(sweep, n, &columns, patience)).collect()
 }
 
-/// Formats the changes of a measure under a smaller and a larger gap.
+/// Formats the changes of a measure for a smaller and a larger gap.
 pub fn cell(measure: &MeasureChange) -> String {
     let [smaller, larger] = measure.changed.map(|changed| words(measure.value, changed));
     format!("{smaller} / {larger}")
 }
 
-/// Formats a change in percent, or as a factor if it is large.
+/// Formats the change from `value` to `changed` in percent, or as a factor if it is large.
 pub fn words(value: f64, changed: Option<f64>) -> String {
     let Some(changed) = changed else { return "no value".to_owned() };
     let ratio = changed / value;
     match ratio {
-        // Changes below half of the last displayed digit are not shown.
+        // A smaller change would be printed as 0.0 %.
         _ if (ratio - 1.0).abs() < 5e-4 => "unchanged".to_owned(),
         _ if !ratio.is_finite() => format!("from {value} to {}", crate::print::rounded(changed)),
         _ if ratio >= LARGE => format!("× {ratio:.1}"),
@@ -81,7 +83,7 @@ pub fn words(value: f64, changed: Option<f64>) -> String {
     }
 }
 
-/// Returns a sentence for each requirement that a design misses with another gap.
+/// Returns a phrase for each requirement that a design misses with a smaller or larger gap.
 pub fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
     let mut sentences = Vec::new();
     for requirement in requirements {
@@ -89,7 +91,7 @@ pub fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
         for (side, changed) in
             measures.flat_map(|m| ["smaller", "larger"].into_iter().zip(m.changed))
         {
-            // A design without a value meets no bound.
+            // A design without a value meets no requirement.
             if changed.is_none_or(|changed| !requirement.is_met(changed)) {
                 sentences.push(format!("misses {requirement} if the gap is 10 % {side}"));
             }

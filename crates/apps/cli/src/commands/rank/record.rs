@@ -1,4 +1,4 @@
-//! JSON output of `squama rank`.
+//! The JSON output of `squama rank`.
 
 use ranking::{RankedDesign, Ranking, Unmet, Weights};
 use results::Results;
@@ -10,9 +10,9 @@ use super::columns::preferred_columns;
 use super::report::{RankReport, judged_modes};
 use crate::json;
 
-/// Returns the ranking with the checks of the best designs as JSON.
+/// Returns the ranking, the checks of the best designs and the answer as JSON.
 ///
-/// `change` is the change of the answer with its gaps.
+/// `change` contains the measures of the answer, the best design, with smaller and larger gaps.
 pub fn report_record(report: &RankReport<'_>, change: Option<&GapChange>) -> Value {
     let RankReport { results, ranking, top, changes, couplings, checks, answer } = *report;
     let mut record = ranking_record(results, ranking, top);
@@ -63,7 +63,7 @@ fn designs(results: &Results, ranking: &Ranking<'_>, all: &[RankedDesign<'_>]) -
     all.iter().map(|standing| design(results, ranking, standing)).collect()
 }
 
-/// Returns a design with its ranks and criteria.
+/// Returns a design with its fitness, its share of the weights and its values as JSON.
 fn design(results: &Results, ranking: &Ranking<'_>, standing: &RankedDesign<'_>) -> Value {
     let criteria = ranking.preferences().criteria.iter().enumerate();
     let values = criteria.map(|(c, own)| (own.column.to_string(), standing.value(c).into()));
@@ -81,7 +81,7 @@ fn design(results: &Results, ranking: &Ranking<'_>, standing: &RankedDesign<'_>)
     })
 }
 
-/// Returns the requirements that no design meets, with the nearest design.
+/// Returns the requirements and the nearest design as JSON, if no design meets the requirements.
 pub fn unmet_record(results: &Results, unmet: &Unmet) -> Value {
     json!({
         "folder": results.folder().to_string_lossy(),

@@ -1,4 +1,4 @@
-//! Text output of `squama rank`.
+//! The text output of `squama rank`.
 
 use std::fmt::Write as _;
 
@@ -15,7 +15,7 @@ use super::checks::Checks;
 use super::columns::{is_folded, preferred_columns};
 use crate::print::{FAILED, FOLDED, aligned, counted, digits, shortfall};
 
-/// Maximum number of named designs that are best for some weights.
+/// Maximum number of designs that are best for some weights and that the report names.
 const LISTED: usize = 5;
 
 const FOLDED_MEANS: &str =
@@ -23,19 +23,19 @@ const FOLDED_MEANS: &str =
 const FAILED_MEANS: &str = "  ✗ fails a check: with full substrate coupling or a gap 10 % smaller or \
     larger, a requirement is missed or the surface folds\n";
 
-/// Formats the ranking of a run.
+/// A ranking with everything that its report states.
 pub struct RankReport<'a> {
     pub results: &'a Results,
     pub ranking: &'a Ranking<'a>,
     /// Number of designs listed by fitness.
     pub top: usize,
-    /// Changes of the measures of the best designs with their gaps.
+    /// Measures of the best designs with smaller and larger gaps.
     pub changes: &'a [GapChange],
-    /// Changes of the best designs with full substrate coupling.
+    /// Measures of the best designs with full substrate coupling.
     pub couplings: &'a [CouplingChange],
     /// Checks of the best designs against the requirements.
     pub checks: &'a Checks<'a>,
-    /// The best design that passes the checks.
+    /// The best design that passes the checks, or the best of all if none passes.
     pub answer: &'a RankedAnswer<'a>,
 }
 
@@ -72,18 +72,19 @@ impl RankReport<'_> {
         let rows: Vec<_> =
             left_out.map(|(why, count)| [format!("{count} left out"), why.clone()]).collect();
         text.push_str(&aligned(&rows));
-        // For a single design every criterion is trivially equal.
+        // A single design has no other to compare with, so do not report equal criteria.
         if ranked > 1 {
             for criterion in self.ranking.ties() {
                 let name = &self.preferences().criteria[criterion].name;
-                let _ = writeln!(text, "  {name} is equal for all of them, and is ignored");
+                let _ = writeln!(text, "  {name} is equal for all ranked designs, and is ignored");
             }
         }
         text
     }
 
-    /// Lists the best designs by fitness, and other designs that are best by a criterion or without
-    /// a fold.
+    /// Lists the best designs by fitness, and the designs with a note.
+    ///
+    /// [`notes`](Self::notes) adds designs that are the best by a criterion or in another respect.
     fn best(&self) -> String {
         let preferences = self.preferences();
         let notes = self.notes();
@@ -113,9 +114,10 @@ impl RankReport<'_> {
         text
     }
 
-    /// Returns the rows of designs that are best by some criterion.
+    /// Returns designs that are the best in some respect, as table rows with notes.
     ///
-    /// A note for each row names the criterion.
+    /// These are the best design that passes all checks, the best without a fold, the best by each
+    /// criterion, and the knee of the front. The note names the respect.
     fn notes(&self) -> Vec<(usize, String)> {
         let criteria = &self.preferences().criteria;
         let mut notes = Vec::new();
@@ -127,7 +129,7 @@ impl RankReport<'_> {
         }
         let alone = criteria.iter().zip(Weights::alone_among(criteria.len()));
         for (criterion, weights) in alone.filter(|_| criteria.len() > 1) {
-            // Names of criteria that users choose begin with "largest" or "least".
+            // The name of a criterion of the user already begins with "largest" or "least".
             let is_known = CRITERIA.contains(criterion);
             let best = if is_known { "best " } else { "" };
             let mut note = format!("{best}{}", criterion.name);
@@ -137,7 +139,8 @@ impl RankReport<'_> {
             }
             notes.push((self.ranking.winner(weights).row(), note));
         }
-        // Most designs are on the front of the paper's criteria, so its knee means little.
+        // Omit the knee of the paper's four criteria: most designs are on their front, so the knee
+        // means little.
         let knee = self.ranking.knee().filter(|_| !self.preferences().are_the_papers());
         notes.extend(knee.map(|knee| (knee.row(), "knee of the front".to_owned())));
         notes
@@ -159,7 +162,7 @@ impl RankReport<'_> {
         text
     }
 
-    /// Formats the best design that passes the checks.
+    /// Formats the best design that passes the checks, or the best of all if none passes.
     fn answer(&self) -> String {
         let winner = self.ranking.winner(self.preferences().weights);
         let best = self.checks.best.unwrap_or(winner);
@@ -192,14 +195,14 @@ impl RankReport<'_> {
         let mut row = vec![first];
         row.extend(shown_cells(self.results, self.preferences(), standing.row()));
         if self.checks.fails(standing.design()) {
-            // The first cell of the design is its number.
+            // Mark the number of the design, which follows the cell `first`.
             row[1].push(FAILED);
         }
         row
     }
 }
 
-/// Returns true for a parameter, unless the table has the same length in mm, too.
+/// Returns true for the column of a parameter, unless the table also has this parameter in mm.
 fn is_shown_parameter(column: &str, header: &[String]) -> bool {
     let parameter = parameter_of(column);
     parameter.is_some_and(|parameter| {
@@ -207,7 +210,7 @@ fn is_shown_parameter(column: &str, header: &[String]) -> bool {
     })
 }
 
-/// Returns the displayed columns: number, parameters, criteria and required columns.
+/// Returns the displayed columns: number, parameters, criteria, requirements and failure modes.
 fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     let mut columns = vec!["design".to_owned()];
     let header = results.header();
@@ -222,7 +225,7 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     columns
 }
 
-/// Returns the failure modes that the best design is judged by, if a failure force is shown.
+/// Returns the judged failure modes of the best design, if a failure force is displayed.
 pub fn judged_modes(results: &Results, ranking: &Ranking<'_>) -> Option<JudgedModes> {
     let preferences = ranking.preferences();
     shown_columns(results, preferences).iter().find_map(|column| mode_column(column))?;
@@ -231,6 +234,7 @@ pub fn judged_modes(results: &Results, ranking: &Ranking<'_>) -> Option<JudgedMo
     grid.case(grid.parse_number(best.design()).ok()?).judged_modes()
 }
 
+/// Returns the cells of the displayed columns, with a mark for a fold.
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
     let columns = shown_columns(results, preferences);
     let is_doubtful = columns.iter().any(|column| is_invalid_after_fold(column));
@@ -244,8 +248,8 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
                     format!("{text}{FOLDED}")
                 }
                 Ok(_) if column == "design" => text.into_owned(),
-                // 12 digits identify the design and hide the round-off of a division by the
-                // thickness.
+                // Show parameters with 12 digits, which identify a design without the round-off of a
+                // division by the thickness.
                 Ok(number) if parameter_of(column).is_some() => text::number::rounded(number, 12),
                 Ok(number) => digits(number),
                 _ => text.into_owned(),
@@ -267,7 +271,7 @@ pub fn unmet_report(results: &Results, preferences: &Preferences, unmet: &Unmet)
     text
 }
 
-/// Lists the distance of the nearest design from each requirement, and the obstacle.
+/// Lists how far the nearest design is from each requirement, and names the obstacles.
 pub fn obstacle(unmet: &Unmet) -> String {
     let mut rows =
         vec![["requirement", "met by", "others met by", "nearest", "short by"].map(str::to_owned)];
@@ -278,7 +282,7 @@ pub fn obstacle(unmet: &Unmet) -> String {
     format!("{}\n{}", aligned(&rows), binding(unmet))
 }
 
-/// Formats a requirement, the value of the nearest design, and the shortfall.
+/// Formats a requirement, the value of the nearest design, and its shortfall in percent.
 pub fn distance(requirement: &UnmetRequirement) -> [String; 3] {
     let short = match requirement.shortfall {
         0.0 => "-".to_owned(),
@@ -288,7 +292,7 @@ pub fn distance(requirement: &UnmetRequirement) -> [String; 3] {
     [requirement.requirement.to_string(), nearest, short]
 }
 
-/// Names the requirements that are the obstacle.
+/// Names the requirements that alone prevent some designs from meeting all requirements.
 fn binding(unmet: &Unmet) -> String {
     let binds = unmet.requirements.iter().filter(|requirement| requirement.binds());
     let binding: Vec<_> = binds.map(|requirement| requirement.requirement.to_string()).collect();

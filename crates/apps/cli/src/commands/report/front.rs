@@ -1,4 +1,4 @@
-//! The designs found by `squama optimise`, for the page of a sweep.
+//! Reads designs found by `squama optimise`, to show them in the report of a sweep.
 
 use std::path::Path;
 
@@ -12,15 +12,15 @@ use sweep::{PARAMETERS, Parameter, Scalar, Sweep};
 use crate::commands::answer::SearchedDesign;
 use crate::commands::folder_contents::FolderContents;
 
-/// Reads the designs of a search, to show them beside the designs of `grid`.
+/// Reads the front or the optimum of the search in `folder`, to show it with the designs of `grid`.
 ///
-/// Also returns sentences about requirements of its optimum that a check contradicts.
+/// Also returns a sentence for each check that the optimum fails.
 pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<(PageFront, Vec<String>)> {
     let name = folder.display();
     let SearchedDesign { failed_checks, .. } = SearchedDesign::read(folder)?;
     let failed_checks = failed_checks.into_iter();
     let failed = failed_checks.map(|check| format!("The optimum of {name} fails a check: {check}"));
-    // A search has no expected number of designs.
+    // Accept a partial table, because a search has no expected number of designs.
     let found = VerifiedFolder::open(folder, Completeness::Partial)?;
     let table = [FRONT, OPTIMUM].into_iter().find(|table| found.holds(table));
     let table = table.with_context(|| {
@@ -32,7 +32,7 @@ pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<(PageFront,
     let headers = grid.designs.headers();
     let nominal = goal.nominal();
     let objectives = objectives(&nominal);
-    // Front and grid share the axes of a figure, so the grid needs the column, too.
+    // Front and grid share the axes of a figure, so the grid needs a column for each objective.
     for objective in &objectives {
         ensure!(
             headers.iter().any(|header| *header == objective.column),
@@ -54,9 +54,9 @@ pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<(PageFront,
     Ok((front, failed.collect()))
 }
 
-/// Returns the nominal objectives.
+/// Returns the objectives of the nominal goal, without the margin that replaces a yield.
 ///
-/// For a goal on yield only, returns the column of the first requirement.
+/// If the yield is the only objective, returns the column of the first requirement.
 fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
     let objectives: Vec<Criterion> = nominal
         .objectives
@@ -67,7 +67,7 @@ fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
     if !objectives.is_empty() {
         return objectives;
     }
-    // One axis is enough: the second one comes from other requirements or the variables.
+    // One column suffices: the figures take their second axis from another requirement or variable.
     nominal
         .requirements
         .iter()
@@ -80,7 +80,7 @@ fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
         .collect()
 }
 
-/// Returns the statistics over samples that a goal names, without duplicates.
+/// Returns the columns of a goal that are statistics over samples, without duplicates.
 fn statistics(goal: &DesignGoal) -> Vec<String> {
     let mut statistics: Vec<String> = Vec::new();
     for column in goal.columns().filter(|column| goal.statistic(column).is_some()) {
@@ -91,7 +91,9 @@ fn statistics(goal: &DesignGoal) -> Vec<String> {
     statistics
 }
 
-/// Describes the tolerances of a goal about samples, which the designs of a grid do not have.
+/// Lists the tolerances of a goal; `None` if the goal uses no samples.
+///
+/// The report mentions them, because the designs of a grid have no tolerances.
 fn tolerances_of(goal: &DesignGoal) -> Option<String> {
     let tolerances = goal.space.sweep().deviations().iter();
     let tolerances = tolerances.map(|d| format!("tolerance.{} {}", d.key(), d.to_toml()));
@@ -99,7 +101,7 @@ fn tolerances_of(goal: &DesignGoal) -> Option<String> {
     goal.is_about_samples().then(|| all.join(", "))
 }
 
-/// Lists the fixed parameters that differ between the search and the grid, with both values.
+/// Lists the fixed parameters with different values in the search and in the grid.
 fn differences(goal: &DesignGoal, grid: &FolderContents) -> Vec<String> {
     let held = PARAMETERS
         .iter()
@@ -113,9 +115,7 @@ fn differences(goal: &DesignGoal, grid: &FolderContents) -> Vec<String> {
     .collect()
 }
 
-/// Returns the value of a parameter that all designs of a sweep share.
-///
-/// `None` if it varies.
+/// Returns the value of `parameter` if all designs of `sweep` have the same value.
 fn only_value(sweep: &Sweep, parameter: &Parameter) -> Option<Scalar> {
     match sweep.grid().axis(parameter.key) {
         Some(axis) => (axis.len() == 1).then(|| axis.value(0)),

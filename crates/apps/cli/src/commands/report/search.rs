@@ -1,4 +1,4 @@
-//! The page of a search, written again and again while the search is running.
+//! Writes the HTML page of a search, and rewrites the page while the search is running.
 
 use std::path::Path;
 use std::thread;
@@ -13,10 +13,10 @@ use crate::commands::status::search_report;
 use crate::commands::{DONE, PROGRAM};
 use crate::print::print;
 
-/// Seconds between two versions of the page.
+/// Time between two versions of the page, in seconds.
 const EVERY: u32 = 5;
 
-/// Writes the page of the search in `folder` until the search ends.
+/// Writes the page of the search in `folder` to `out`, again and again until the search ends.
 pub fn search_page(folder: &Path, out: &Path) -> anyhow::Result<u8> {
     print(&format!("{}\n", out.display()))?;
     loop {
@@ -31,6 +31,7 @@ pub fn search_page(folder: &Path, out: &Path) -> anyhow::Result<u8> {
     }
 }
 
+/// Returns the page for the current status of the search.
 fn page(folder: &Path, status: &SearchStatus) -> anyhow::Result<SearchPage> {
     let mut notes = Vec::new();
     if folder.join(OPTIMUM).is_file() && !status.in_use {
@@ -47,7 +48,9 @@ fn page(folder: &Path, status: &SearchStatus) -> anyhow::Result<SearchPage> {
     })
 }
 
-/// Draws the history of the first objective, and the designs in parallel coordinates.
+/// Draws the history of the first objective, and the designs in parallel coordinates, as SVG.
+///
+/// Returns no figures before the first design is evaluated.
 fn figures(status: &SearchStatus) -> Vec<String> {
     let Some(goal) = status.definition.as_ref().filter(|_| !status.evaluations.is_empty()) else {
         return Vec::new();
@@ -78,9 +81,10 @@ fn figures(status: &SearchStatus) -> Vec<String> {
     vec![history.svg(), parallel.svg()]
 }
 
-/// Returns the axes of parallel coordinates, and the values of all designs.
+/// Returns the axes of the parallel coordinates, and the values of each design on these axes.
 ///
-/// Variables come first, then objectives and requirements; every column has one axis.
+/// The axes are variables, objectives and requirements, in this order and without duplicates. The
+/// flag of a design is true if the design meets the requirements.
 fn coordinates(
     goal: &optimisation::DesignGoal,
     status: &SearchStatus,

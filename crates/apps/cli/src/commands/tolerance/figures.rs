@@ -1,4 +1,4 @@
-//! Figures of `squama tolerance` for a single design.
+//! Draws the figures of `squama tolerance` for a single design.
 
 use ranking::Requirement;
 use report::{Histogram, Shares, share_bars};
@@ -7,11 +7,12 @@ use uncertainty::{DesignTolerance, DeviationLevel, MeasureTolerance};
 
 use super::report::is_shown;
 
+/// File name of the figure of the sources.
 const SOURCES: &str = "sources.svg";
 
-/// Draws the sources of the spread, and a histogram of each required measure.
+/// Draws the sources of the spread, and a histogram of each measure with a requirement.
 ///
-/// Each figure comes with its file name.
+/// Returns the file name and the SVG text of each figure.
 pub fn figures(
     sweep: &Sweep,
     requirements: &[Requirement],
@@ -31,6 +32,7 @@ pub fn figures(
     files
 }
 
+/// Returns the shares of the sources in the variance of a measure, if it has a linear prediction.
 fn shares(measure: &MeasureTolerance) -> Option<Shares> {
     let sources = measure.linear.as_ref()?.sources.iter().map(|source| {
         let level = if source.level == DeviationLevel::Scale { " from scale to scale" } else { "" };
@@ -39,7 +41,7 @@ fn shares(measure: &MeasureTolerance) -> Option<Shares> {
     Some((measure.name.clone(), sources.collect()))
 }
 
-/// Draws the histogram of a measure; `None` if no sample has a value.
+/// Draws the histogram of a measure; `None` if no sample has a value of the measure.
 fn histogram(
     name: &str,
     requirements: &[Requirement],
@@ -60,7 +62,7 @@ fn histogram(
     (!values.is_empty()).then(|| histogram.svg())
 }
 
-/// Formats the bound of a requirement with the signs of print.
+/// Formats the bound of a requirement, with the typographic signs ≥ and ≤.
 fn bound(requirement: &Requirement) -> String {
     let sign = requirement.relation.sign().replace(">=", "≥").replace("<=", "≤");
     format!("required {sign} {}", text::number::text(requirement.limit))

@@ -1,4 +1,4 @@
-//! JSON output of `squama tolerance`.
+//! The JSON output of `squama tolerance`.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use uncertainty::{
 use super::report::first_failure;
 use crate::json;
 
-/// Returns all results except the samples.
+/// Returns all results except the samples as JSON.
 pub fn record(sweep: &Sweep, all: &[DesignTolerance], folder: &Path, files: &[String]) -> Value {
     json!({
         "sweep": sweep.name(),

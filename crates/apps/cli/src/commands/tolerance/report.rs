@@ -1,4 +1,4 @@
-//! Text output of `squama tolerance`.
+//! The text output of `squama tolerance`.
 
 use std::fmt::Write as _;
 
@@ -12,9 +12,10 @@ use uncertainty::{DesignTolerance, MeasureTolerance, Proportion, RequirementYiel
 use crate::commands::answer::DesignAnswer;
 use crate::print::{aligned, change, counted, rounded};
 
-/// Maximum number of listed designs.
+/// Maximum number of designs that the report lists.
 const LISTED: usize = 10;
 
+/// Header of the table of measures.
 const HEADER: [&str; 8] = [
     "measure",
     "nominal",
@@ -26,7 +27,7 @@ const HEADER: [&str; 8] = [
     "sources",
 ];
 
-/// Formats the report on one design, or a list of several.
+/// Formats a detailed report on a single design, or a list of several designs.
 pub fn report(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) -> String {
     match all {
         [design] => one(sweep, requirements, design),
@@ -34,6 +35,7 @@ pub fn report(sweep: &Sweep, requirements: &[Requirement], all: &[DesignToleranc
     }
 }
 
+/// Formats the spread of the measures, the yield and the warnings of a single design.
 fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) -> String {
     let (number, count) = (design.nominal.number, sweep.grid().len());
     let samples = counted(design.samples.len() as u64, "sample");
@@ -65,12 +67,16 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
     text
 }
 
-/// Returns the first failure of the nominal design, if the sweep requests it.
+/// Returns the name of the first failure mode of the nominal design.
+///
+/// `None` if failure is not judged.
 pub fn first_failure(design: &DesignTolerance) -> Option<&'static str> {
     Some(design.nominal.result.puncture?.measures.failure.mode?.name())
 }
 
-/// Warns of samples with a fold, which count as failed only with a requirement on it.
+/// Returns a warning that the surface of some samples folds.
+///
+/// Such samples count as failed only if a requirement excludes folds.
 fn folded(design: &DesignTolerance) -> Option<String> {
     let place = design.columns.iter().position(|column| column == FOLD_FORCE)?;
     let folded = design.samples.iter().map(|sample| sample.values.get(place));
@@ -82,7 +88,7 @@ fn folded(design: &DesignTolerance) -> Option<String> {
     (count > 0).then_some(line)
 }
 
-/// Returns true for the main measures, the failure force, the mass, and required columns.
+/// Returns true for the main measures, failure forces, the mass, and columns with a requirement.
 pub fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
     let measure = measure_name(name);
     let leads = MEASURE_TABLES.iter().any(|(table, _)| *table == measure);
@@ -126,7 +132,7 @@ fn yield_row(of: &RequirementYield) -> Vec<String> {
     vec![name, of.proportion.map_or("none".to_owned(), proportion), notes.join(", ")]
 }
 
-/// Formats a fraction with its interval.
+/// Formats a fraction of samples with its 95 % interval.
 fn proportion(proportion: Proportion) -> String {
     let [low, high] = proportion.interval().map(percent);
     format!("{} (95 % interval {low} to {high})", percent(proportion.share()))
@@ -136,22 +142,24 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-/// Formats a value with three digits.
+/// Formats a value with three significant digits.
 fn short(value: f64) -> String {
     text::number::rounded(value, 3)
 }
 
-/// Returns the yield of all requirements together.
+/// Returns the fraction of samples that meet all requirements together.
 fn whole_yield(design: &DesignTolerance) -> Option<Proportion> {
     design.yields.last().and_then(|of| of.proportion)
 }
 
-/// Lists the designs with the highest yield, or in their order without requirements.
+/// Lists the designs in descending order of their yield.
+///
+/// Without requirements, the designs keep the order of their numbers.
 fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) -> String {
     let count = counted(all.len() as u64, "design");
     let mut text = format!("{}: {count} of {}\n", sweep.name(), sweep.grid().len());
     let mut designs: Vec<&DesignTolerance> = all.iter().collect();
-    // A stable sort: ties keep their order.
+    // The sort is stable, so designs with equal yields keep their order.
     designs.sort_by(|one, other| {
         let [one, other] = [one, other].map(|d| whole_yield(d).map_or(-1.0, Proportion::share));
         other.total_cmp(&one)
@@ -166,7 +174,7 @@ fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) ->
     text
 }
 
-/// Returns the rows of a design: one per measure, because a single line would be too wide.
+/// Returns a row for each displayed measure of a design; all measures in one row would be too wide.
 fn yield_rows(design: &DesignTolerance, requirements: &[Requirement]) -> Vec<Vec<String>> {
     let yielded = whole_yield(design).map(proportion);
     let first = [design.nominal.number.to_string(), yielded.unwrap_or_default()];
