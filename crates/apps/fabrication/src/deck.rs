@@ -13,19 +13,23 @@ use crate::Patch;
 
 /// Maximum number of scales of the row.
 const MOST_SCALES: usize = 201;
-/// Elements along the base of a scale, over half its width, over its height, and in a gap.
+/// Number of elements along the base of a scale.
 const ALONG: usize = 4;
+/// Number of elements over half the width of a scale.
 const ACROSS: usize = 3;
+/// Number of elements over the height of a scale.
 const HEIGHT: usize = 3;
+/// Number of elements along a gap.
 const GAP: usize = 2;
-/// Distance of the outer faces of the block, over the larger of base and width.
+/// Distance of the outer faces of the block from the scales, in units of the larger of base and
+/// width of a scale.
 // At a distance of 10 a single base is 4 % too stiff.
 const MARGIN: f64 = 10.0;
 /// Ratio of the lengths of successive elements towards the outer faces.
 const GROWTH: f64 = 1.8;
-/// Displacement of the load over the thickness.
+/// Displacement of the load, divided by the thickness of a scale.
 const DEPTH: f64 = 0.1;
-/// Largest Poisson's ratio, because elements of an incompressible material need a pressure.
+/// Largest Poisson's ratio: elements of an incompressible material need a pressure as an unknown.
 const MOST_POISSON: f64 = 0.49;
 
 /// Materials and load of a deck.
@@ -54,10 +58,10 @@ pub struct NoDeck(usize);
 
 /// Block of a node, and its indices in the grid of half elements.
 ///
-/// Block 0 is the substrate; the scales follow.
+/// Block 0 is the substrate, and block `k + 1` is scale `k`.
 type NodeIndex = [usize; 4];
 
-/// Nodes and elements.
+/// Nodes and elements of a deck. Node numbers start at 1.
 #[derive(Default)]
 struct Mesh {
     nodes: BTreeMap<NodeIndex, usize>,
@@ -89,12 +93,14 @@ const NODES: [[usize; 3]; 20] = [
     [0, 2, 1],
 ];
 
-/// Returns the coordinate of half element `i` between lines of the grid.
+/// Returns the coordinate of index `i`, in half elements, of a grid with these `lines`.
 fn at(lines: &[f64], i: usize) -> f64 {
     f64::midpoint(lines[i / 2], lines[i.div_ceil(2)])
 }
 
-/// Returns lengths of growing elements that fill `total`, the first about `first`.
+/// Returns the lengths of elements that fill the length `total` and grow by [`GROWTH`].
+///
+/// The first element is at most `first` long.
 fn growing(first: f64, total: f64) -> Vec<f64> {
     let mut lengths = Vec::new();
     let (mut sum, mut next) = (0.0, first.min(total));
@@ -159,9 +165,9 @@ impl Mesh {
         number
     }
 
-    /// Adds a block of elements, and returns their numbers from 0, along the first axis first.
+    /// Adds a block of elements, and returns their indices, which increase along the first axis.
     ///
-    /// `node` returns the node at given indices in the block, in half elements.
+    /// `node` returns index and coordinates of the node at given half elements in the block.
     fn block(
         &mut self,
         [along, across, height]: [usize; 3],
@@ -185,7 +191,7 @@ impl Mesh {
         self.block(sizes, |[i, j, k]| ([0, i, j, k], [at(xs, i), at(ys, j), at(zs, k)]))
     }
 
-    /// Adds the scales, and returns the numbers of the elements at their left and right sides.
+    /// Adds the scales, and returns for each the numbers of the elements at its left and right.
     fn add_scales(&mut self, grid: &Grid, patch: &Patch) -> [Vec<Vec<usize>>; 2] {
         let (t, shift) = (patch.thickness(), patch.shift());
         let up: Vec<f64> = (0..=HEIGHT).map(|k| t * k as f64 / HEIGHT as f64).collect();
@@ -229,7 +235,7 @@ impl Mesh {
     }
 }
 
-/// Returns the deck of the first row of `patch`.
+/// Returns the deck of the first row of `patch`, with a load on the middle scale.
 ///
 /// # Errors
 ///
@@ -283,7 +289,7 @@ fn heading(title: &str, puncture: &Puncture, t: f64) -> String {
     if ratio < puncture.poisson_ratio {
         let _ = writeln!(
             text,
-            "** Poisson's ratio is {ratio} instead of {}; a full half-space is a block here.",
+            "** Poisson's ratio is {ratio} instead of {}; a block replaces an infinite half-space.",
             puncture.poisson_ratio
         );
     }
@@ -291,13 +297,15 @@ fn heading(title: &str, puncture: &Puncture, t: f64) -> String {
     text
 }
 
-/// Returns line `j` across half a scale, on 0 to 1; lines are closer near the edge at 1.
+/// Returns the position of line `j` across half a scale, from 0 in the middle to 1 at the edge.
+///
+/// Lines are closer near the edge.
 fn edge_spaced(j: usize) -> f64 {
     let angle = std::f64::consts::FRAC_PI_2 * j as f64 / ACROSS as f64;
     angle.sin()
 }
 
-/// Returns the lines of a base on 0 to 1, finer at its ends, with a line at the load.
+/// Returns the lines along a base, from 0 to 1: closer at its ends, and one at the load.
 fn base_lines(load: f64) -> [f64; ALONG + 1] {
     let mut lines = std::array::from_fn(|i| {
         let angle = std::f64::consts::PI * i as f64 / ALONG as f64;
@@ -310,7 +318,7 @@ fn base_lines(load: f64) -> [f64; ALONG + 1] {
     lines
 }
 
-/// Returns the line of a base that is nearest to the load.
+/// Returns the index of the line of a base that is nearest to the load.
 fn load_column(lines: &[f64; ALONG + 1], load: f64) -> usize {
     let distances = lines.map(|line| (line - load).abs());
     (0..=ALONG).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(ALONG)
@@ -357,7 +365,7 @@ fn elements(text: &mut String, set: &str, all: &[[usize; 20]], range: Range<usiz
     }
 }
 
-/// Writes numbers, at most eight a line.
+/// Writes numbers, at most eight in a line.
 fn list(text: &mut String, numbers: &[usize]) {
     for some in numbers.chunks(8) {
         let some: Vec<_> = some.iter().map(usize::to_string).collect();

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::Sheet;
 
-/// Colour numbers of the layers: red, blue, grey.
+/// Colour numbers of [`Sheet::LAYERS`]: red, blue, grey.
 const COLORS: [u8; 3] = [1, 5, 8];
 
 /// Lines of a DXF: pairs of a group code and a value.
@@ -14,12 +14,13 @@ struct Groups {
     handle: u32,
 }
 
-/// Fixed handles of the block records of model and paper space, and of their table.
+/// Fixed handle of the block record of model space.
 const MODEL: &str = "1F";
+/// Fixed handle of the block record of paper space.
 const PAPER: &str = "1B";
 
 pub(crate) fn write(sheet: &Sheet) -> String {
-    // Smaller handles belong to blocks and the root of objects.
+    // Smaller handles are reserved for the fixed handles of tables, blocks and dictionaries.
     let mut groups = Groups { text: String::new(), handle: 0xFF };
     groups.tables();
     groups.section("BLOCKS", |groups| {
@@ -42,7 +43,7 @@ pub(crate) fn write(sheet: &Sheet) -> String {
         groups.add(&[(281, "1"), (3, "ACAD_GROUP"), (350, "D")]);
         groups.add(&[(0, "DICTIONARY"), (5, "D"), (330, "C"), (100, "AcDbDictionary"), (281, "1")]);
     });
-    // Written last but placed first, because it contains the next free handle.
+    // The header is created last, because it contains the next free handle, but it is placed first.
     let mut header = Groups { text: String::new(), handle: 0 };
     // 999 is a comment.
     header.add(&[(999, "squama")]);
@@ -142,7 +143,7 @@ impl Groups {
         self.add(&[(100, "AcDbSymbolTableRecord"), (100, class), (2, name), (70, "0")]);
     }
 
-    /// Writes an empty block; its content is in the section of entities.
+    /// Writes an empty block. Its content is in the section `ENTITIES`.
     fn block(&mut self, name: &str, record: &str, [begin, end]: [&str; 2]) {
         self.add(&[(0, "BLOCK"), (5, begin), (330, record), (100, "AcDbEntity"), (8, "0")]);
         self.add(&[(100, "AcDbBlockBegin"), (2, name), (70, "0")]);

@@ -3,9 +3,9 @@
 //! Formats are 3MF and STL for 3D printers, STEP for CAD programs, DXF and SVG for laser cutters,
 //! and a [deck](deck()) for finite-element programs.
 //!
-//! All solids are [prisms](Prism): a scale is a parallelogram, the membrane a rectangle or, on a
-//! curved body, a bent strip, extruded across the rows. Decks and outlines are flat. The formats are
-//! written without libraries, because each writer takes a page.
+//! All solids are [prisms](Prism), extruded across the rows: a scale is a parallelogram, and the
+//! membrane a rectangle or, on a curved body, a bent strip. Decks and outlines are always flat.
+//! The formats are written without libraries, because each writer is about a page of code.
 
 mod deck;
 mod dxf;

@@ -7,7 +7,7 @@ pub(crate) fn triangles(prism: &Prism) -> impl Iterator<Item = [usize; 3]> {
     prism.faces().into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
 }
 
-/// Returns six times the volume enclosed by the triangles.
+/// Returns the volume enclosed by the triangles.
 #[cfg(test)]
 pub(crate) fn volume(corners: &[[f64; 3]], triangles: impl Iterator<Item = [usize; 3]>) -> f64 {
     let of = |[a, b, c]: [[f64; 3]; 3]| {
@@ -44,7 +44,7 @@ mod tests {
                 let enclosed = volume(&scale.corners(), triangles(scale));
                 assert!((enclosed / patch.scale_volume() - 1.0).abs() < 1e-12, "{enclosed}");
             }
-            // The membrane of a convex body is shorter below its top, of a concave one longer.
+            // Below its upper face, the membrane is shorter on a convex body, longer on a concave.
             let [length, width, h] = patch.membrane_size();
             let mean = patch.radius().map_or(1.0, |radius| 1.0 - 0.5 * h / radius);
             let enclosed: f64 =

@@ -8,7 +8,7 @@ use geometry::{Body, Frame, Row, Vec2};
 const MOST_SCALES: usize = 20_000;
 
 /// Range of every length of a patch, mm.
-// Single-precision numbers of an STL file keep lengths of this range apart from zero and infinity.
+// STL files have single-precision numbers, in which these lengths are neither zero nor infinite.
 pub(crate) const LENGTHS: [f64; 2] = [1e-6, 1e6];
 
 /// A patch of skin: equal scales in rows on a membrane.
@@ -19,9 +19,9 @@ pub(crate) const LENGTHS: [f64; 2] = [1e-6, 1e6];
 /// membrane. The bases of the scales stand on its upper face, which extends a gap beyond them on
 /// every side.
 ///
-/// On a curved body the rows lie on its arc, with their middle on top, and the nodes of the scales
-/// at equal arc lengths. The upper face of the membrane is
-/// plane under each base and in each gap. The origin is then the lowest corner of the bounding box.
+/// On a curved body, the rows lie on its arc with their middle on top, and the nodes of the scales
+/// have equal distances along the arc. The upper face of the membrane is plane under each base and
+/// in each gap. The origin is then the lowest corner of the bounding box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     row: Row,
@@ -59,8 +59,8 @@ pub enum NoPatch {
 
 /// A solid between two parallel faces.
 ///
-/// The outline lies in the x–z plane and is extruded along `y`. It is a strip of convex
-/// quadrilaterals: of `n` corners, `k` and `n − 1 − k` are opposite ends of a rung.
+/// The outline lies in the x–z plane and is extruded along `y`. Of its `n` corners, `k` and
+/// `n − 1 − k` are the ends of rung `k`. Two neighbouring rungs bound a convex quadrilateral.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prism {
     /// Corners of the outline, `[x, z]`, mm, counter-clockwise seen along `y`.
@@ -81,7 +81,8 @@ pub struct Solids {
 impl Patch {
     /// Creates a patch from rows like `row`, with `scales` along and across.
     ///
-    /// The lengths of `row` are over `thickness`.
+    /// The lengths of `row` are divided by the `thickness` of the scales. The other lengths are the
+    /// width of the scales, the thickness of the membrane and the gap across, mm.
     ///
     /// # Errors
     /// If a length is out of range, or the number of scales is out of range.
@@ -92,7 +93,7 @@ impl Patch {
         scales: [usize; 2],
     ) -> Result<Self, NoPatch> {
         let [along, across] = scales;
-        // Checked, because two large counts could overflow to a small product.
+        // The product is checked, because two large counts could overflow to a small product.
         match along.checked_mul(across) {
             Some(1..=MOST_SCALES) => {}
             _ => return Err(NoPatch::Scales(along, across)),
@@ -113,7 +114,7 @@ impl Patch {
             // Upright scales have no shift.
             ("the shift of the top of the scales", patch.shift().abs().max(low)),
         ];
-        // Written so that NaN is refused.
+        // The condition is negated so that it also refuses NaN.
         if let Some(&(name, length)) = lengths.iter().find(|(_, l)| !(low..=high).contains(l)) {
             return Err(NoPatch::Length(name, length));
         }
@@ -149,7 +150,7 @@ impl Patch {
         Ok(patch)
     }
 
-    /// Returns the radius of the body, negative for a concave one; `None` for a flat patch.
+    /// Returns the radius of the body, negative for a concave body; `None` for a flat patch.
     pub fn radius(&self) -> Option<f64> {
         (!self.body.is_flat()).then(|| self.thickness / self.body.curvature)
     }
@@ -164,13 +165,13 @@ impl Patch {
         self.row.clearance_on(self.body) * self.thickness
     }
 
-    /// Returns the corners of two neighbours in the frame of the left one, over the thickness.
+    /// Returns the corners of two neighbours in the frame of the left scale, in thicknesses.
     fn neighbours(&self) -> [[Vec2; 4]; 2] {
         let (corners, frame) = (self.row.scale().corners(), self.body.frame(self.row.pitch()));
         [corners, corners.map(|corner| frame.origin + frame.outward(corner))]
     }
 
-    /// Returns the shift of a row along itself.
+    /// Returns the distance by which a row is shifted along itself.
     fn row_shift(&self, row: usize) -> f64 {
         if self.is_brick && row % 2 == 1 { self.pitches()[0] / 2.0 } else { 0.0 }
     }
@@ -298,22 +299,22 @@ impl Patch {
         solids
     }
 
-    /// Returns the middle of the gap before a row, across the rows.
+    /// Returns the `y` coordinate of the middle of the gap before a row.
     fn middle_before(&self, row: usize) -> f64 {
         0.5 * self.gap_across + row as f64 * self.pitches()[1]
     }
 
-    /// Returns the tangent frame at a distance from the left end of the membrane, along the arc.
+    /// Returns the tangent frame at a distance along the arc from the left end of the membrane.
     fn frame(&self, x: f64) -> Frame {
         self.body.frame((x - 0.5 * self.membrane_size()[0]) / self.thickness)
     }
 
-    /// Returns a point of a tangent frame, given over the thickness.
+    /// Returns the position, in mm, of a point of a tangent frame, in thicknesses.
     fn placed(&self, frame: &Frame, point: Vec2) -> [f64; 2] {
         ((frame.origin + frame.outward(point)) * self.thickness).into()
     }
 
-    /// Returns a point on top of the membrane and the point below it, along the radius.
+    /// Returns a point on the upper face of the membrane, and the point below it along the radius.
     fn rung(&self, frame: &Frame, along: f64) -> [[f64; 2]; 2] {
         let upper = Vec2::new(along, 0.0);
         let outwards = Vec2::new(along * self.body.curvature, 1.0).normalize();
@@ -322,14 +323,14 @@ impl Patch {
     }
 }
 
-/// Returns true if two convex polygons do not overlap.
+/// Returns true if an edge of one of two convex polygons separates them.
 ///
-/// An edge of one of them then separates them.
+/// Otherwise they touch or overlap.
 fn are_apart(one: &[Vec2; 4], other: &[Vec2; 4]) -> bool {
     [(one, other), (other, one)].into_iter().any(|(polygon, points)| {
         (0..4).any(|k| {
             let edge = polygon[(k + 1) % 4] - polygon[k];
-            // Corners run counter-clockwise, so the right side of an edge is outside.
+            // Corners are counter-clockwise, so the right side of an edge is outside.
             points.iter().all(|point| edge.perp(&(point - polygon[k])) < 0.0)
         })
     })
@@ -388,7 +389,7 @@ pub(crate) mod tests {
 
     use super::*;
 
-    /// Creates scales 2 mm thick with a base of 1.6 mm and a slant of 60°, 5 along and 4 across.
+    /// Creates a patch of 5 by 4 scales of 60° with a thickness of 2 mm and a base of 1.6 mm.
     pub fn patch() -> Patch {
         let row = Row::new(Parallelogram::new(0.4, 60.0).expect("a scale"), 0.3).expect("a row");
         Patch::new(row, 2.0, [3.0, 0.25, 0.6], [5, 4]).expect("a patch")
@@ -420,7 +421,7 @@ pub(crate) mod tests {
         assert!((patch.membrane_size()[0] - end - 0.6).abs() < 1e-12, "a gap from the rim");
     }
 
-    /// A finger with a radius of 10 mm, and the inner side of a joint.
+    /// Returns patches on a convex body with a radius of 10 mm and a concave one of 40 mm.
     fn curved() -> [Patch; 2] {
         [10.0, -40.0]
             .map(|radius| patch().on_body(Body { curvature: 2.0 / radius }).expect("a patch"))
@@ -445,7 +446,7 @@ pub(crate) mod tests {
                 let along = (to[0] - from[0]) * normal[0] + (to[1] - from[1]) * normal[1];
                 assert!(along.abs() < 1e-12, "the base is a tangent");
             }
-            // Equal arc lengths: 2 R sin(p/2R) is the chord of a pitch.
+            // Nodes have equal distances along the arc; the chord of a pitch is 2 R sin(p/2R).
             let chord = 2.0 * radius * (patch.pitches()[0] / (2.0 * radius)).sin();
             assert!(((next[0] - top[0]).hypot(next[1] - top[1]) - chord).abs() < 1e-12);
         }
@@ -464,7 +465,7 @@ pub(crate) mod tests {
             let on_edge = gaps.iter().filter(|gap| (0.0..=1.0).contains(&gap.foot));
             let least = on_edge.map(|gap| gap.value).fold(f64::INFINITY, f64::min);
             assert!((patch.clearance() / (2.0 * least) - 1.0).abs() < 1e-12, "{least}");
-            // The distance of the written corners from the written edges.
+            // The distance between the outlines of two neighbouring solids.
             let solids = patch.solids();
             let [left, right] = [1, 2].map(|k| -> [Vec2; 4] {
                 std::array::from_fn(|c| Vec2::from(solids.scales[k].outline[c]))
@@ -511,7 +512,7 @@ pub(crate) mod tests {
     fn patches_that_do_not_fit_a_body_are_refused() {
         let [convex, concave] = [1.8, -4.0]
             .map(|radius| patch().on_body(Body { curvature: 2.0 / radius }).unwrap_err());
-        // Five pitches of 2.2 mm and a gap.
+        // The length is five pitches of 2.2 mm and a gap of 0.6 mm.
         assert!(
             matches!(convex, NoPatch::Circumference(length, _) if (length - 11.6).abs() < 1e-9)
         );

@@ -6,10 +6,10 @@ use crate::patch::LENGTHS;
 /// Distance between parts on a sheet, mm.
 const SPACING: f64 = 2.0;
 
-/// Rim of the template around its holes, mm.
+/// Width of the rim of the template around its holes, mm.
 const RIM: f64 = 10.0;
 
-/// Minimum web between two holes of a template, mm; thinner webs burn away.
+/// Minimum width of the webs between the holes of a template, mm. Narrower webs burn away.
 const LEAST_WEB: f64 = 0.2;
 
 /// Side of the square for checking units after import, mm.
@@ -37,7 +37,7 @@ pub enum NoSheet {
     /// A length is out of range.
     #[error("{0} is {1} mm, expected a length from 0 to {high:e}", high = LENGTHS[1])]
     Length(&'static str, f64),
-    /// The beam is as wide as a hole.
+    /// The kerf is at least as wide as a hole.
     #[error("a kerf of {0} mm leaves no hole in the template, which needs holes of {1:.4} mm")]
     Kerf(f64, f64),
 }
@@ -58,7 +58,7 @@ impl Sheet {
                 return Err(NoSheet::Length(name, length));
             }
         }
-        // A slanted scale needs a longer hole, by its horizontal shift within the sheet.
+        // A hole is longer by the shift of a slanted scale over the thickness of the template.
         let lean = patch.shift() / patch.thickness() * template;
         let hole = [patch.base() + lean, patch.width()];
         let smallest = hole[0].min(hole[1]);
@@ -85,7 +85,7 @@ impl Sheet {
         self.web
     }
 
-    /// Returns true if the webs of the template are wide enough.
+    /// Returns true if the webs are wide enough, so that the sheet has a template.
     pub fn has_template(&self) -> bool {
         self.web >= LEAST_WEB
     }
@@ -103,11 +103,11 @@ impl Sheet {
         self.outlines.push(Outline { layer, corners: corners.to_vec() });
     }
 
-    /// Adds a profile for each scale, in the rows of the patch; returns their upper end.
+    /// Adds a profile for each scale, in the rows of the patch; returns their largest `y`.
     fn profiles(&mut self, patch: &Patch, kerf: f64) -> f64 {
-        // Half of the kerf lies inside the line, where it removes material of the part.
+        // The laser would remove half of the kerf from the part, so the outline is larger.
         let profile = grown(patch.profile(), kerf / 2.0);
-        // Parts have equal slants, so only the distance perpendicular to their sides matters.
+        // The slanted sides of the parts are parallel, so their perpendicular distance matters.
         let slant = (patch.shift() / patch.thickness()).atan();
         let step = patch.base() + (SPACING + kerf) / slant.cos();
         let [nx, ny] = patch.scales();
@@ -119,7 +119,7 @@ impl Sheet {
         ny as f64 * rise
     }
 
-    /// Adds the template above `top`; returns its upper end.
+    /// Adds the template above y = `top`; returns its largest `y`.
     fn template(&mut self, patch: &Patch, hole: [f64; 2], kerf: f64, top: f64) -> f64 {
         let [length, width, _] = patch.membrane_size();
         let size = [length + 2.0 * RIM, width + 2.0 * RIM];
@@ -134,7 +134,7 @@ impl Sheet {
     }
 }
 
-/// Returns a rectangle from its lower left corner, offset outwards by `by`.
+/// Returns the rectangle with this lower left corner and size, offset outwards by `by`.
 fn rectangle([x, y]: [f64; 2], [length, width]: [f64; 2], by: f64) -> [[f64; 2]; 4] {
     grown([[x, y], [x + length, y], [x + length, y + width], [x, y + width]], by)
 }
@@ -147,7 +147,7 @@ fn grown(corners: [[f64; 2]; 4], by: f64) -> [[f64; 2]; 4] {
         [u / u.hypot(v), v / u.hypot(v)]
     };
     std::array::from_fn(|k| {
-        // Each corner moves by the same distance from both adjacent sides.
+        // Each corner moves by the distance `by` from both adjacent sides.
         let (before, after) = (side((k + 3) % 4), side(k));
         let sine = before[0] * after[1] - before[1] * after[0];
         std::array::from_fn(|axis| corners[k][axis] + by * (before[axis] - after[axis]) / sine)
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn overlapping_holes_are_left_out() {
+    fn templates_with_too_narrow_webs_are_omitted() {
         let sheet = Sheet::new(&patch(), 0.15, 0.5).expect("a sheet");
         assert!(!sheet.has_template() && of(&sheet, 1).is_empty(), "{}", sheet.web());
         assert!((sheet.web() - (0.6 - 0.5 * 60.0_f64.to_radians().tan())).abs() < 1e-12);

@@ -9,7 +9,7 @@ use crate::{Patch, Prism, Solids};
 
 /// The header of a product in millimetres with an accuracy of 1e-7 mm.
 ///
-/// The representation (#20) of the product follows the solids.
+/// The representation of the product, entity 20, is written after the solids.
 // The date is fixed, so that equal designs give equal files.
 const PRODUCT: &str = "ISO-10303-21;
 HEADER;
@@ -39,7 +39,7 @@ DATA;
 #19=PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(#4));
 ";
 
-/// The entity that lists the solids.
+/// Number of the entity that lists the solids.
 const REPRESENTATION: usize = 20;
 
 pub(crate) fn write(patch: &Patch) -> String {
@@ -145,7 +145,7 @@ fn triple(values: Vector3<f64>) -> String {
     format!("({})", <[f64; 3]>::from(values).map(real).join(","))
 }
 
-/// Formats a number for STEP: always with a point, and a capital E.
+/// Formats a number for STEP: always with a decimal point, and with `E` before an exponent.
 fn real(value: f64) -> String {
     // The debug format keeps the point of whole numbers, unlike the display format.
     let text = format!("{value:?}");

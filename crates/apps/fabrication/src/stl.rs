@@ -1,13 +1,13 @@
-//! Binary STL.
+//! Binary STL: one mesh of all solids.
 
 use nalgebra::Vector3;
 
 use crate::Patch;
 use crate::mesh::triangles;
 
-/// Bytes of the header.
+/// Length of the header, bytes.
 ///
-/// A header that begins with `solid` would make readers take the file for text.
+/// The header must not begin with `solid`, because readers would treat the file as text.
 const HEADER: usize = 80;
 
 pub(crate) fn write(patch: &Patch) -> Vec<u8> {
@@ -16,7 +16,7 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
     let mut facets = Vec::new();
     let mut count: u32 = 0;
     for prism in patch.solids().all() {
-        // Round before computing normals, so that equal corners stay equal and the mesh closed.
+        // Round before computing normals, so that they belong to the written corners.
         let corners = prism.corners().into_iter();
         let corners: Vec<_> =
             corners.map(|corner| Vector3::from(corner).map(|at| at as f32)).collect();
@@ -50,6 +50,6 @@ mod tests {
             .chunks(4)
             .map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four")))
             .collect();
-        assert_eq!(front, [0.0, -1.0, 0.0], "the first face looks to the front");
+        assert_eq!(front, [0.0, -1.0, 0.0], "the first normal points to the front");
     }
 }

@@ -7,7 +7,7 @@ use crate::Sheet;
 /// Distance of the outlines from the edge of the page, mm.
 const MARGIN: f64 = 5.0;
 
-/// A colour for each layer; laser cutters assign operations by colour.
+/// Colours of [`Sheet::LAYERS`]; laser cutters assign operations by colour.
 const COLORS: [&str; 3] = ["#ff0000", "#0000ff", "#808080"];
 
 pub(crate) fn write(sheet: &Sheet) -> String {

@@ -11,7 +11,7 @@ pub(crate) enum AxisScale {
 // Beyond this ratio, small values on a linear axis cannot be distinguished from zero.
 const SPANS_DECADES: f64 = 30.0;
 
-/// A range of values with a label.
+/// A chart axis: a range of values with a label.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ChartAxis {
     pub(crate) label: String,
@@ -20,25 +20,26 @@ pub(crate) struct ChartAxis {
     high: f64,
 }
 
-/// A tick of an axis.
+/// A tick of an axis. Only major ticks have a text.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tick {
     pub(crate) value: f64,
-    /// The text at the tick; `None` for a minor one.
+    /// The text at a major tick; `None` for a minor tick.
     pub(crate) label: Option<String>,
 }
 
 impl ChartAxis {
     /// Fits an axis to `values`.
     ///
-    /// The axis is logarithmic if the values are positive and span decades. Otherwise it is linear,
-    /// and starts at zero if zero is near.
+    /// The axis is logarithmic if all values are positive and the largest exceeds 30 times the
+    /// smallest. Otherwise it is linear. A linear axis of positive values starts at zero if the
+    /// smallest value is less than half of the largest.
     pub(crate) fn fit(label: &str, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = ends(values);
         if low > 0.0 && high / low > SPANS_DECADES {
             Self::logarithmic(label, low, high)
         } else {
-            // Starting at zero makes heights proportional, and costs less than half of the axis.
+            // Starting at zero makes heights proportional, and less than half of the axis is empty.
             Self::linear(label, if low > 0.0 && low < 0.5 * high { 0.0 } else { low }, high)
         }
     }
@@ -49,9 +50,9 @@ impl ChartAxis {
         Self::linear(label, low, high)
     }
 
-    /// Creates a linear axis with a margin of 5 % beyond each end.
+    /// Creates a linear axis from `low` to `high`, with a margin of 5 % of its length at each end.
     ///
-    /// An end at zero gets no margin, unless all values are zero.
+    /// An end at zero gets no margin. If `low` and `high` are both zero, the axis ends at 0.05.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
         let size = low.abs().max(high.abs());
         // Values that differ only by round-off still need an axis of finite length.
@@ -65,20 +66,20 @@ impl ChartAxis {
         Self { label: label.to_owned(), scale: AxisScale::Linear, low: below, high: above }
     }
 
-    /// Creates a linear axis with these ends.
+    /// Creates a linear axis from `low` to `high`, without margins.
     pub(crate) fn exact(label: &str, low: f64, high: f64) -> Self {
         Self { label: label.to_owned(), scale: AxisScale::Linear, low, high }
     }
 
-    /// Creates a logarithmic axis with 5 % of its length beyond each end.
+    /// Creates a logarithmic axis, with a margin of 5 % of its length beyond `low` and `high`.
     pub(crate) fn logarithmic(label: &str, low: f64, high: f64) -> Self {
         let air = (high / low).powf(0.05);
         Self { label: label.to_owned(), scale: AxisScale::Log, low: low / air, high: high * air }
     }
 
-    /// Returns the position of a value: 0 at the low end, 1 at the high end.
+    /// Returns the position of `value` along the axis: 0 at the low end, 1 at the high end.
     ///
-    /// `None` outside.
+    /// `None` if the value lies outside the axis.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
         let place = match self.scale {
             AxisScale::Linear => (value - self.low) / (self.high - self.low),
@@ -88,7 +89,7 @@ impl ChartAxis {
         (-1e-9..=1.0 + 1e-9).contains(&place).then_some(place)
     }
 
-    /// Returns the ticks, about as many labelled ones as `wanted`.
+    /// Returns the ticks of the axis; about `wanted` of them have a label.
     pub(crate) fn ticks(&self, wanted: usize) -> Vec<Tick> {
         match self.scale {
             AxisScale::Linear => self.linear_ticks(wanted),
@@ -99,10 +100,10 @@ impl ChartAxis {
     fn linear_ticks(&self, wanted: usize) -> Vec<Tick> {
         let rough = (self.high - self.low) / wanted as f64;
         let unit = 10f64.powf(rough.log10().floor());
-        // Accept a step that is nearly wide enough: the next one may halve the number of ticks.
+        // Accept a step up to 10 % too narrow: the next wider step may halve the number of ticks.
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * unit >= 0.9 * rough);
         let step = step.unwrap_or(10.0) * unit;
-        // The cast cannot overflow, because an axis has few steps.
+        // The casts cannot overflow: an axis is longer than 1e-9 times its larger end.
         let first = (self.low / step - 1e-9).ceil() as i64;
         let last = (self.high / step + 1e-9).floor() as i64;
         let ends = self.low.abs().max(self.high.abs());
@@ -118,9 +119,9 @@ impl ChartAxis {
         let (first, last) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
         let decades = self.high.log10() - self.low.log10();
         let every = ((decades / (1.4 * wanted as f64)).ceil() as i32).max(1);
-        // Over more decades, ticks between powers of ten would overlap.
+        // On an axis of more than seven decades, ticks between powers of ten would overlap.
         let digits = if decades > 7.0 { 1 } else { 9 };
-        // One decision for the whole axis, so that all labels have the same notation.
+        // The notation is chosen once for the axis, so that all labels have the same notation.
         let decimal = first >= -2 && last <= 4;
         let all = (first..=last).flat_map(|decade| (1..=digits).map(move |digit| (decade, digit)));
         all.map(|(decade, digit)| {
@@ -139,9 +140,10 @@ impl ChartAxis {
     }
 }
 
-/// Formats a tick of a linear axis.
+/// Formats the label of the tick at `value` on a linear axis with ticks at multiples of `step`.
 ///
-/// Long numbers are divided by the power of ten of the larger end.
+/// `ends` is the larger absolute value of both ends of the axis. If it is below 0.001, or at least
+/// 100 000, labels are multiples of its power of ten.
 fn linear_label(value: f64, step: f64, ends: f64) -> String {
     let decade = ends.log10().floor();
     if (-3.0..5.0).contains(&decade) {
@@ -155,7 +157,7 @@ fn linear_label(value: f64, step: f64, ends: f64) -> String {
     minus(&format!("{:.decimals$}·10^{{{decade}}}", value / 10f64.powf(decade)))
 }
 
-/// Formats `digit · 10^decade`, as a decimal number or as a power of ten.
+/// Formats `digit · 10^decade`: as a decimal number if `decimal`, otherwise as a power of ten.
 fn power(decade: i32, digit: i32, decimal: bool) -> String {
     let decimals = usize::try_from(-decade).unwrap_or(0);
     match digit {
@@ -170,7 +172,7 @@ fn minus(text: &str) -> String {
     text.replace('-', "−")
 }
 
-/// Returns the smallest and largest of `values`; 0 and 1 if there are none.
+/// Returns the smallest and the largest finite value; 0 and 1 if no value is finite.
 pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let ends = values
         .filter(|value| value.is_finite())

@@ -12,7 +12,7 @@ const TICK: f64 = 11.0;
 /// Size of axis labels, px.
 pub(crate) const NAME: f64 = 13.0;
 
-/// A rectangle of paper, px.
+/// A rectangle on the sheet of a figure, px.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Area {
     pub(crate) left: f64,
@@ -30,16 +30,16 @@ impl Area {
         self.top + self.height
     }
 
-    /// Returns panel `k` of a grid that starts with this one.
+    /// Returns the area of panel `k` in a grid with this number of columns; `self` is panel 0.
     ///
-    /// The spacing is across and down.
+    /// `between` is the horizontal and the vertical space between panels, px.
     pub(crate) fn panel(self, k: usize, columns: usize, between: [f64; 2]) -> Self {
         let [column, row] = [k % columns, k / columns].map(|place| place as f64);
         let left = self.left + column * (self.width + between[0]);
         Self { left, top: self.top + row * (self.height + between[1]), ..self }
     }
 
-    /// Draws the border.
+    /// Draws the border of the area.
     pub(crate) fn border(&self) -> Element {
         rect([self.left, self.top], [self.width, self.height])
             .with("fill", "none")
@@ -51,7 +51,7 @@ impl Area {
     }
 }
 
-/// A frame with two axes.
+/// A frame in a figure, with an x axis and a y axis.
 #[derive(Clone, Debug)]
 pub(crate) struct ChartPanel<'a> {
     pub(crate) area: Area,
@@ -59,28 +59,29 @@ pub(crate) struct ChartPanel<'a> {
     pub(crate) y: &'a ChartAxis,
     /// The title of the panel.
     pub(crate) title: String,
-    /// True for axes with tick labels.
+    /// True if the x axis has tick labels.
     pub(crate) x_labels: bool,
+    /// True if the y axis has tick labels.
     pub(crate) y_labels: bool,
 }
 
 impl<'a> ChartPanel<'a> {
-    /// A panel without a title, with labels at both axes.
+    /// Creates a panel without a title, with tick labels at both axes.
     pub(crate) fn new(area: Area, x: &'a ChartAxis, y: &'a ChartAxis) -> Self {
         Self { area, x, y, title: String::new(), x_labels: true, y_labels: true }
     }
 
-    /// Draws the frame and the labels of both axes, with the y label `away` px left of the axis.
+    /// Draws the frame and the names of both axes; the y name is `away` px left of the panel.
     pub(crate) fn axes(&self, away: f64) -> [Element; 3] {
         [self.frame(), self.x_name(), self.y_name(away)]
     }
 
-    /// Returns the spot of a point; `None` if it lies outside.
+    /// Returns the position of the point `(x, y)` on the sheet; `None` outside the axes.
     pub(crate) fn place(&self, x: f64, y: f64) -> Option<Spot> {
         Some([self.across(x)?, self.down(y)?])
     }
 
-    /// Returns the spots of points, without those that lie outside.
+    /// Returns the positions of `points` on the sheet, without the points outside the axes.
     pub(crate) fn spots(&self, points: impl IntoIterator<Item = [f64; 2]>) -> Vec<Spot> {
         points.into_iter().filter_map(|[x, y]| self.place(x, y)).collect()
     }
@@ -96,7 +97,7 @@ impl<'a> ChartPanel<'a> {
     /// Draws frame, grid, ticks and title.
     pub(crate) fn frame(&self) -> Element {
         let area = &self.area;
-        // The title may extend to the labels of the y axis of the next panel.
+        // The title may extend beyond the panel, up to the tick labels of the next panel.
         let size = fitting(&self.title, 12.0, area.width + 20.0);
         let title = label(&self.title, [area.center()[0], area.top - 6.0], size, Anchor::Middle);
         Element::group("frame")
@@ -119,7 +120,7 @@ impl<'a> ChartPanel<'a> {
             drawn.push(line([x, area.bottom()], [x, area.bottom() - long], FAINT, 0.8));
             let Some(text) = tick.label.filter(|_| self.x_labels) else { continue };
             let half = 0.5 * width(&text, TICK);
-            // A label that would touch the one before is left out.
+            // Omit a label that would overlap the previous label.
             if x - half > free {
                 free = x + half + 5.0;
                 let spot = [x, area.bottom() + 15.0];
@@ -148,23 +149,24 @@ impl<'a> ChartPanel<'a> {
         drawn
     }
 
-    /// Returns the label of the x axis under the panel.
+    /// Draws the name of the x axis under the panel.
     pub(crate) fn x_name(&self) -> Element {
         let spot = [self.area.center()[0], self.area.bottom() + 36.0];
         let size = fitting(&self.x.label, NAME, 1.1 * self.area.width);
         label(&self.x.label, spot, size, Anchor::Middle).with("fill", INK)
     }
 
-    /// Returns the label of the y axis beside the panel, `away` px from it.
+    /// Draws the name of the y axis, `away` px left of the panel.
     pub(crate) fn y_name(&self, away: f64) -> Element {
         let spot = [self.area.left - away, self.area.center()[1]];
         upright_name(&self.y.label, spot, self.area.height)
     }
 }
 
-/// Draws the name of a vertical axis around a spot, in `room` px.
+/// Draws the name of a vertical axis, centred at `spot` and at most `room` px long.
 ///
-/// A long name loses its formula first, and keeps its unit. Then its letters shrink.
+/// A longer name loses its formula, the text after ` = `, but keeps its unit. If the shortened name
+/// is still too long, its letters shrink.
 pub(crate) fn upright_name(name: &str, spot: Spot, room: f64) -> Element {
     let is_long = width(name, NAME) > room;
     let short = name.split_once(" = ").filter(|_| is_long).map(|(symbol, formula)| {
@@ -175,27 +177,27 @@ pub(crate) fn upright_name(name: &str, spot: Spot, room: f64) -> Element {
     upright(name, spot, fitting(name, NAME, room)).with("fill", INK)
 }
 
-/// Radius of a circle with the area of a mark, px.
+/// Radius of a circle with about the same area as a mark, px.
 const MARK: f64 = 3.4;
 
-/// The style of a mark. The slant determines its shape and colour.
+/// The style of the mark of a design. The slant determines the shape and colour of the mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MarkLook {
     Filled,
     Open,
-    /// The surface of the substrate folds: the mark is pale and crossed out.
+    /// Pale and crossed out: the surface of the substrate folds.
     Folded,
 }
 
 impl MarkLook {
     const ALL: [Self; 3] = [Self::Filled, Self::Open, Self::Folded];
 
-    /// Returns the style of a design in figures of measures that a fold invalidates.
+    /// Returns the style of the design in `row`, for figures of measures that a fold invalidates.
     pub(crate) fn of(designs: &Designs, row: usize) -> Self {
         if designs.folded(row) { Self::Folded } else { Self::Filled }
     }
 
-    /// Returns the identifier of the shape for a mark in this style.
+    /// Returns the `id` of the SVG shape of `mark` in this style.
     fn shape(self, mark: Mark) -> String {
         match self {
             Self::Filled => mark.name(),
@@ -204,7 +206,7 @@ impl MarkLook {
         }
     }
 
-    /// Draws the shape around the origin, without colour.
+    /// Draws `mark` in this style at the origin, in the colour that each use sets.
     fn draw(self, mark: Mark) -> Element {
         let shape = mark.draw([0.0, 0.0], MARK);
         match self {
@@ -227,9 +229,9 @@ impl MarkLook {
     }
 }
 
-/// Defines the shapes of the marks.
+/// Returns SVG definitions of the shapes of all marks in `palette`.
 ///
-/// Marks refer to them with `use`, because a page may hold 100 000 marks.
+/// Marks refer to these shapes with `use`, because a page may have 100 000 marks.
 pub(crate) fn shapes(palette: &SlantPalette) -> Element {
     let marks = Mark::ALL
         .into_iter()
@@ -239,7 +241,7 @@ pub(crate) fn shapes(palette: &SlantPalette) -> Element {
         .containing(looks.map(|(look, mark)| look.draw(mark).with("id", look.shape(mark))))
 }
 
-/// Returns the mark of a slant.
+/// Draws the mark of a slant at the position `at`.
 pub(crate) fn mark(palette: &SlantPalette, slant_deg: f64, at: Spot, look: MarkLook) -> Element {
     Element::new("use")
         .with("href", format!("#{}", look.shape(palette.mark(slant_deg))))
@@ -248,7 +250,9 @@ pub(crate) fn mark(palette: &SlantPalette, slant_deg: f64, at: Spot, look: MarkL
         .with("color", palette.color(slant_deg))
 }
 
-/// Returns the mark of a design, with its number; `None` for a design without a slant.
+/// Draws the mark of the design in `row`; `None` if the design has no slant.
+///
+/// The attribute `data-design` of the mark is the number of the design.
 pub(crate) fn design_mark(
     designs: &Designs,
     palette: &SlantPalette,
@@ -263,9 +267,10 @@ pub(crate) fn design_mark(
 /// Height of a line of a legend, px.
 pub(crate) const LINE: f64 = 18.0;
 
-/// Returns a legend of the slants and the styles of marks, and the position below it.
+/// Draws a legend of the slants at `(x, y)`, and returns it with the y coordinate below it.
 ///
-/// Entries beyond `right` start a new line.
+/// If `has_folds`, the legend also explains the marks of designs with folds. An entry that would
+/// extend beyond `right` starts a new line.
 pub(crate) fn mark_legend(
     palette: &SlantPalette,
     has_folds: bool,
@@ -273,7 +278,8 @@ pub(crate) fn mark_legend(
     right: f64,
 ) -> (Element, f64) {
     let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
-    // The legend also defines the shapes, because every figure with marks has a legend.
+    // The legend contains the definitions of the shapes, because every figure with marks has a
+    // legend.
     let mut legend = Element::group("legend").containing([shapes(palette), name]);
     let mut left = x + 64.0;
     let slants =

@@ -1,15 +1,15 @@
 //! Colours of drawings, figures and maps.
 
-/// Ink of axes and labels.
+/// Colour of axes and labels.
 pub(crate) const INK: &str = "#222222";
-/// Ink of secondary marks and notes.
+/// Colour of secondary marks and notes.
 pub(crate) const FAINT: &str = "#767676";
-/// Lines of a grid.
+/// Colour of grid lines.
 pub(crate) const GRID: &str = "#e6e6e6";
-/// Colour of contacts.
+/// Colour of contacts, of bounds and of measured points.
 pub(crate) const RED: &str = "#d0021b";
 
-/// Steps of the sequential colour scale of maps, cividis.
+/// Steps of cividis, the sequential colour scale of maps: red, green and blue.
 ///
 /// Cividis is safe for colour-blind readers.
 const SEQUENCE: [[u8; 3]; 9] = [
@@ -29,7 +29,9 @@ pub(crate) fn map_color(fraction: f64) -> String {
     mixed(&SEQUENCE, fraction)
 }
 
-/// Mixes a colour with white (`part` > 0) or with black (`part` < 0).
+/// Mixes `color` (`#rrggbb`) with white if `part` > 0, or with black if `part` < 0.
+///
+/// The absolute value of `part`, 0 to 1, is the fraction of white or black.
 pub(crate) fn shaded(color: &str, part: f64) -> String {
     let [red, green, blue] = [1, 3, 5].map(|k| {
         let text = color.get(k..k + 2).unwrap_or_default();
@@ -40,11 +42,11 @@ pub(crate) fn shaded(color: &str, part: f64) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Interpolates a colour at a fraction along `steps`.
+/// Interpolates between the colours `steps`: `fraction` 0 is the first colour, 1 the last.
 pub(crate) fn mixed(steps: &[[u8; 3]], fraction: f64) -> String {
     let last = steps.len() - 1;
     let place = fraction.clamp(0.0, 1.0) * last as f64;
-    // The index lies between 0 and the second to last step.
+    // `below` is at most the last but one step, so that `below + 1` is a valid index.
     let below = (place.floor() as usize).min(last - 1);
     let part = place - below as f64;
     let [r, g, b] = [0, 1, 2].map(|k| {

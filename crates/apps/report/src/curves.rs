@@ -1,7 +1,7 @@
 //! Curves of designs: force–displacement, moment–curvature and energies.
 //!
-//! Marks: × contact event, ring first fold of the surface, triangle passage of a guided needle, dot
-//! limit of failure with its name.
+//! A cross marks a contact event, a ring the first fold of the surface, a triangle the passage of a
+//! guided needle, and a dot with a name a limit of failure.
 
 mod energies;
 mod limits;
@@ -37,15 +37,16 @@ const LEGEND: f64 = 70.0;
 /// Minimum distance between crosses, px.
 const CROSS: f64 = 9.0;
 
-/// Dashes and shades that distinguish designs of one slant.
+/// Dash patterns that distinguish designs of the same slant.
 const DASHES: [&str; 5] = ["none", "7 4", "2 3", "9 3 2 3", "12 5"];
 /// Dashes of parts of a path that are unstable under a held depth.
 const UNSTABLE: &str = "1 2.5";
 /// Dashes of an unloading path.
 const BACK: &str = "5 3";
+/// Arguments of [`shaded`] that distinguish designs of the same slant.
 const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 
-/// A solved design.
+/// A solved design, with the results that are drawn as curves.
 #[derive(Clone, Debug)]
 pub struct DesignCurves<'a> {
     /// The number of the design.
@@ -58,11 +59,11 @@ pub struct DesignCurves<'a> {
     pub puncture: Option<&'a Puncture>,
     /// The path in bending, if it was solved.
     pub flexure: Option<&'a Flexure>,
-    /// Curvature `t/R` of several bodies and the critical force on each.
+    /// Curvature `t/R` of each of several bodies, and the critical force of the design on it.
     ///
-    /// `None` without a critical tilt.
+    /// The force is `None` if the design has no critical tilt on this body.
     pub on_bodies: &'a [(f64, Option<f64>)],
-    /// The limits of failure that are marked on the curve of the puncture.
+    /// The limits of failure, marked on the curve of the puncture.
     pub limits: &'a [FailureLimit],
 }
 
@@ -75,13 +76,13 @@ pub struct MeasuredCurves {
     pub bending: bool,
     /// True for physical units (mm and N, or 1/mm and N mm), false for dimensionless curves.
     pub is_physical: bool,
-    /// The curves, each with its name.
+    /// Name and points of each curve.
     pub curves: Vec<(String, Vec<[f64; 2]>)>,
-    /// Position, mean and standard deviation of several specimens; empty for none.
+    /// Mean curve of several specimens: position, mean and standard deviation; may be empty.
     pub band: Vec<[f64; 3]>,
 }
 
-/// A line of a panel.
+/// A curve of a panel, with its name and style.
 struct Curve {
     name: String,
     color: String,
@@ -112,14 +113,15 @@ pub fn curves(
     drawn.filter_map(|(name, svg)| Some(Figure::new(name, svg?))).collect()
 }
 
-/// The texts of a kind of figure.
+/// The texts and units of one kind of figure.
 struct FigureText {
     title: &'static str,
-    /// Labels of the axes: dimensionless and in physical units.
+    /// Labels of the x axis and the y axis: first dimensionless, then in physical units.
     axes: [[&'static str; 2]; 2],
-    /// Notes below the title: shown always, with a ring, and with a dotted part of a curve.
+    /// Notes below the title: the first is always shown, the second if a curve has a ring, the
+    /// third if a curve has a dotted part.
     notes: [&'static str; 3],
-    /// Factors from the units of both axes to physical units, if the material is known.
+    /// Returns factors that convert both axes to physical units; `None` without a material.
     units: fn(&Case) -> Option<[f64; 2]>,
 }
 
@@ -142,13 +144,13 @@ const FORCE: FigureText = FigureText {
     units: |case| puncture_units(case).map(|[mm, newton, _]| [mm, newton]),
 };
 const PLACES: FigureText = FigureText {
-    title: "puncture force over the load position",
+    title: "puncture force against the load position",
     axes: [[POSITION, FORCE.axes[0][1]], [POSITION, FORCE.axes[1][1]]],
     notes: ["", "○ the weakest position", "fine dots: positions without a critical force"],
     units: |case| puncture_units(case).map(|[_, newton, _]| [1.0, newton]),
 };
 const BODIES: FigureText = FigureText {
-    title: "critical force over the curvature of the body",
+    title: "critical force against the curvature of the body",
     axes: [
         ["$t/R$: below 0 concave, 0 flat, above 0 convex", FORCE.axes[0][1]],
         ["1/$R$, 1/mm: below 0 concave, 0 flat, above 0 convex", FORCE.axes[1][1]],
@@ -169,9 +171,9 @@ const MOMENT: FigureText = FigureText {
     units: |case| bending_units(case).map(|[per_mm, moment, _]| [per_mm, moment]),
 };
 impl FigureText {
-    /// Returns the factors to physical units of each design.
+    /// Returns for each design the factors that convert both axes to physical units.
     ///
-    /// `None` if a design has no material.
+    /// `None` if any design has no material.
     fn physical(&self, designs: &[DesignCurves]) -> Option<Vec<[f64; 2]>> {
         designs.iter().map(|solved| (self.units)(solved.case)).collect()
     }
@@ -188,7 +190,7 @@ fn one_panel(
     measured: Option<&MeasuredCurves>,
     paper: Paper,
 ) -> Option<String> {
-    // Compare measured curves without units with dimensionless curves.
+    // If the measured curves are dimensionless, the computed curves are dimensionless, too.
     let is_wanted = measured.is_none_or(|measured| measured.is_physical);
     let units = text.physical(designs).filter(|_| is_wanted);
     let labels = text.axes[usize::from(units.is_some())];
@@ -208,7 +210,7 @@ fn one_panel(
     // On narrow paper the legend starts at the left edge.
     let left = if paper.is_narrow(WIDTH) { 20.0 } else { MARGINS[0] };
     let words = wrapped(&notes(text, &curves), 12.0, full - left - 12.0);
-    // The legend is below the notes.
+    // Each further line of notes moves the legend down.
     let entries = LEGEND + 16.0 * words.len().saturating_sub(1) as f64;
     let entries = [left, entries];
     let area = Area {
@@ -241,12 +243,12 @@ fn one_panel(
     Some(sheet(full, height, &format!("{name}: {}", text.title), inside))
 }
 
-/// Returns true if a curve has a mark.
+/// A function that returns true if a curve has a certain kind of mark.
 type IsMarked = fn(&CurveValues) -> bool;
 
 /// Returns the notes that apply to at least one curve.
 ///
-/// The other notes are left out, because all of them together are wider than the figure.
+/// Other notes are omitted, because all notes together are wider than the figure.
 fn notes(text: &FigureText, curves: &[Curve]) -> String {
     let [always, ring, dotted] = text.notes;
     let notes: [(&str, IsMarked); 6] = [
@@ -263,7 +265,7 @@ fn notes(text: &FigureText, curves: &[Curve]) -> String {
     shown.map(|(words, _)| words).collect::<Vec<_>>().join("; ")
 }
 
-/// Returns the spot of entry `k` of a legend.
+/// Returns the position of entry `k` of a legend that starts at `(x, y)`.
 fn entry([x, y]: Spot, k: usize) -> Spot {
     [x, y + 20.0 * k as f64]
 }
@@ -286,9 +288,9 @@ fn measured_legend(name: &str, dashes: &'static str, [x, y]: Spot, right: f64) -
     [thin_line(&[[x, y], [x + 40.0, y]], dashes), text]
 }
 
-/// Draws the mean of specimens with the band of one standard deviation.
+/// Draws the mean curve of several specimens, with a band of one standard deviation around it.
 ///
-/// The legend is drawn at a spot.
+/// The result includes an entry of the legend, at `(x, y)`.
 fn mean_band(
     panel: &ChartPanel,
     band: &[[f64; 3]],
@@ -310,7 +312,10 @@ fn mean_band(
     [around, mean, legend, words.with("fill", INK)]
 }
 
-/// Returns a curve for each design, with distinct shades and dashes for designs of one slant.
+/// Returns the curve of each solved design.
+///
+/// Designs of the same slant differ in shade and dashes. `units` holds the factors of each design
+/// to physical units; it is empty for dimensionless curves.
 fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> Vec<Curve> {
     let palette = palette(designs);
     let mut curves: Vec<Curve> = Vec::new();
@@ -318,7 +323,7 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
         let Some(mut values) = values(solved) else { continue };
         values.in_units(units.get(k).copied().unwrap_or([1.0; 2]));
         let slant = solved.case.design.slant_deg;
-        // Count among all designs, so that a design has the same look in every figure.
+        // Designs without a curve count too, so that a design has the same style in every figure.
         let before = designs[..k].iter().filter(|other| other.case.design.slant_deg == slant);
         let before = before.count();
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
@@ -338,7 +343,7 @@ fn palette(designs: &[DesignCurves]) -> SlantPalette {
     SlantPalette::new(designs.iter().map(|solved| solved.case.design.slant_deg))
 }
 
-/// Fits both axes to points, starting at zero.
+/// Fits both axes to `points` and zero.
 fn axes(labels: [&str; 2], points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
     let [x, y] = [0, 1].map(|k| {
         let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
@@ -347,19 +352,21 @@ fn axes(labels: [&str; 2], points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
     (x, y)
 }
 
-/// Returns a logarithmic axis for curves that differ by decades.
+/// Returns a logarithmic y axis if the maxima of the curves differ by more than a factor of 30.
+///
+/// `None` otherwise.
 fn logarithmic(label: &str, curves: &[Curve]) -> Option<ChartAxis> {
     let ends = curves.iter().map(|curve| curve.values.all().map(|p| p[1]).fold(0.0, f64::max));
     let (low, high) = crate::axis::ends(ends);
-    // Curves begin at zero, which a logarithmic axis cannot show. The axis therefore ends 1.5
-    // decades below the lowest final value of a curve.
+    // Curves start at zero, which a logarithmic axis cannot show. The axis therefore starts a
+    // factor of 30 below the smallest maximum of a curve.
     (low > 0.0 && high > 30.0 * low).then(|| ChartAxis::fit(label, [low / 30.0, high].into_iter()))
 }
 
 impl Curve {
     /// Splits the curve into stable and unstable parts, and adds the unloading path.
     ///
-    /// Each part has its dash pattern and line width.
+    /// Returns points, dash pattern and line width of each part.
     fn parts(&self) -> Vec<(&[[f64; 2]], &'static str, f64)> {
         let CurveValues { points, back, .. } = &self.values;
         let mut parts = Vec::new();
@@ -408,7 +415,7 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
         .containing(passing)
 }
 
-/// Removes spots close to the previous one, because crosses would hide a steep curve.
+/// Removes spots within [`CROSS`] of the previous spot, because crosses would hide a steep curve.
 fn apart(spots: Vec<Spot>) -> Vec<Spot> {
     let mut kept: Vec<Spot> = Vec::new();
     for [x, y] in spots {

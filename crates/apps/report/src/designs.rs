@@ -1,4 +1,4 @@
-//! The table of a sweep, column by column.
+//! Access to the table of a sweep by column and row.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -13,7 +13,7 @@ use crate::palette::SlantPalette;
 /// Parameters on the axes of the standard figures.
 const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
 
-/// Parameters (by column name) with their values.
+/// Parameters, as pairs of column name and value.
 pub(crate) type AxisValues<'a> = Vec<(&'a str, Cow<'a, str>)>;
 
 /// The designs of a sweep, from `designs.csv`.
@@ -28,7 +28,7 @@ impl Designs {
         Self { table: Arc::clone(results.table()) }
     }
 
-    /// Returns the headers, from the left.
+    /// Returns the column names, from left to right.
     pub fn headers(&self) -> &[String] {
         self.table.header()
     }
@@ -38,17 +38,17 @@ impl Designs {
         self.table.length()
     }
 
-    /// Returns the number of a design as text, as in the table.
+    /// Returns the number of the design in `row`, as it is written in the table.
     pub fn design(&self, row: usize) -> &str {
         self.table.name(row)
     }
 
-    /// Returns a cell; empty if there is none.
+    /// Returns the text of a cell; empty if the table has no such column.
     pub fn text(&self, column: &str, row: usize) -> Cow<'_, str> {
         self.table.column(column).map_or_else(Cow::default, |column| self.table.text(row, column))
     }
 
-    /// Returns a cell as a number.
+    /// Returns a cell as a number; `None` if the column is missing or the cell is not a number.
     pub fn number(&self, column: &str, row: usize) -> Option<f64> {
         self.table.number(row, self.table.column(column)?)
     }
@@ -80,9 +80,10 @@ impl Designs {
         parameters.filter(|name| self.texts(name).len() > 1).collect()
     }
 
-    /// Returns the column name of the varied parameter that `column` states in mm.
+    /// Returns the name of the varied column with a one-to-one relation to `column`.
     ///
-    /// Any length in mm may be the axis of a figure, such as a pitch that determines the gaps.
+    /// A varied `column` returns itself. Any other `column` must be a length in mm, for example a
+    /// pitch that determines the gaps.
     pub(crate) fn varied_as(&self, column: &str) -> Option<&str> {
         let varied = self.varied();
         if let Some(own) = varied.iter().find(|varied| **varied == column) {
@@ -92,16 +93,16 @@ impl Designs {
         let in_mm = self.groups(column);
         varied.into_iter().find(|varied| {
             let pairs: BTreeSet<_> = self.groups(varied).into_iter().zip(in_mm.clone()).collect();
-            // If there are as many pairs as values of each column, the columns determine each
-            // other.
+            // If the number of different pairs equals the number of different values of each
+            // column, the columns determine each other.
             pairs.len() > 1
                 && [self.texts(varied).len(), self.texts(column).len()] == [pairs.len(); 2]
         })
     }
 
-    /// Returns the column in mm of a length over the thickness.
+    /// Returns the column in mm of the length `axis`, which is divided by the thickness.
     ///
-    /// Returns `axis` itself if there is no such column.
+    /// Returns `axis` itself if the table has no equivalent column in mm.
     pub(crate) fn in_mm(&self, axis: &str) -> String {
         let in_mm = axis.replace("_over_t", "_mm");
         if self.are_equivalent(axis, &in_mm) { in_mm } else { axis.to_owned() }
@@ -124,16 +125,16 @@ impl Designs {
         self.varied().into_iter().filter(|name| !GEOMETRY.contains(name)).collect()
     }
 
-    /// Groups the designs by their further axes.
+    /// Groups the designs by the varied parameters besides gap, aspect ratio and slant.
     ///
-    /// Each group has the values of these axes.
+    /// Returns for each group the values of these parameters, and its designs.
     pub(crate) fn parts(&self) -> Vec<(AxisValues<'_>, Self)> {
         self.parts_by(&GEOMETRY)
     }
 
     /// Groups the designs by the varied parameters that are not among `axes`.
     ///
-    /// Each group has the values of these parameters.
+    /// Returns for each group the values of these parameters, and its designs.
     pub(crate) fn parts_by(&self, axes: &[&str]) -> Vec<(AxisValues<'_>, Self)> {
         let others: Vec<&str> =
             self.varied().into_iter().filter(|name| !axes.contains(name)).collect();
@@ -153,7 +154,7 @@ impl Designs {
         parts.collect()
     }
 
-    /// Returns true if the surface of the substrate folds before the puncture of a design ends.
+    /// Returns true if the surface folds during the puncture of the design in `row`.
     pub(crate) fn folded(&self, row: usize) -> bool {
         let fold = self.table.column(name::FOLD_FORCE);
         fold.is_some_and(|fold| !self.table.is_empty(row, fold))
@@ -164,19 +165,19 @@ impl Designs {
         (0..self.count()).any(|row| self.folded(row))
     }
 
-    /// Returns the designs in some rows.
+    /// Returns a table of only the designs in `rows`.
     pub(crate) fn only(&self, rows: &[usize]) -> Self {
         Self { table: Arc::new(self.table.only(rows)) }
     }
 
     /// Returns the different texts of a column.
     ///
-    /// Numbers that are equal up to round-off have one text.
+    /// Numbers that are equal up to round-off share one text.
     pub(crate) fn texts(&self, column: &str) -> BTreeSet<Cow<'_, str>> {
         self.groups(column).into_iter().collect()
     }
 
-    /// Returns a text for each design, equal for equal values of a column.
+    /// Returns one text per design; designs with equal values in `column` have equal texts.
     fn groups(&self, column: &str) -> Vec<Cow<'_, str>> {
         let distinct = self.distinct(column);
         let texts = (0..self.count()).map(|row| {

@@ -27,17 +27,17 @@ const WIDTH: f64 = 960.0;
 const MARGIN: f64 = 24.0;
 /// Height of the title, px.
 const HEAD: f64 = 40.0;
-/// Height of the line above a panel, px.
+/// Height of the caption above a panel, px.
 const CAPTION: f64 = 26.0;
 
-/// A part of a drawing, in coordinates from its own upper left corner.
+/// A panel of a drawing. Its coordinates start at the upper left corner of the panel.
 struct DrawingPanel {
     height: f64,
     caption: String,
     inside: Vec<Element>,
 }
 
-/// Stacks `panels` under a title.
+/// Returns a drawing with a title and `panels` below each other.
 fn stacked(title: &str, panels: Vec<DrawingPanel>) -> String {
     let mut inside = vec![heading(label(title, [MARGIN, 28.0], 16.0, Anchor::Start))];
     let mut top = HEAD;
@@ -69,7 +69,7 @@ pub fn geometry_label(case: &Case) -> String {
     let Design { gap, length, slant_deg, .. } = case.design;
     let thickness = case.material.thickness_mm;
     let unit = thickness.unwrap_or(1.0);
-    // Rounded, because designs found by a search have 16 digits.
+    // Round the values, because designs found by a search have 16 digits.
     let [gap, length, slant, unit] =
         [gap * unit, length * unit, slant_deg, unit].map(|value| number::rounded(value, 6));
     match thickness {
@@ -78,14 +78,14 @@ pub fn geometry_label(case: &Case) -> String {
     }
 }
 
-/// Formats a number of contacts in words.
+/// Describes contacts in words: their number, and how many slip.
 fn contacts_label(contacts: &[Contact]) -> String {
     let count = match contacts.len() {
         0 => return "no contact".to_owned(),
         1 => "1 contact".to_owned(),
         count => format!("{count} contacts"),
     };
-    // Omit stick and slip if there is no friction.
+    // Without friction, contacts neither stick nor slip.
     match contacts.iter().filter(|contact| contact.slips == Some(true)).count() {
         _ if contacts.iter().all(|contact| contact.slips.is_none()) => count,
         0 => format!("{count}, all stick"),

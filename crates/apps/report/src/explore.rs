@@ -14,11 +14,11 @@ const PAGE: &str = concat!(
     include_str!("../assets/page/head.html"),
     include_str!("../assets/explore/explore.html")
 );
-/// The HTML section of the interactive design.
+/// The HTML section with the interactive design.
 const SECTION: &str = include_str!("../assets/explore/explorer.html");
 /// The style of the section on any page.
 pub(crate) const STYLE: &str = include_str!("../assets/explore/explore.css");
-/// The styles of a separate page.
+/// Further styles of a page that has only this section.
 const STYLES: [&str; 2] =
     [include_str!("../assets/page/styles/theme.css"), include_str!("../assets/explore/page.css")];
 /// The scripts of the page, in the order in which they run.
@@ -42,7 +42,7 @@ const MODULE: &[u8] = include_bytes!("../assets/explore/solver.wasm.gz");
 pub struct Explorer {
     /// The definition of the sweep.
     pub sweep: Sweep,
-    /// The variables of the search that found the design, if it is an optimum.
+    /// If the design is an optimum, the variables of the search that found it.
     pub variables: Vec<Variable>,
     /// Solved designs of the sweep, as candidates for requirements.
     pub solved: SolvedTable,
@@ -56,16 +56,16 @@ pub struct Explorer {
     pub version: String,
 }
 
-/// Solved designs: values by design, in the order of the columns.
+/// Solved designs, as a table with a row for each design.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct SolvedTable {
-    /// The axes and columns.
+    /// Names of the varied parameters and of the columns with results.
     pub columns: Vec<String>,
-    /// The values, if any, of each design.
+    /// Values of each design, in the order of `columns`; `None` for a missing value.
     pub rows: Vec<Vec<Option<f64>>>,
 }
 
-/// Removes comment lines from a script to shorten the page.
+/// Returns a script without its comment lines, to shorten the page.
 fn without_comments(script: &str) -> String {
     script
         .lines()
@@ -78,39 +78,37 @@ fn without_comments(script: &str) -> String {
 #[derive(Clone, Debug, Serialize)]
 struct Control {
     key: &'static str,
-    /// The key of the same length over the thickness, for a length in mm; otherwise the key.
+    /// For a length in mm, the key of this length divided by the thickness; otherwise `key`.
     over_t: &'static str,
     label: &'static str,
     unit: &'static str,
     min: f64,
     max: f64,
-    /// The change per key press.
+    /// Change of the value for each press of an arrow key.
     step: f64,
-    /// The initial value: a number, a word, or null if the definition determines it otherwise.
+    /// Initial value: a number or a word; null if another parameter determines it.
     value: Value,
-    /// The word for the value 0: `flat`, or `sharp` if 0 stands for an absent parameter.
+    /// Word for the value 0: `flat` for a body, `sharp` for a needle without a radius.
     zero: Option<&'static str>,
-    /// The allowed words of a parameter that takes words.
+    /// Possible values of a parameter with words as values.
     words: Option<[&'static str; 2]>,
-    /// The kind of needle to which the parameter applies, if it is restricted.
+    /// Kind of needle for which the control is shown; `None` for all kinds.
     only: Option<&'static str>,
     /// True if range, step and value are curvatures, which the page shows as radii.
     is_radius: bool,
 }
 
-/// Default control of a parameter.
+/// Default control of a parameter: key, label, range, initial value, and true if it is optional.
 ///
-/// Key, label, range, initial fraction of the range, true if optional.
-///
-/// Lengths are over the thickness; a definition in mm has controls in mm. The range and initial
-/// value apply if the definition has none. An optional parameter has a control only if the
-/// definition gives it.
+/// The initial value is a fraction of the range. Lengths are divided by the thickness; a definition
+/// in mm has controls in mm. Range and initial value apply if the definition has none. An optional
+/// parameter has a control only if the definition gives it.
 type Offered = (&'static str, &'static str, [f64; 2], f64, bool);
 
-/// Thickness that converts default ranges to mm if the definition has none, mm.
+/// Thickness that converts default ranges to mm if the definition has no thickness, mm.
 const DEFAULT_THICKNESS: f64 = 1.0;
 
-/// Largest curvatures of a concave and a convex body with a control, in 1/mm and in 1/t.
+/// Default range of the curvature of the body, from concave to convex, in 1/mm and in 1/t.
 const BODIES: [[f64; 2]; 2] = [[-1.0 / 40.0, 1.0 / 8.0], [-1.0 / 20.0, 1.0 / 4.0]];
 
 /// The controls, with overlapping scales as the initial design.
@@ -127,7 +125,7 @@ const OFFERED: [Offered; 14] = [
     (key::TISSUE, "Tissue depth", [0.5, 20.0], 0.25, true),
     (key::FRICTION, "Scale friction", [0.0, 0.5], 0.0, false),
     (key::NEEDLE, "Needle", [0.0, 0.0], 0.0, false),
-    (key::LOAD_POSITION, "Needle place", [0.0, 1.0], 1.0, false),
+    (key::LOAD_POSITION, "Needle position", [0.0, 1.0], 1.0, false),
     (key::NEEDLE_RADIUS, "Needle radius", [0.0, 2.0], 0.0, false),
     (key::NEEDLE_FRICTION, "Needle friction", [0.0, 1.0], 0.2, false),
     (key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5, false),
@@ -138,7 +136,7 @@ const OFFERED: [Offered; 14] = [
 struct Shown {
     name: &'static str,
     label: &'static str,
-    /// Column in physical units that is shown instead of this measure, if available.
+    /// Column in physical units that the page shows instead of this measure, if it has a value.
     physical: &'static str,
     /// A short explanation.
     words: &'static str,
@@ -146,7 +144,7 @@ struct Shown {
     is_curvature: bool,
     /// True if the measure has a better direction, so that arrows can show improvements.
     has_goal: bool,
-    /// The column with the failure mode of a force.
+    /// Column with the failure mode that belongs to a force.
     mode: Option<&'static str>,
 }
 
@@ -205,7 +203,8 @@ fn measures(seeks_failure: bool) -> Vec<Shown> {
     if seeks_failure {
         let words = "force at the first failure";
         measures.insert(1, shown(name::FAILURE_FORCE, "Failure force", "failure_force_N", words));
-        // The tilt is one of the failures.
+        // The failure force replaces the critical force among the first measures, because the
+        // critical tilt is one of the failures.
         let critical = measures.remove(2);
         measures.insert(FIRST_MEASURES, critical);
     }
@@ -274,9 +273,10 @@ impl Explorer {
         offered.chain(self.body_control()).collect()
     }
 
-    /// Creates the control of the body: its curvature, because a flat body has no radius.
+    /// Creates the control of the body.
     ///
-    /// The range contains the bodies of the definition.
+    /// It controls the curvature, because a flat body has no radius. The range contains all bodies
+    /// of the definition.
     fn body_control(&self) -> Option<Control> {
         let grid = self.sweep.grid();
         let case = grid.case(0);
@@ -285,7 +285,7 @@ impl Explorer {
         let in_mm = case.material.thickness_mm.map(|_| key::RADIUS_MM);
         let key = axis.map_or(in_mm.unwrap_or(key::RADIUS), |axis| axis.parameter().key);
         let is_in_mm = key == key::RADIUS_MM;
-        // A radius in mm is kept, because the division by the thickness rounds it.
+        // Use a given radius in mm directly: a division by the thickness would round it.
         let given = Parameter::named(key)?.get(&case).number();
         let value = match (given, case.material.thickness_mm) {
             (Some(number), _) => curvature(key, number),
@@ -315,8 +315,8 @@ impl Explorer {
 
     /// Returns the kind of needle that a control requires, if any.
     fn needle_of_control(&self, over_t: &str) -> Option<&'static str> {
-        // For a free needle, friction determines the critical tilt, so only one of them has a
-        // control.
+        // For a free needle, friction determines the critical tilt, so only one of these two
+        // parameters has a control.
         let grid = self.sweep.grid();
         let friction_is_given =
             grid.base().needle_friction.is_some() || grid.axis(key::NEEDLE_FRICTION).is_some();
@@ -329,8 +329,9 @@ impl Explorer {
         }
     }
 
-    /// Creates the control of a parameter, over the values of its axis or variable, or a default
-    /// range.
+    /// Creates the control of a parameter; `None` for an optional parameter that is not given.
+    ///
+    /// The range is the range of its axis or variable in the definition, or the default range.
     fn control(&self, &(over_t, label, range, opens_at, if_given): &Offered) -> Option<Control> {
         let grid = self.sweep.grid();
         let case = grid.case(0);
@@ -350,7 +351,7 @@ impl Explorer {
             return None;
         }
         let [min, max] = span.unwrap_or(range.map(|end| end * factor));
-        // Start inside the range: the first design of a grid is a corner and seldom a good one.
+        // Start inside the range: the first design of a grid lies at a corner, and is seldom good.
         let middle = min + opens_at * (max - min);
         let is_variable = self.sweep.variables().iter().any(|one| one.parameter() == parameter);
         let is_fixed = axis.is_none() && !is_variable;
@@ -364,7 +365,7 @@ impl Explorer {
         }
         let (words, value) = match own {
             Scalar::Word(word) if key == key::NEEDLE => (Some(["free", "guided"]), word.into()),
-            // The inset of the definition holds until the needle is dragged.
+            // The inset of the definition applies until the user drags the needle.
             _ if key == key::LOAD_POSITION && case.load_inset.is_some() => (None, Value::Null),
             _ => (None, number.into()),
         };
@@ -413,7 +414,7 @@ fn curvature(key: &str, value: f64) -> f64 {
     if key == key::CURVATURE { value } else { value.recip() }
 }
 
-/// Returns the ends of an axis with several numeric values.
+/// Returns the smallest and the largest value of an axis with several numeric values.
 fn span(axis: &Axis) -> Option<[f64; 2]> {
     let values = (0..axis.len()).filter_map(|k| axis.value(k).number());
     let ends =

@@ -32,11 +32,11 @@ const ROWS: u32 = 1_048_575;
 /// The content of a workbook that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exported {
-    /// Names of its tables, each with its number of rows.
+    /// Name and number of rows of each table.
     pub tables: Vec<(String, u32)>,
 }
 
-/// A table of a search, tolerance analysis or fit, with the columns explained.
+/// A table of a search, tolerance analysis or fit, with explanations of its columns.
 #[derive(Clone, Debug)]
 pub struct OtherTable {
     /// Name of the file.
@@ -65,12 +65,12 @@ pub enum ExportError {
     Unreadable {
         /// The table.
         file: PathBuf,
-        /// The problem of the table.
+        /// The reason.
         reason: String,
     },
     /// A table is longer than a sheet.
     #[error(
-        "{}: has more than {ROWS} rows, expected at most as many, because a sheet of Excel takes no more; export a smaller run, e.g. one with --sample {ROWS}",
+        "{}: has more than {ROWS} rows, the maximum of a sheet of Excel; export a smaller run, e.g. one with --sample {ROWS}",
         file.display()
     )]
     TooManyRows {
@@ -116,7 +116,7 @@ pub fn export(
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = &ResultsFolder::new(folder.unwrap_or(Path::new(".")));
     folder.make()?;
-    // The writer of workbooks panics if it cannot write its temporary file.
+    // The workbook library panics if it cannot write its temporary file.
     let written = catch_unwind(AssertUnwindSafe(|| write(results, &others, folder, name)));
     written.unwrap_or_else(|panic| Err(unwritable(folder, name, &said(&*panic))))
 }
@@ -242,12 +242,12 @@ fn unwritable(folder: &ResultsFolder, name: &str, reason: &str) -> ExportError {
 
 /// Returns the message of a panic in one line.
 ///
-/// For a system error, only its original message.
+/// If the panic quotes a system error, the result is only the message of this error.
 fn said(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     let text = text.unwrap_or("the writer of workbooks failed");
-    // A panic quotes the message of a system error; the rest is of no use to the user.
+    // The rest of a panic that quotes a system error does not help the user.
     let message = text.split_once("message: \"").and_then(|(_, rest)| rest.split_once('"'));
     message.map_or(text, |(message, _)| message).lines().collect::<Vec<_>>().join(" ")
 }

@@ -1,12 +1,12 @@
-//! Facts about a run, from its record.
+//! Facts about a run, from its record `run.toml`.
 
 use text::toml_source::{self, Value};
 
 use crate::page::Fact;
 
-/// Returns the entries of the table `run` in the text of `run.toml`.
+/// Returns names and values of the entries of `[run]` in the text of `run.toml`.
 pub fn facts(text: &str) -> Vec<Fact> {
-    // Pages reject an invalid record earlier; a workbook omits the facts.
+    // A page rejects an invalid record before this call; a workbook just has no facts.
     let table = toml_source::parse(text, "run.toml").unwrap_or_default();
     let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
     let Some(Value::Table(entries)) = run else { return Vec::new() };

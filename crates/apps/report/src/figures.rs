@@ -28,14 +28,14 @@ use crate::paper::Paper;
 use crate::svg::{Element, document, heading};
 pub use map::{InvalidMap, MapRequest, map};
 
-/// A figure: file name and drawing.
+/// A figure: its file name and drawing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
-    /// Name, without an extension.
+    /// File name without extension.
     pub name: String,
     /// The drawing, as SVG.
     pub svg: String,
-    /// Describes the panels that do not fit on narrow paper, if any.
+    /// A note on panels that do not fit on narrow paper; `None` if all panels are drawn.
     pub omitted: Option<String>,
 }
 
@@ -46,7 +46,7 @@ impl Figure {
     }
 }
 
-/// A quantity in figures: its column, and for random gaps the columns of the quantile band.
+/// A quantity in figures: its column, and for random gaps the two columns of its quantile band.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Quantity {
     pub(crate) column: String,
@@ -54,9 +54,10 @@ pub(crate) struct Quantity {
 }
 
 impl Quantity {
-    /// Chooses the column of a measure: the median if designs have samples.
+    /// Chooses the columns that show a measure, in physical units if the table has them.
     ///
-    /// Without samples it is the nominal value, in physical units if available.
+    /// If designs have samples, these are the median, and the 5 % and 95 % quantiles as the band.
+    /// Otherwise it is the nominal value.
     pub(crate) fn of(designs: &Designs, measure: &str) -> Self {
         let [low, median, high] = ["p05", "p50", "p95"]
             .map(|end| Some(format!("{measure}_{end}")).filter(|name| designs.has(name)));
@@ -74,28 +75,30 @@ impl Quantity {
     }
 }
 
-/// Returns true if a column depends on the surface of the substrate, as punctures do.
+/// Returns true if a fold of the surface invalidates the values of a column.
 pub(crate) fn is_touched_by_folds(column: &str) -> bool {
     is_invalid_after_fold(column)
 }
 
-/// Returns the title suffix for figures of perfect designs in a sweep with random gaps.
+/// Returns the end of a title of a figure that shows perfect designs.
+///
+/// Empty if the sweep has no samples of random gaps.
 pub(crate) fn of_perfect(designs: &Designs) -> &'static str {
     let has_samples = MULTIPLES.iter().any(|(measure, _)| designs.has(&format!("{measure}_p50")));
     if has_samples { ", of the perfect designs" } else { "" }
 }
 
-/// Returns the column of a measure in newtons or millimetres, if the table has one.
+/// Returns the column of a measure in physical units, if the table has one.
 pub(crate) fn physical(designs: &Designs, measure: &str) -> Option<String> {
     physical_of(designs.headers().iter().map(String::as_str), measure).map(str::to_owned)
 }
 
-/// Returns the column of a measure in newtons or millimetres, or without units otherwise.
+/// Returns the column of a measure in physical units, or otherwise its dimensionless column.
 pub(crate) fn shown_column(designs: &Designs, measure: &str) -> String {
     physical(designs, measure).unwrap_or_else(|| measure.to_owned())
 }
 
-/// Returns the header that holds a measure in newtons or millimetres, if any.
+/// Returns the one of `headers` that holds a measure in physical units, if any.
 pub(crate) fn physical_of<'h>(
     headers: impl IntoIterator<Item = &'h str>,
     measure: &str,
@@ -109,14 +112,14 @@ pub(crate) fn physical_of<'h>(
     })
 }
 
-/// Maximum number of parts of a figure.
+/// Maximum number of combinations of further parameters for which figures are drawn.
 pub(crate) const PARTS: usize = 24;
 
 /// Draws every figure for which the table has values.
 ///
-/// With a ranking it includes the Pareto fronts and the best designs for all weights. If a sweep has
-/// axes besides gap, aspect ratio and slant, each combination of their values has its own figures,
-/// for at most 24 combinations. Their names and titles include the values.
+/// With a ranking, they include the Pareto fronts and the best designs for all weights. If a sweep
+/// has axes besides gap, aspect ratio and slant, each combination of their values has its own
+/// figures, for at most 24 combinations. The names and titles of these figures include the values.
 ///
 /// Fronts and best designs come from the whole ranking, even if only some `designs` are shown. On
 /// narrow paper figures have fewer panels.
@@ -134,11 +137,11 @@ pub fn figures(
             .extend(all.map(|figure| Figure { name: file_name(&figure.name, values), ..figure }));
     }
     if let Some((designs, ranking)) = ranking {
-        // User-defined criteria may have other axes, or fewer.
+        // Both figures need the four criteria of the paper, and user-defined criteria may differ.
         let is_drawn = are_the_papers(ranking);
         let ranked = is_drawn.then(|| ranking.by_fitness(Weights::BALANCED));
         let mut rows: Vec<usize> = ranked.into_iter().flatten().map(|d| d.row()).collect();
-        // In the order of the table, as on the page.
+        // Sort the designs in the order of the table, as on the page.
         rows.sort_unstable();
         let axes = pareto::physical_axes(designs);
         let fronts = pareto::figure(name, designs, &rows, &axes, paper);
@@ -161,13 +164,13 @@ fn are_the_papers(ranking: &Ranking<'_>) -> bool {
         })
 }
 
-/// Returns the title of the figures of a part, with the values of its further axes.
+/// Returns `name` with the values of further parameters, as a title of figures.
 fn title(name: &str, values: &[(&str, Cow<'_, str>)]) -> String {
     let words = values.iter().map(with_value);
     std::iter::once(name.to_owned()).chain(words).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the file name of a figure of a part.
+/// Returns `file` with the values of further parameters, as a file name of a figure.
 fn file_name(file: &str, values: &[(&str, Cow<'_, str>)]) -> String {
     let part = values.iter().map(|(axis, value)| format!("{}-{value}", axis.replace('_', "-")));
     std::iter::once(file.to_owned()).chain(part).collect::<Vec<_>>().join("-")
@@ -175,7 +178,7 @@ fn file_name(file: &str, values: &[(&str, Cow<'_, str>)]) -> String {
 
 /// Measures with a figure against gap, aspect ratio and slant.
 ///
-/// The second entry is the column that decides which marks are filled.
+/// The second entry is the column that is `yes` for designs with filled marks. `None` fills all.
 pub(crate) const MULTIPLES: [(&str, Option<&str>); 3] = [
     (name::CRITICAL_FORCE, None),
     (name::PENETRATION, None),
@@ -211,10 +214,10 @@ fn of_part(name: &str, designs: &Designs, paper: Paper) -> Vec<Figure> {
     figures
 }
 
-/// Size of a title, and the smallest size on narrow paper, px.
+/// Usual font size of a title, and smallest font size on narrow paper, px.
 const TITLE: [f64; 2] = [15.0, 10.0];
 
-/// Returns a titled figure. A title that does not fit at the smallest size is cut.
+/// Returns a figure with a title. A title that does not fit at the smallest size is cut.
 pub(crate) fn sheet(width: f64, height: f64, title: &str, inside: Vec<Element>) -> String {
     // Bold letters are wider.
     let room = (width - 36.0) / 1.05;
@@ -228,7 +231,7 @@ pub(crate) fn sheet(width: f64, height: f64, title: &str, inside: Vec<Element>) 
     document(width, height, &plain(title), std::iter::once(head).chain(inside).collect())
 }
 
-/// Returns the number of columns for `count` panels with shared axes.
+/// Returns the number of columns of a grid of `count` panels.
 pub(crate) fn columns(count: usize) -> usize {
     match count {
         0..=3 => count.max(1),
@@ -242,7 +245,9 @@ pub(crate) fn columns(count: usize) -> usize {
 /// Approximate maximum number of marks in a figure; more would overlap and enlarge pages.
 const DRAWN: usize = 10_000;
 
-/// Selects the designs with marks out of `count`: all, or every n-th.
+/// Selects the designs that get a mark in each of `panels` panels.
+///
+/// Returns all indices below `count`, or every n-th of them if that would exceed [`DRAWN`] marks.
 pub(crate) fn thinned(count: usize, panels: usize) -> impl Iterator<Item = usize> {
     (0..count).step_by((count * panels).div_ceil(DRAWN).max(1))
 }

@@ -10,9 +10,9 @@ use crate::svg::{Element, Spot, circle, line, polyline};
 /// A measured curve with its fitted curve.
 #[derive(Clone, Copy, Debug)]
 pub struct FitPanel<'a> {
-    /// The name of the file.
+    /// Name of the file with the measured curve.
     pub file: &'a str,
-    /// Quantities on the axes, with units.
+    /// Names of the x axis and the y axis, each with its unit after a comma.
     pub axes: &'a [String; 2],
     /// Position, measured value and fitted value of each point.
     pub points: &'a [[f64; 3]],
@@ -24,15 +24,17 @@ pub struct FitPanel<'a> {
 const PANEL: [f64; 2] = [330.0, 230.0];
 /// Top of the first panel, px.
 const TOP: f64 = 92.0;
-/// Margins around a panel, px.
+/// Horizontal and vertical space between panels, px.
 const ROOM: [f64; 2] = [92.0, 92.0];
 
-/// Draws each curve and its residuals, with the 95 % range of random residuals.
+/// Draws each measured and fitted curve, and beside it the residuals.
+///
+/// Two lines bound the range of 95 % of normally distributed residuals.
 pub fn fit_figure(name: &str, curves: &[FitPanel]) -> String {
     let [width, height] = PANEL;
     let first = Area { left: 78.0, top: TOP, width, height };
-    let note = "left: measured points and the fitted curve; right: residuals, with 95 % of \
-                random ones between the outer lines";
+    let note = "left: measured points and the fitted curve; right: residuals (95 % of random \
+                residuals lie between the outer lines)";
     let mut inside = vec![label(note, [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
     for (row, curve) in curves.iter().enumerate() {
         let [left, right] = [0, 1].map(|column| first.panel(2 * row + column, 2, ROOM));
@@ -52,7 +54,7 @@ impl FitPanel<'_> {
         let (x, y) = (self.places(), ChartAxis::spanning(&self.axes[1], values));
         let panel = ChartPanel::new(area, &x, &y);
         let mut fitted = self.points.to_vec();
-        // Points may be measured in any order, but a line needs them sorted.
+        // The measured points may have any order, but the line needs sorted points.
         fitted.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let fitted = polyline(&panel.spots(fitted.iter().map(|p| [p[0], p[2]])));
         let fitted = fitted.with("stroke", INK).at("stroke-width", 1.6);

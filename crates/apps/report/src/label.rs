@@ -2,7 +2,7 @@
 
 use crate::svg::{Element, Spot};
 
-/// The anchor of a label.
+/// The point of a label that lies at its given position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -15,7 +15,7 @@ pub(crate) enum Anchor {
 struct TextRun {
     text: String,
     italic: bool,
-    /// The level: -1 subscript, 0 baseline, 1 superscript.
+    /// Vertical level: -1 subscript, 0 baseline, 1 superscript.
     level: i8,
 }
 
@@ -54,7 +54,7 @@ pub(crate) fn plain(source: &str) -> String {
     runs(source).into_iter().map(|run| run.text).collect()
 }
 
-/// Returns the approximate width of `source`, px.
+/// Returns the approximate width of `source` at the font size `size`, px.
 pub(crate) fn width(source: &str, size: f64) -> f64 {
     let run =
         |run: TextRun| run.text.chars().count() as f64 * if run.level == 0 { 0.53 } else { 0.38 };
@@ -67,9 +67,9 @@ pub(crate) fn fitting(source: &str, size: f64, room: f64) -> f64 {
     if full > room { size * room / full } else { size }
 }
 
-/// Splits `source` at spaces into lines of at most `room` px.
+/// Splits `source` at spaces into lines of at most `room` px, at the font size `size`.
 ///
-/// A longer word has a line of its own.
+/// A word that is longer than `room` has a line of its own.
 pub(crate) fn wrapped(source: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in source.split(' ').filter(|word| !word.is_empty()) {
@@ -84,7 +84,7 @@ pub(crate) fn wrapped(source: &str, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-/// Returns `source` as an SVG text at a spot.
+/// Returns `source` as an SVG text at `(x, y)`.
 pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> Element {
     let mut text = Element::new("text").at("x", x).at("y", y).at("font-size", size);
     match anchor {
@@ -94,7 +94,7 @@ pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> El
     }
     let runs = runs(source);
     if runs.len() > 1 {
-        // Otherwise some renderers drop spaces at the ends of runs.
+        // Without this attribute, some renderers drop spaces at the ends of runs.
         text = text.with("xml:space", "preserve");
     }
     let mut height = 0.0;

@@ -1,20 +1,20 @@
 //! Drawings of designs, and figures and pages of sweeps.
 //!
-//! Reports use the tables of a run or solved designs; nothing is solved here. A drawing maps a
-//! point `(x, y)` of the plane, in units of `t`, to px by `(x₀ + s x, y₀ − s y)`.
+//! This crate draws tables of a run and solved designs; it solves nothing itself. A drawing maps a
+//! point `(x, y)` of the plane, in units of `t`, to `(x₀ + s x, y₀ − s y)` px.
 //!
 //! | Item | Role |
 //! |---|---|
-//! | [`drawings`] | a row of scales punctured, a strip bent: to scale, as SVG or as an animation |
+//! | [`drawings`] | a punctured row of scales or a bent strip, to scale, as SVG or as an animation |
 //! | [`curves()`], [`MeasuredCurves`] | paths of solved designs, with test data overlaid |
 //! | [`figures()`], [`Figure`] | figures of a sweep, from its table |
-//! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with its bounds, and the sources of its spread |
+//! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with their bounds, and the sources of their spread |
 //! | [`fit_figure`], [`FitPanel`] | measured and fitted curves, and residuals |
 //! | [`SearchFigure`], [`SearchedDesign`] | history and front of a search |
-//! | [`map()`], [`MapRequest`] | any column over any two parameters, with contours |
+//! | [`map()`], [`MapRequest`] | map of any column over any two parameters, with contours |
 //! | [`Designs`] | the table of a sweep, column by column |
 //! | [`Page`], [`PageDesign`] | figures, ranking, table and drawings on one HTML page |
-//! | [`Explorer`] | an interactive design with its solver: at the top of the page of a sweep, or alone |
+//! | [`Explorer`] | an interactive design with its solver, at the top of the page of a sweep or on its own page |
 //! | [`GapFactors`] | change of the measures for a gap 10 % smaller or larger, for the page |
 //! | `png` | conversion of a drawing or figure to an image (feature `png`) |
 //! | [`export`] | the tables as one workbook for spreadsheets (feature `xlsx`) |

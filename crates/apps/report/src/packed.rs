@@ -1,11 +1,11 @@
-//! Compressed data of a page: deflated, seven bits per character.
+//! Compressed data of a page: deflated, and encoded with seven bits per character.
 
 use std::io::{self, Write};
 
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 
-/// Writes an element with compressed `bytes`, which scripts find by its `id`.
+/// Compresses `bytes` into an HTML element, which scripts find by its `id`.
 ///
 /// Drawings shrink to a tenth of their size.
 pub(crate) fn write_packed(out: &mut impl Write, id: &str, bytes: &[u8]) -> io::Result<()> {
@@ -17,7 +17,8 @@ pub(crate) fn write_packed(out: &mut impl Write, id: &str, bytes: &[u8]) -> io::
 
 /// Encodes bytes as text with seven bits per character.
 ///
-/// The overhead is 17 %, against 33 % for base 64. The last character is padded with zeros.
+/// Text in UTF-8 is 17 % longer than the bytes; base 64 would be 33 % longer. The last character is
+/// padded with zero bits.
 pub(crate) fn in_sevens(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(9 * bytes.len() / 7 + 1);
     let (mut held, mut count) = (0_u32, 0);
@@ -35,7 +36,7 @@ pub(crate) fn in_sevens(bytes: &[u8]) -> String {
     text
 }
 
-/// Returns the character of the last seven of some bits.
+/// Returns the character that encodes the lowest seven of `bits`.
 fn letter(bits: u32) -> char {
     match (bits & 0x7f) as u8 {
         // Shift characters that are special in HTML by 256.

@@ -62,7 +62,7 @@ pub type Fact = (String, String);
 /// The content of a page.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
-    /// The solver and its initial state.
+    /// The interactive design with its solver; `None` for a page without it.
     pub explorer: Option<Explorer>,
     /// The name of the sweep.
     pub name: String,
@@ -90,16 +90,16 @@ pub struct Page {
     pub solved: Vec<PageDesign>,
     /// Designs found by a search, if any are shown.
     pub front: Option<PageFront>,
-    /// The initial state, as in the address: `require=coverage >= 0.6&weights=40,30,20,10`.
+    /// Initial state, in the form of the page's address: `require=coverage >= 0.6&weights=4,3,2,1`.
     pub opening: String,
 }
 
 /// Factors by which a column changes for a gap 10 % smaller and 10 % larger.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GapFactors {
-    /// The column.
+    /// Name of the column.
     pub column: String,
-    /// The factors for the smaller and the larger gap; `None` if a value is missing.
+    /// Factors for the smaller and for the larger gap; `None` if a value is missing.
     pub factors: [Option<f64>; 2],
 }
 
@@ -114,7 +114,7 @@ pub struct PageDesign {
     pub puncture: Vec<[f64; 2]>,
     /// Curvatures and moments along the path of bending.
     pub flexure: Vec<[f64; 2]>,
-    /// Factors by which columns change for a gap 10 % smaller and larger.
+    /// Changes of the columns for a gap 10 % smaller and 10 % larger.
     pub gap_factors: Vec<GapFactors>,
 }
 

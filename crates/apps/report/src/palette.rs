@@ -7,7 +7,7 @@ use text::number::DistinctNumbers;
 use crate::colors::mixed;
 use crate::svg::{Element, Spot, circle, polygon};
 
-/// Colours at every 15° from 0°, from the colour-blind safe palette of Okabe and Ito.
+/// Colours of the slants 0°, 15° … 90°, from the colour-blind safe palette of Okabe and Ito.
 const SLANTS: [[u8; 3]; 7] = [
     [0, 114, 178],
     [86, 180, 233],
@@ -20,8 +20,9 @@ const SLANTS: [[u8; 3]; 7] = [
 
 /// Colours and marks of the slants of a sweep.
 ///
-/// Multiples of 15° have the same look in every sweep. Other slants take the seven looks in order.
-/// With more than seven slants, looks repeat, but neighbours always differ.
+/// If all slants are multiples of 15°, each has the same colour and mark in every such sweep.
+/// Otherwise the slants take the seven colours and marks in ascending order. With more than seven
+/// slants, marks repeat and colours are interpolated, but neighbouring slants always differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlantPalette(DistinctNumbers);
 
@@ -58,7 +59,7 @@ impl SlantPalette {
     }
 
     fn place(&self, slant_deg: f64) -> usize {
-        // A slant outside this sweep takes the look of the next larger slant.
+        // A slant that the sweep does not contain takes the style of the next larger slant.
         self.0
             .position(slant_deg)
             .unwrap_or_else(|| self.slants().partition_point(|other| *other < slant_deg))
@@ -71,6 +72,8 @@ impl SlantPalette {
 }
 
 /// The shape that marks a slant.
+///
+/// Each variant states its slant in a sweep of multiples of 15°.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// At 0°.
@@ -106,7 +109,7 @@ impl Mark {
         format!("{self:?}").to_lowercase()
     }
 
-    /// Draws the mark at a spot, with about the area of a circle of `radius`.
+    /// Draws the mark around `center`, with about the area of a circle of this `radius`.
     pub(crate) fn draw(self, center: Spot, radius: f64) -> Element {
         let (size, corners, start, inner) = match self {
             Self::Circle => return circle(center, radius),
@@ -121,9 +124,10 @@ impl Mark {
     }
 }
 
-/// Returns the corners of a regular polygon, the first at the angle `start`.
+/// Returns the corners of a regular polygon or star around `(x, y)`.
 ///
-/// If `inner` is below 1, it is a star with this ratio of inner to outer radius.
+/// The first corner is at the angle `start`, in radians counter-clockwise from the x axis. If
+/// `inner` is below 1, the shape is a star, and `inner` is the ratio of its inner to outer radius.
 fn regular([x, y]: Spot, radius: f64, corners: usize, start: f64, inner: f64) -> Vec<Spot> {
     (0..2 * corners)
         .filter(|k| inner < 1.0 || k.is_multiple_of(2))

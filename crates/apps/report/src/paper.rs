@@ -1,15 +1,15 @@
-//! Page sizes for which figures are laid out: their width, and the number of panels.
+//! Paper for which figures are laid out: its width limits their width and number of panels.
 
 /// Pixels per printed millimetre.
 ///
-/// Tick labels of 11 px have 6.6 pt on paper, legends of 12 px have 7.2 pt.
+/// At this scale, tick labels of 11 px are printed at 6.6 pt, and legends of 12 px at 7.2 pt.
 const PX_PER_MM: f64 = 1.25 * 96.0 / 25.4;
-/// Smallest width for which figures are laid out, px; narrower ones shrink.
+/// Smallest width for which figures are laid out, px. For narrower paper, figures are shrunk.
 const NARROWEST: f64 = 320.0;
 /// Maximum number of rows of panels on narrow paper.
 const ROWS: usize = 2;
 
-/// The paper of figures: as wide as they need, or narrower.
+/// The paper for which figures are laid out: as wide as they need, or narrower.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paper {
     width: Option<f64>,
@@ -29,12 +29,14 @@ impl Paper {
         self.width.map_or(natural, |own| own.min(natural))
     }
 
-    /// Returns true if a figure that needs `natural` px is laid out for less.
+    /// Returns true if the paper is narrower than the `natural` px that a figure needs.
     pub(crate) fn is_narrow(self, natural: f64) -> bool {
         self.width(natural) < natural
     }
 
-    /// Returns the number of columns of panels, each at least `least` px wide, in `room` px.
+    /// Returns the number of columns of panels that fit into `room` px; at most `wanted`.
+    ///
+    /// Each panel is at least `least` px wide, and panels are `between` px apart.
     pub(crate) fn columns(self, wanted: usize, room: f64, least: f64, between: f64) -> usize {
         if self.width.is_none() {
             return wanted;
@@ -43,13 +45,15 @@ impl Paper {
         wanted.min(fitting).max(1)
     }
 
-    /// Returns the maximum number of panels in `columns` columns of a figure.
+    /// Returns the maximum number of panels of a figure with `columns` columns; at most `most`.
+    ///
+    /// The figure needs `natural` px on wide paper.
     pub(crate) fn panels(self, natural: f64, columns: usize, most: usize) -> usize {
         if self.is_narrow(natural) { most.min(ROWS * columns) } else { most }
     }
 }
 
-/// Selects at most `most` of `values`, evenly and with both ends.
+/// Selects at most `most` of `values`, evenly spaced, including the first and the last.
 pub(crate) fn some<T: Clone>(values: Vec<T>, most: usize) -> Vec<T> {
     match most {
         _ if values.len() <= most => values,

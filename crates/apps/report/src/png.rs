@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
-/// Resolution at which a pixel equals a px of the drawing, dots per inch.
+/// Resolution at which one pixel of the image is one px of the drawing, dots per inch.
 const PX_PER_INCH: f64 = 96.0;
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {

@@ -16,7 +16,7 @@ pub struct SearchPage {
     pub title: String,
     /// The version of the program.
     pub version: String,
-    /// The status, as on the command line.
+    /// The status of the search, as printed on the command line.
     pub status: String,
     /// Warnings, such as checks that the optimum fails.
     pub notes: Vec<String>,

@@ -14,18 +14,18 @@ const HISTOGRAM_HEIGHT: f64 = 420.0;
 /// Minimum and maximum number of bars of a histogram.
 const BARS: [usize; 2] = [8, 40];
 
-/// The samples of a measure, with its nominal value and bounds.
+/// A histogram of the samples of a measure, with the nominal value and bounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Histogram<'a> {
     /// Name of the design.
     pub name: &'a str,
-    /// The column of the measure.
+    /// Column name of the measure.
     pub measure: &'a str,
     /// The samples, at least one.
     pub values: &'a [f64],
-    /// The nominal value of the design.
+    /// Value of the measure for the nominal design, without deviations.
     pub drawn: Option<f64>,
-    /// The bounds, each with its text, such as `≥ 2`.
+    /// Text, such as `≥ 2`, and value of each bound.
     pub bounds: &'a [(String, f64)],
 }
 
@@ -33,7 +33,7 @@ impl Histogram<'_> {
     /// Draws the histogram, with red lines at the bounds and a dark line at the nominal value.
     pub fn svg(&self) -> String {
         let shown = self.values.iter().copied().chain(self.drawn);
-        // Include bounds beyond all samples, because their distance matters.
+        // The axis includes bounds beyond all samples, to show their distance from the samples.
         let (low, high) = ends(shown.chain(self.bounds.iter().map(|(_, at)| *at)));
         let x = ChartAxis::linear(&axis_label(self.measure), low, high);
         let bars = self.bars();
@@ -46,7 +46,7 @@ impl Histogram<'_> {
         inside.extend(self.drawn.and_then(|at| marked(&panel, "nominal", at, INK, 0.0)));
         let bounds = self.bounds.iter().enumerate();
         inside.extend(
-            // Each text has its own line, because bounds may be close together.
+            // The text of each bound has its own line, because bounds may be close together.
             bounds.filter_map(|(k, (text, at))| {
                 marked(&panel, text, *at, RED, 14.0 * (k + 1) as f64)
             }),
@@ -55,7 +55,7 @@ impl Histogram<'_> {
         sheet(WIDTH, HISTOGRAM_HEIGHT, &title, inside)
     }
 
-    /// Returns the bars: lower end, upper end and count.
+    /// Returns lower end, upper end and number of samples of each bar.
     fn bars(&self) -> Vec<(f64, f64, f64)> {
         let (low, high) = ends(self.values.iter().copied());
         // More bars than the square root of the number of samples would show only noise.
@@ -81,7 +81,9 @@ impl Histogram<'_> {
     }
 }
 
-/// Draws a vertical line at a value, with its text above.
+/// Draws a vertical line at the value `at`, with a text above the panel.
+///
+/// A larger `above`, in px, extends the line and raises the text.
 fn marked(
     panel: &ChartPanel<'_>,
     text: &str,
@@ -100,10 +102,12 @@ fn marked(
     )
 }
 
-/// A measure and its sources, each with its fraction of the variance.
+/// A measure, and the sources of its variance, each with its fraction of the variance.
 pub type Shares = (String, Vec<(String, f64)>);
 
+/// Height of the row of a measure, px.
 const ROW: f64 = 30.0;
+/// Width of the names of the measures, px.
 const NAMES: f64 = 230.0;
 
 /// Draws a bar for each measure, divided by the contributions of the sources to the variance.
@@ -181,7 +185,7 @@ mod tests {
             histogram.bars()
         });
         assert_eq!((bars.len(), bars.iter().map(|(.., count)| count).sum::<f64>()), (10, 100.0));
-        // The first bar covers values up to a tenth of the range, which is only 0 here.
+        // The first of ten bars covers a tenth of the range, which contains only the sample 0.
         assert_eq!((bars[0].0, bars[0].2), (0.0, 1.0));
         assert_eq!(equal.iter().map(|(.., count)| count).sum::<f64>(), 3.0);
     }

@@ -5,10 +5,10 @@ use std::io::{self, Write};
 use serde::Serialize;
 use text::visible;
 
-/// Basic functions for elements, on every page.
+/// The script with basic functions for HTML elements, which every page contains.
 pub(crate) const ELEMENTS: &str = include_str!("../assets/page/scripts/elements.js");
 
-/// Writes `template`; the function `filled` writes the content of each `{{place}}`.
+/// Writes `template` to `out`, and calls `filled` to write each placeholder `{{place}}`.
 pub(crate) fn fill<W: Write>(
     out: &mut W,
     template: &str,
@@ -24,7 +24,7 @@ pub(crate) fn fill<W: Write>(
     Ok(())
 }
 
-/// Writes a part of the head or foot of a page.
+/// Writes the title of a page if `place` is `title`, otherwise the version of the program.
 pub(crate) fn fill_head(
     out: &mut impl Write,
     place: &str,
@@ -35,7 +35,7 @@ pub(crate) fn fill_head(
     out.write_all(text.as_bytes())
 }
 
-/// Writes data as JSON, with `</script` and `<!--` escaped.
+/// Writes data as JSON with `<` escaped, so that it cannot end its script element.
 pub(crate) fn fill_json(out: &mut impl Write, data: &impl Serialize) -> io::Result<()> {
     out.write_all(serde_json::to_string(data)?.replace('<', "\\u003c").as_bytes())
 }

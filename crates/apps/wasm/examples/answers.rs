@@ -1,6 +1,6 @@
 //! Answers requests from standard input, one per line.
 //!
-//! `scripts/check-wasm` compares the answers.
+//! `scripts/check-wasm` compares these answers with the WebAssembly module.
 
 use std::io::{self, BufRead as _};
 

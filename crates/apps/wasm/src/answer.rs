@@ -15,7 +15,7 @@ use crate::path::{BentStrip, PuncturedRow};
 pub struct Answer {
     /// The identifier of the request.
     pub id: u64,
-    /// True for a complete answer, false for a fast one during a drag.
+    /// True for a complete answer, false for a fast answer while the user drags.
     pub fine: bool,
     /// The columns of `designs.csv` that have a value.
     pub values: Vec<Value>,
@@ -63,11 +63,13 @@ pub struct Required {
     pub text: String,
     /// The value of its column, if there is one.
     pub value: Option<f64>,
-    /// The margin relative to the limit, negative if it is missed; `None` without a value.
+    /// The margin relative to the limit, negative if the requirement is not met.
+    ///
+    /// `None` without a value.
     pub margin: Option<f64>,
     /// True if the value meets the requirement; false without a value.
     pub met: bool,
-    /// True for the requirement that is closest to its limit.
+    /// True for the requirement with the smallest margin.
     pub limits: bool,
 }
 
@@ -89,15 +91,15 @@ pub struct Slope {
     pub measure: &'static str,
     /// The key of the parameter.
     pub parameter: &'static str,
-    /// 1 if an increase improves the measure, −1 for a decrease, 0 for neither.
+    /// 1 if a larger parameter improves the measure, −1 if a smaller one does, 0 for neither.
     pub better: i8,
     /// Improvement of the measure in per cent for a change of the parameter by one per cent.
     pub gain: Option<f64>,
-    /// The event at a kink, if there is one.
+    /// The event at which the derivative jumps, if the design lies at a kink of the measure.
     pub kink: Option<String>,
 }
 
-/// A design of the sweep.
+/// The design on the grid of the sweep that is nearest to the solved design.
 #[derive(Clone, Debug, Serialize)]
 pub struct Closest {
     /// Number of the design.
@@ -106,7 +108,7 @@ pub struct Closest {
     pub values: Vec<(&'static str, f64)>,
 }
 
-/// The end of following a parameter.
+/// The value at which following a parameter ended.
 #[derive(Clone, Debug, Serialize)]
 pub struct Followed {
     /// The key of the parameter.
@@ -134,7 +136,7 @@ impl Value {
         (*cell != Cell::Empty).then_some(value)
     }
 
-    /// Returns the number in a column.
+    /// Returns the number in a column; `None` if it has no number.
     pub(crate) fn number(values: &[Self], column: &str) -> Option<f64> {
         values.iter().find(|value| value.name == column)?.value
     }
@@ -174,7 +176,7 @@ impl Slope {
         let good = if plain_goal(measure) == Some(Goal::Minimize) { -1.0 } else { 1.0 };
         let [smaller, larger] = [left.map(|slope| -good * slope), right.map(|slope| good * slope)];
         let gain = |side: Option<f64>| side.filter(|gain| *gain > 0.0).unwrap_or(0.0);
-        // At a kink both directions may improve the measure; the steeper one is reported.
+        // At a kink, both directions may improve the measure; report the steeper direction.
         let (better, side) = match (gain(smaller), gain(larger)) {
             (smaller, larger) if larger > smaller => (1, larger),
             (0.0, _) => (0, 0.0),

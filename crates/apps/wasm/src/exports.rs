@@ -1,8 +1,8 @@
 //! The functions exported by the WebAssembly module.
 //!
-//! A page writes a request as UTF-8 to the address that [`squama_room`] returns, calls
-//! [`squama_answer`] with its length, and reads the returned number of bytes from the new address
-//! of [`squama_room`].
+//! A page writes a request as UTF-8 to the address that [`squama_room`] returns, and calls
+//! [`squama_answer`] with the length of the request. It then calls [`squama_room`] again for the
+//! address of the answer, and reads the number of bytes that [`squama_answer`] returned.
 #![allow(unsafe_code)]
 
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};

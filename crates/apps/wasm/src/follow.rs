@@ -8,22 +8,25 @@ use sweep::{Case, Sweep};
 use crate::answer::{Followed, Required, Value};
 use crate::request::{Follow, Setting, put};
 
-/// Number of steps over the whole range; features narrower than a step may be missed.
+/// Number of steps over the whole range. Limits within one step may be missed.
 const STEPS: u32 = 24;
 /// Number of bisections of the last step, down to less than the resolution of a slider.
 const HALVINGS: u32 = 10;
 
 /// An evaluated design.
 struct Look {
-    /// The measure, negated if it is to be minimised.
+    /// Value of the measure, negated if it is to be minimised; `None` if it has no value.
     worth: Option<f64>,
+    /// True if the surface folds.
     folds: bool,
+    /// The requirements with their margins.
     required: Vec<Required>,
 }
 
-/// Changes a parameter of `case` until a limit.
+/// Changes a parameter of `case` towards `walk.to`, up to the first limit.
 ///
-/// Limits are: the measure no longer improves, a requirement becomes violated, or a fold appears.
+/// At a limit the measure stops improving or loses its value, a requirement is no longer met, or
+/// the surface begins to fold.
 ///
 /// # Errors
 /// If there is no such parameter, or one of its values is rejected.
@@ -36,7 +39,7 @@ pub(crate) fn follow(
 ) -> Result<Followed, String> {
     let from =
         sweep::Parameter::named(&walk.key).and_then(|parameter| parameter.get(case).number());
-    let from = from.ok_or_else(|| format!("{}: no number to follow", walk.key))?;
+    let from = from.ok_or_else(|| format!("{}: has no numeric value to follow", walk.key))?;
     let look = |value: f64| -> Result<Look, String> {
         let case = put(case, &walk.key, &Setting::Number(value))?;
         let sweep = sweep.at(&case);
@@ -76,7 +79,7 @@ pub(crate) fn follow(
     Ok(Followed { key: walk.key.clone(), value: value_at(share), reason })
 }
 
-/// Returns the limit between two designs, if there is one.
+/// Returns a description of the limit between the designs `here` and `ahead`, if there is one.
 fn limit(here: &Look, ahead: &Look, walk: &Follow) -> Option<String> {
     let broken =
         here.required.iter().zip(&ahead.required).find(|(here, ahead)| here.met && !ahead.met);
@@ -84,12 +87,12 @@ fn limit(here: &Look, ahead: &Look, walk: &Follow) -> Option<String> {
         return Some(format!("limited by {}", broken.text));
     }
     match (here.worth, ahead.worth) {
-        (Some(_), None) => Some("beyond, the path does not converge".to_owned()),
-        _ if ahead.folds && !here.folds => Some("beyond, the surface folds".to_owned()),
+        (Some(_), None) => Some("beyond this value the path does not converge".to_owned()),
+        _ if ahead.folds && !here.folds => Some("beyond this value the surface folds".to_owned()),
         (Some(here), Some(ahead)) if ahead < here => {
             Some(format!("{} is best here", walk.measure.replace('_', " ")))
         }
-        // If neither has a value, continue: a later design may have one.
+        // If neither design has a value, continue: a later design may have one.
         _ => None,
     }
 }

@@ -1,6 +1,6 @@
 //! Paths and drawn states of a design.
 //!
-//! Lengths over `t`, angles in degrees, forces and moments as in the tables.
+//! Lengths are divided by `t`, angles are in degrees, and forces and moments are dimensionless.
 
 use geometry::OutOfRange;
 use serde::Serialize;
@@ -66,8 +66,8 @@ impl PuncturedRow {
         drawn: f64,
         solve: impl Fn(&[At]) -> Result<Snapshots, OutOfRange>,
     ) -> Option<Self> {
-        // A guided needle is controlled by depth, because a free one may rise while the tilt
-        // increases.
+        // The drawn state is defined by the depth of a guided needle, but by the tilt under a free
+        // needle, which may rise while the tilt increases.
         let is_guided = case.puncture.needle.is_guided();
         let along =
             |point: &PuncturePoint| if is_guided { point.displacement } else { point.tilt_deg };
@@ -76,9 +76,9 @@ impl PuncturedRow {
         let place = if is_guided { At::Displacement(place) } else { At::Tilt(place) };
         let is_between = drawn > 0.0 && drawn < 1.0;
         let solved = solve(if is_between { std::slice::from_ref(&place) } else { &[] }).ok()?;
-        // Different steps change the last digits, so the end cannot be identified by its value.
+        // The end is not requested by its value, because different steps change its last digits.
         let state = solved.at.into_iter().flatten().next().unwrap_or(solved.end);
-        // At rest the state is not drawn, only the path.
+        // At rest, the answer has only the path and no state.
         let state = (drawn > 0.0).then_some(state);
         let Puncture { path, events, folds, .. } = solved.puncture;
         let place = |point: &PuncturePoint| [point.displacement, point.force];
@@ -99,7 +99,7 @@ impl PuncturedRow {
     }
 }
 
-/// Returns the scales of a row.
+/// Returns number, displacement and rotation of each scale of a row.
 fn scales(state: &RowSnapshot) -> impl Iterator<Item = [f64; 4]> {
     state.scales.iter().map(|scale| {
         let [x, y] = scale.displacement;
@@ -109,7 +109,7 @@ fn scales(state: &RowSnapshot) -> impl Iterator<Item = [f64; 4]> {
 
 /// Returns the contacts of a row, with the origin at the punctured scale.
 ///
-/// The solver measures from its first scale.
+/// The solver measures positions from the first scale of the row.
 fn contacts(case: &Case, state: &RowSnapshot) -> Vec<PlacedContact> {
     let first = state.scales.first().map_or(0.0, |scale| scale.scale as f64);
     let frame = case.body().frame(first * case.pitch());
@@ -157,7 +157,7 @@ impl BentStrip {
 
     /// Adds the scales around the middle of a state, relative to the middle scale.
     ///
-    /// All gaps bend alike, and the scales of a whole strip would be too small to see.
+    /// Other scales are omitted, because all gaps bend alike, and a whole strip would be too small.
     fn with_middle(self, state: &StripSnapshot, pitch: f64) -> Self {
         let scales = &state.scales;
         let middle = scales.len() / 2;

@@ -26,7 +26,7 @@ pub struct Request {
     /// True for a complete answer, with derivatives, smooth curves and neighbouring gaps.
     #[serde(default)]
     pub fine: bool,
-    /// True for the measures alone, without paths and drawings.
+    /// True for an answer with the measures, but without paths and drawings.
     #[serde(default)]
     pub bare: bool,
     /// Fractions of the paths of puncture and bending to draw: 0 at rest, 1 at the end.
@@ -53,7 +53,7 @@ pub enum Setting {
 pub struct Follow {
     /// The key of the parameter.
     pub key: String,
-    /// The value at which following stops without a limit.
+    /// The value at which following stops if there is no limit before.
     pub to: f64,
     /// The column to improve.
     pub measure: String,
@@ -62,7 +62,8 @@ pub struct Follow {
 impl Request {
     /// Returns the measures to compute for `case`.
     ///
-    /// Omits derivatives on a layer with full coupling: their nine calibrations take seconds each.
+    /// On a layer with full coupling there are no derivatives, because each of their nine
+    /// calibrations takes seconds.
     pub(crate) fn measures(&self, case: &Case) -> Vec<Measure> {
         let is_slow = case.tissue_thickness.is_some() && case.coupling == Coupling::Full;
         let differentiates = self.fine && !is_slow;
@@ -79,7 +80,7 @@ impl Request {
     }
 }
 
-/// Sets the parameter `key` of `case`.
+/// Returns `case` with another value of the parameter `key`.
 pub(crate) fn put(case: &Case, key: &str, value: &Setting) -> Result<Case, String> {
     let parameter = Parameter::named(key).ok_or_else(|| format!("{key}: no such parameter"))?;
     // Convert to text, so that bounds and errors are the same as in definitions.

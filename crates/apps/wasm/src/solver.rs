@@ -22,7 +22,7 @@ const CURVE_STEP: f64 = 0.02;
 pub struct Solver {
     /// The definition of the last request.
     sweep: Option<(String, Sweep)>,
-    /// The evaluators used so far, with their calibrations.
+    /// The evaluators used so far, each with its measures; they keep calibrated springs.
     evaluators: Vec<(Vec<Measure>, Evaluator)>,
 }
 
@@ -98,9 +98,9 @@ impl Solver {
         })
     }
 
-    /// Returns the sweep of a definition.
+    /// Returns the sweep of a definition, parsed only if the definition has changed.
     fn sweep(&mut self, definition: &str) -> Result<Sweep, String> {
-        // Requests of one drag have the same definition, so the last one is kept.
+        // All requests while the user drags have the same definition, so the last one is kept.
         if let Some((text, sweep)) = &self.sweep
             && text == definition
         {
@@ -113,7 +113,7 @@ impl Solver {
     }
 
     fn evaluator(&mut self, measures: Vec<Measure>) -> &Evaluator {
-        // There are at most two, for fast and for complete answers.
+        // There are at most two evaluators, for fast and for complete answers.
         let known = self.evaluators.iter().position(|(others, _)| *others == measures);
         let place = known.unwrap_or_else(|| {
             let evaluator = Evaluator::new(&measures);
@@ -124,9 +124,10 @@ impl Solver {
     }
 }
 
-/// Punctures the row of a case along its `path`, with the steps of `smooth`.
+/// Solves the puncture of `case` again, with the steps of `smooth`.
 ///
-/// `drawn` is the fraction of the path at which the row is drawn. Unloading is omitted.
+/// `path` is the path with larger steps, and `drawn` the fraction of it at which the row is drawn.
+/// Unloading is omitted.
 fn punctured(
     evaluator: &Evaluator,
     case: &Case,
@@ -148,7 +149,9 @@ fn gap_change(sweep: &Sweep, row: &DesignRow) -> Option<GapChange> {
     GapChange::solve(sweep, &row.number.to_string(), &columns, Patience::Milliseconds)
 }
 
-/// Bends the strip of a case, with small steps if `is_fine`.
+/// Returns the bent strip of `case`, with the path solved again if `is_fine`.
+///
+/// `path` is the path with larger steps, and the strip is drawn at the fraction `drawn` of it.
 fn bent(case: &Case, is_fine: bool, path: &Flexure, drawn: f64) -> BentStrip {
     let Case { design, common, flexure: parameters, .. } = case;
     let fine = is_fine.then(|| flexure::solve(design, common, parameters).ok()).flatten();

@@ -71,7 +71,7 @@ const GUIDED: &str =
 
 /// The curve must end at the critical point, although finer steps change its last digits.
 ///
-/// An end compared by value would be missed, and the curve would continue to twice the tilt.
+/// If the end were found by its value, the path could miss it and continue to twice the tilt.
 #[test]
 fn curves_of_guided_needles_end_at_the_critical_point() {
     let definition = DEFINITION.replace("[puncture]", GUIDED);
@@ -90,9 +90,9 @@ fn curves_of_guided_needles_end_at_the_critical_point() {
     }
 }
 
-/// A sharp tip that reaches the corner continues from there.
+/// A sharp tip leaves its face at the corner, which a warning reports.
 ///
-/// A round tip touches the next scale at once, and stays in place.
+/// A round tip also touches the next scale, so it stays in place without a warning.
 #[test]
 fn passing_needles_are_reported_if_they_are_sharp() {
     let set = json!({ "gap_over_t": 0.1, "length_over_t": 1, "slant_deg": 75 });
@@ -106,9 +106,9 @@ fn passing_needles_are_reported_if_they_are_sharp() {
     assert!(warned("") && !warned("needle_radius_over_t = 0.5"));
 }
 
-/// With a load inset the path is solved again at the corner.
+/// A load inset places the needle inside the corner.
 ///
-/// The drawing must show the inset position and the force of the measures.
+/// The drawing must show this position, and the force of the measures.
 #[test]
 fn a_needle_inside_the_corner_is_drawn_with_its_own_force() {
     let definition = DEFINITION.replace(
@@ -121,7 +121,7 @@ fn a_needle_inside_the_corner_is_drawn_with_its_own_force() {
     assert!((drawn / force - 1.0).abs() < 1e-6, "{drawn}, and {force} among the measures");
     let [x, y, radius] = [0, 1, 2].map(|k| row["tip"][k].as_f64().expect("a place"));
     let depth = row["at"][0].as_f64().expect("a depth");
-    // An inset of 0.1 t on a top of length 0.5 t is 0.2 from the corner.
+    // An inset of 0.1 t is a fifth of the length 0.5 t of the top.
     assert!((row["load_position"].as_f64().expect("a place") - 0.8).abs() < 1e-12);
     assert!(radius == 0.3 && y < 1.0 && depth > 0.0, "{x} {y} {depth}");
 }
@@ -142,9 +142,11 @@ fn designs_between_grid_points_have_a_closest_design_and_a_command() {
     assert_eq!(number(&again, "critical_force"), number(&answer, "critical_force"));
 }
 
-/// A goal in mm has no designs of its own; the copied definition is the design in mm.
+/// The definition of a search has variables in mm and no grid of designs.
+///
+/// The copied definition must have the values in mm of the solved design.
 #[test]
-fn a_copied_definition_keeps_millimetres_and_requirements_under_a_free_name() {
+fn a_copied_definition_keeps_millimetres_and_requirements_under_a_new_name() {
     let goal = "name = 'pin'\n[variables]\ngap_mm = { from = 0.2, to = 2 }\nlength_mm = { from = 1, to = 4 }\n\
                 thickness_mm = { from = 1, to = 2 }\n[designs]\nslant_deg = 60\n[material]\nsubstrate_modulus_MPa = 1";
     let set = json!({ "gap_mm": 0.5, "length_mm": 2, "thickness_mm": 1.6 });
@@ -164,7 +166,7 @@ fn a_copied_definition_keeps_millimetres_and_requirements_under_a_free_name() {
     assert_eq!(number(&again, "gap_mm"), 0.5);
 }
 
-/// A search needs no drawings.
+/// A search of the page requests bare answers, because it needs no drawings.
 #[test]
 fn bare_answers_have_the_same_measures_and_margins() {
     let solve = |bare: bool| {
@@ -228,7 +230,7 @@ fn on_body(definition: &str, key: &str, value: f64) -> (f64, String) {
 
 /// A slider sets a radius, or a curvature of 0 for a flat body.
 ///
-/// This holds for any body in the definition.
+/// The result must not depend on the body in the definition.
 #[test]
 fn a_set_body_replaces_the_body_of_the_definition() {
     let (flat, _) = on_body(DEFINITION, "thickness_mm", 2.0);
@@ -248,7 +250,7 @@ fn a_set_body_replaces_the_body_of_the_definition() {
         let is_set = setting == "--set body.curvature_times_t=0";
         assert_eq!(is_set, definition != DEFINITION, "{definition}");
     }
-    // A radius in mm stays if the thickness changes.
+    // A radius in mm does not change with the thickness.
     let in_mm = format!("{DEFINITION}\n[body]\nradius_mm = 10");
     let over_t = format!("{DEFINITION}\n[body]\nradius_over_t = 10");
     assert_eq!(on_body(&in_mm, "thickness_mm", 1.0).0, on_body(&over_t, "thickness_mm", 2.0).0);
@@ -256,7 +258,7 @@ fn a_set_body_replaces_the_body_of_the_definition() {
 
 /// A layer is solved with its boundary elements, as in a run.
 ///
-/// With full coupling derivatives would take seconds, so arrows are left out.
+/// With full coupling, derivatives would take seconds, so the answer has no slopes.
 #[test]
 fn a_layer_is_solved_as_in_a_run() {
     for (coupling, has_slopes) in [("nearest", true), ("full", false)] {
@@ -279,13 +281,13 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().expect("numbers").iter().filter_map(Value::as_f64).collect()
 }
 
-/// Rotates a vector counter-clockwise and adds it to an origin.
+/// Rotates the vector `[u, v]` counter-clockwise by `angle`, and adds it to the origin `[x, y]`.
 fn placed([x, y]: [f64; 2], [u, v]: [f64; 2], angle: f64) -> [f64; 2] {
     let (sin, cos) = angle.sin_cos();
     [x + u * cos - v * sin, y + u * sin + v * cos]
 }
 
-/// Contacts are drawn at a corner of a scale in its position on the body.
+/// Each contact is drawn at a corner of a scale, which lies at its position on the body.
 #[test]
 fn contacts_on_a_body_are_drawn_at_corners_of_its_scales() {
     for curvature in [0.0, 0.1, -0.02] {

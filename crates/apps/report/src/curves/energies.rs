@@ -1,4 +1,4 @@
-//! Energies over the displacement or curvature: a panel for each design.
+//! Figures of energies against displacement or curvature, with a panel for each design.
 
 use results::{bending_units, puncture_units};
 
@@ -36,7 +36,7 @@ const FLEXURE_ENERGY: FigureText = FigureText {
     units: |case| bending_units(case).map(|[per_mm, _, energy]| [per_mm, energy]),
 };
 
-/// The energies of a design, each with its dash pattern.
+/// The energies of a design: dash pattern and points of each curve.
 type Energies = Vec<(&'static str, Vec<[f64; 2]>)>;
 
 /// Draws the energies of punctures; `None` if no puncture was solved.
@@ -66,7 +66,7 @@ fn flexure_energies(solved: &DesignCurves) -> Option<Energies> {
     ])
 }
 
-/// Returns a panel for each design, each with its own axes.
+/// Draws a panel with its own axes for each solved design; `None` if no design was solved.
 fn panels(
     name: &str,
     text: &FigureText,
@@ -105,7 +105,7 @@ fn panels(
     }
     let rows = solved.len().div_ceil(columns) as f64;
     let title = format!("{name}: {}", text.title);
-    // One panel alone is narrower than its title.
+    // A single panel is narrower than the title of the figure.
     let full =
         if paper.is_narrow(natural) { full } else { natural.max(width(&title, 15.0) + 60.0) };
     Some(sheet(full, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
@@ -113,7 +113,7 @@ fn panels(
 
 /// Returns the energy curves of each solved design.
 ///
-/// `units` holds the factors of each design to physical units, if they are known.
+/// `units` holds the factors of each design to physical units; `None` gives dimensionless curves.
 fn energy_curves(
     designs: &[DesignCurves],
     energies: fn(&DesignCurves) -> Option<Energies>,

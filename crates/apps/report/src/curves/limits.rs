@@ -1,4 +1,4 @@
-//! Limits of failure on curves of force over displacement, with names that do not overlap.
+//! Limits of failure on curves of force against displacement, with names that do not overlap.
 
 use skin::puncture::FailureMode;
 
@@ -23,22 +23,24 @@ pub struct FailureLimit {
     pub is_first: bool,
 }
 
-/// Size of names, and their height with a margin, px.
+/// Font size of names, px.
 const SIZE: f64 = 11.5;
+/// Height of a name with a margin, px.
 const HEIGHT: f64 = 14.0;
 /// Radius of a mark, px.
 const RADIUS: f64 = 4.2;
-/// Distances of a name from its mark, px, and the number of directions at each.
+/// Possible distances of a name from its mark, px.
 const DISTANCES: [f64; 9] = [11.0, 17.0, 26.0, 38.0, 52.0, 70.0, 92.0, 120.0, 160.0];
+/// Number of directions from its mark in which a name may be placed.
 const DIRECTIONS: u32 = 32;
 /// Distance beyond which a line joins a name and its mark, px.
 const JOINED: f64 = 13.0;
-/// Distance of two samples of a line, px.
+/// Distance between neighbouring samples of a line, px.
 const SAMPLE: f64 = 2.0;
-/// Distances of the name of a level from the right border, px.
+/// Horizontal distance between neighbouring positions that a name may have, px.
 const ALONG: f64 = 12.0;
 
-/// A rectangle.
+/// A rectangle on the sheet, px.
 #[derive(Clone, Copy)]
 struct Bounds {
     left: f64,
@@ -48,7 +50,9 @@ struct Bounds {
 }
 
 impl Bounds {
-    /// Creates the bounds of a text of this width that begins or ends at a spot.
+    /// Returns the bounds of a text of this width.
+    ///
+    /// The text begins at `(x, y)` if `begins` is true, otherwise it ends there.
     fn beside([x, y]: Spot, width: f64, begins: bool) -> Self {
         let left = if begins { x } else { x - width };
         let (top, bottom) = (y - 0.5 * HEIGHT, y + 0.5 * HEIGHT);
@@ -81,7 +85,7 @@ impl Bounds {
     }
 }
 
-/// A name beside its mark.
+/// A placed name of a limit.
 struct Name {
     text: String,
     is_first: bool,
@@ -90,7 +94,7 @@ struct Name {
     leader: Option<[Spot; 2]>,
 }
 
-/// Places names in a panel, clear of each other and of marks, and of curves where possible.
+/// Places names in a panel without overlaps of names and marks, and beside curves if possible.
 struct Names {
     area: Area,
     marks: Vec<Spot>,
@@ -102,17 +106,17 @@ struct Names {
 }
 
 impl Names {
-    /// Adds a name at the clearest of some positions, or none if all are taken.
+    /// Adds a name at the best of the free `positions`; adds nothing if none is free.
     fn add(&mut self, (text, is_first): (String, bool), positions: impl Iterator<Item = Position>) {
         let mut best: Option<(f64, Bounds, Option<[Spot; 2]>)> = None;
         for (bounds, leader, distance) in positions {
-            // The cost is at least the distance.
+            // The cost of a position is at least its distance.
             let is_worse = best.as_ref().is_some_and(|(least, ..)| distance >= *least);
             if is_worse || !self.is_free(&bounds) {
                 continue;
             }
             let line = leader.map(samples).unwrap_or_default();
-            // A line that crosses a name is the last resort.
+            // Leaders that cross names have the highest cost.
             let crossed: usize = self.placed.iter().map(|name| name.bounds.count(&line, 1.0)).sum();
             let crossed = crossed + bounds.count(&self.leaders, 1.0);
             let on_curve = bounds.count(&self.curves, 1.5);
@@ -127,7 +131,7 @@ impl Names {
         }
     }
 
-    /// Returns true if a name with these bounds is clear of the border, marks and other names.
+    /// Returns true if a name with these bounds overlaps no border, mark or other name.
     fn is_free(&self, bounds: &Bounds) -> bool {
         bounds.is_inside(self.area)
             && bounds.count(&self.marks, RADIUS + 2.0) == 0
@@ -162,9 +166,9 @@ fn samples([from, to]: [Spot; 2]) -> Vec<Spot> {
 /// A position of a name: its bounds, its leader, and its distance from the mark.
 type Position = (Bounds, Option<[Spot; 2]>, f64);
 
-/// Lists positions of a name around a mark.
+/// Lists possible positions of a name: first around its mark, then on a grid over the panel.
 ///
-/// Positions on a grid over the panel follow, for marks without free space.
+/// The grid is for marks without free space around them.
 fn around(mark: Spot, width: f64, area: Area) -> impl Iterator<Item = Position> {
     let near = DISTANCES.into_iter().flat_map(|r| (0..DIRECTIONS).map(move |k| (r, k)));
     let near = near.map(move |(distance, k)| {
@@ -187,7 +191,7 @@ fn around(mark: Spot, width: f64, area: Area) -> impl Iterator<Item = Position> 
     near.chain(grid)
 }
 
-/// Lists positions above and below a horizontal line: bounds and distance from its right end.
+/// Lists possible positions of the name of a horizontal line: above and below it, from the right.
 fn along(y: f64, area: Area, width: f64) -> impl Iterator<Item = Position> {
     let steps = ((area.width - width) / ALONG).max(0.0) as usize;
     let all = (0..steps).flat_map(move |k| [-1.0, 1.0].map(|side| (k as f64 * ALONG, side)));
@@ -228,11 +232,11 @@ pub(super) fn limits(panel: &ChartPanel, curves: &[Curve]) -> Option<Element> {
             }
         }
     }
-    // Names of levels go first, because they have fewer possible positions.
+    // Names of levels are placed first, because they have fewer possible positions.
     for (name, wide, y) in levels {
         names.add(name, along(y, panel.area, wide));
     }
-    // Place the name of the first failure first, then the names of the lowest marks.
+    // The name of the first failure is placed first, then other names from the bottom upwards.
     marks.sort_by(|one, other| {
         let is_first = other.0.1.cmp(&one.0.1);
         is_first.then(other.2[1].total_cmp(&one.2[1]))

@@ -5,22 +5,26 @@ use skin::puncture::{Puncture, PuncturePoint, Weakest};
 
 use super::{DesignCurves, FailureLimit};
 
-/// Largest level of a limit that is shown, over the largest force of the path.
+/// Limits across the row are shown up to this multiple of the largest force of the path.
 const HIGHEST_LEVEL: f64 = 1.5;
 
-/// The curve of a design.
+/// Points of the curve of a design, and of its marks.
 #[derive(Default)]
 pub(super) struct CurveValues {
     pub points: Vec<[f64; 2]>,
     /// The unloading path, from the end of `points`.
     pub back: Vec<[f64; 2]>,
+    /// Contact events.
     pub crosses: Vec<[f64; 2]>,
+    /// The first fold of the surface, or the point with the smallest force.
     pub rings: Vec<[f64; 2]>,
-    /// The point at which a guided needle first touches the scale beyond its top face.
+    /// Point at which a guided needle first touches a corner or another scale; may be empty.
     pub passing: Vec<[f64; 2]>,
-    /// True if the segment after each point is unstable under a held depth.
+    /// For each point, true if the segment after it is dotted.
+    ///
+    /// Dotted segments are unstable under a held depth, or skip points without a force.
     pub unstable: Vec<bool>,
-    /// The limits of failure, each with its point.
+    /// Limits of failure, each with its point.
     pub limits: Vec<(FailureLimit, [f64; 2])>,
 }
 
@@ -30,12 +34,12 @@ impl CurveValues {
         self.points.iter().chain(&self.back).chain(self.limits.iter().map(|(_, at)| at))
     }
 
-    /// Returns true if the segment after point `k` is unstable under a held depth.
+    /// Returns true if the segment after point `k` is dotted.
     pub fn is_unstable(&self, k: usize) -> bool {
         self.unstable.get(k) == Some(&true)
     }
 
-    /// Multiplies all points by the factors of both axes.
+    /// Multiplies the coordinates of all points by the factors `x` and `y`.
     pub fn in_units(&mut self, [x, y]: [f64; 2]) {
         let Self { points, back, crosses, rings, passing, limits, .. } = self;
         let all = [points, back, crosses, rings, passing].into_iter().flatten();
@@ -45,17 +49,17 @@ impl CurveValues {
     }
 }
 
-/// Returns the force over the displacement of the needle.
+/// Returns the curve of force against displacement; `None` if the puncture was not solved.
 pub(super) fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let puncture = solved.puncture?;
     let back = puncture.unloading.iter().flat_map(|back| &back.path);
     let crosses = puncture.events.iter().map(|event| force_point(&event.point));
-    // Stability under prescribed depth, because a needle can follow such a path.
+    // A needle follows a path that is stable under a prescribed depth, even if a dead load cannot.
     let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
     let fold = puncture.folds.first().map(|fold| force_point(&fold.point));
     let passage = &puncture.measures.passage;
     let passing = passage.passing_displacement.zip(passage.passing_force);
-    // A truncated path may end before this event.
+    // A truncated path may end before the needle passes.
     let passing = passing.map(<[f64; 2]>::from).filter(|[displacement, _]| {
         puncture.path.iter().any(|point| point.displacement >= *displacement)
     });
@@ -74,7 +78,7 @@ fn force_point(point: &PuncturePoint) -> [f64; 2] {
     [point.displacement, point.force]
 }
 
-/// Lists the limits on a path; a level far above it is not shown.
+/// Lists the limits of failure to draw, without limits across the row far above the path.
 fn shown_limits(solved: &DesignCurves, puncture: &Puncture) -> Vec<(FailureLimit, [f64; 2])> {
     let highest = puncture.path.iter().map(|point| point.force).fold(0.0, f64::max);
     let limits = solved
@@ -84,7 +88,7 @@ fn shown_limits(solved: &DesignCurves, puncture: &Puncture) -> Vec<(FailureLimit
     limits.map(|limit| (*limit, [limit.displacement.unwrap_or_default(), limit.force])).collect()
 }
 
-/// Returns the critical force over the load position.
+/// Returns the curve of critical force against load position.
 pub(super) fn places(solved: &DesignCurves) -> Option<CurveValues> {
     let all = &solved.puncture?.places;
     let weakest = Weakest::from_positions(all).ok().and_then(|of| Some([of.place?, of.force?]));
@@ -92,7 +96,7 @@ pub(super) fn places(solved: &DesignCurves) -> Option<CurveValues> {
     Some(with_missing_forces(&forces, weakest)).filter(|curve| !curve.points.is_empty())
 }
 
-/// Returns the critical force over the curvature of the body.
+/// Returns the curve of critical force against the curvature of the body.
 pub(super) fn bodies(solved: &DesignCurves) -> Option<CurveValues> {
     let forces = solved.on_bodies;
     let known = forces.iter().filter_map(|(curvature, force)| Some([*curvature, (*force)?]));
@@ -100,9 +104,9 @@ pub(super) fn bodies(solved: &DesignCurves) -> Option<CurveValues> {
     Some(with_missing_forces(forces, worst)).filter(|curve| curve.points.len() > 1)
 }
 
-/// Returns the curve through the known forces, with a ring at one of them.
+/// Returns the curve through the known `forces`, with a ring at the point `ring`.
 ///
-/// It is dotted where forces between two known ones are missing.
+/// A segment is dotted if a force between its ends is unknown.
 fn with_missing_forces(forces: &[(f64, Option<f64>)], ring: Option<[f64; 2]>) -> CurveValues {
     let points: Vec<_> = forces.iter().filter_map(|(x, force)| Some([*x, (*force)?])).collect();
     let between = points.windows(2).map(|ends| ends[0][0]..ends[1][0]);
@@ -116,7 +120,7 @@ fn moment_point(point: &FlexurePoint) -> [f64; 2] {
     [point.curvature, point.moment]
 }
 
-/// Returns the moment over the curvature.
+/// Returns the curve of moment against curvature; `None` if bending was not solved.
 pub(super) fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
     let flexure = solved.flexure?;
     let back = flexure.unloading.iter().flat_map(|back| &back.path);

@@ -22,7 +22,7 @@ pub fn overlaps(row: &Row, body: Body, poses: &[Pose]) -> Vec<(usize, Vec<[f64; 
         .windows(2)
         .enumerate()
         .map(|(left, pair)| {
-            // The right scale in the tangent frame of the left one.
+            // Express the right scale in the tangent frame of the left scale.
             let beside = right.origin - Vec2::new(row.pitch(), 0.0);
             let moved = beside + right.outward(pair[1].displacement);
             let seen = Pose::new(moved.x, moved.y, pair[1].rotation - right.angle);

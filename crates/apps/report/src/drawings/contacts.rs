@@ -8,7 +8,7 @@ use crate::svg::{Element, Spot, arrow, circle, path_data};
 
 /// Length of the arrow of the largest force, px.
 pub(super) const LONGEST: f64 = 64.0;
-/// Shorter arrows are omitted, px.
+/// Minimum length of an arrow, px. Shorter arrows are omitted.
 const SHORTEST: f64 = 2.5;
 
 /// Draws the overlaps without magnification.
@@ -23,7 +23,7 @@ pub(super) fn overlaps(view: &View, polygons: &[(usize, Vec<[f64; 2]>)]) -> Elem
     }))
 }
 
-/// Draws a halo and a dot at each contact, which marks even very small overlaps.
+/// Draws a halo and a dot at each contact, so that contacts with tiny overlaps are visible.
 ///
 /// The halo of a slipping contact is a ring.
 pub(super) fn halos(view: &View, contacts: &[Contact], radius: f64) -> Element {

@@ -1,4 +1,4 @@
-//! A row of scales on its substrate, at rest and punctured.
+//! Drawings of a row of scales on its substrate, at rest and punctured.
 
 use contact::Pose;
 use geometry::{Body, Corner, Frame, OutOfRange, Row, Vec2};
@@ -20,7 +20,7 @@ use crate::svg::{Element, Spot, arrow, circle, line, polygon, polyline, px, rect
 const LARGEST: f64 = 130.0;
 /// Maximum width of the drawn row, in units of `t`.
 const WIDEST: f64 = 44.0;
-/// Largest displacement of a scale left out of the drawing, over the largest displacement.
+/// The drawing may omit scales that move less than this fraction of the largest displacement.
 const STILL: f64 = 0.01;
 /// Depth of substrate below the deepest corner, px.
 const SUBSTRATE: f64 = 26.0;
@@ -119,7 +119,7 @@ impl<'a> RowSheet<'a> {
             .flat_map(|state| &state.scales)
             .map(|s| a * s.rotation_deg.to_radians().sin().abs() - s.displacement[1]);
         let deepest = scale * (deepest.fold(0.0, f64::max) - low) + SUBSTRATE;
-        // Centre the row on the paper.
+        // Coordinate of the middle of the row, which is centred on the paper.
         let middle = first as f64 * pitch - a + 0.5 * width;
         let view = View { scale, origin: [0.5 * WIDTH - scale * middle, AIR + scale * high] };
         let bars = AIR + scale * high + deepest + 18.0;
@@ -227,7 +227,7 @@ impl<'a> RowSheet<'a> {
         )
     }
 
-    /// Returns the substrate with its surface bonded to the bases.
+    /// Draws the substrate down to y = `bottom`; its surface is bonded to the bases.
     fn substrate(&self, poses: &[(i64, Pose)], bottom: f64) -> Element {
         let surface = poses.iter().flat_map(|(i, pose)| {
             let [left, right, ..] = corners(&self.row, self.body, *i as f64, pose);
@@ -236,7 +236,7 @@ impl<'a> RowSheet<'a> {
         let mut top: Vec<Spot> = surface.map(|point| self.place(point)).collect();
         let (left, right) = (MARGIN, WIDTH - MARGIN);
         let [left_end, right_end] = match self.case.puncture.scales {
-            // At least the punctured scale exists.
+            // `top` is not empty, because at least the punctured scale exists.
             RowLength::Auto => [top[0], top[top.len() - 1]],
             // The end of a short row moves, but the surface far beyond it is at rest.
             RowLength::Scales(_) => {
@@ -276,7 +276,7 @@ impl<'a> RowSheet<'a> {
         (0.12 * self.view.scale * thickness).clamp(0.25, 0.9)
     }
 
-    /// Returns the outlines of the scales at rest.
+    /// Draws dashed outlines of the scales at rest.
     fn ghosts(&self) -> Element {
         let rest = Pose::new(0.0, 0.0, 0.0);
         let ghost =
@@ -313,7 +313,7 @@ impl<'a> RowSheet<'a> {
         ])
     }
 
-    /// Returns the tangent frame of the first scale of the row, from the punctured one.
+    /// Returns the tangent frame of the first scale of the row, relative to the punctured scale.
     fn first_frame(&self, state: &RowSnapshot) -> Frame {
         let first = state.scales.first().map_or(0, |scale| scale.scale);
         self.body.frame(first as f64 * self.row.pitch())
@@ -371,13 +371,13 @@ impl<'a> RowSheet<'a> {
 
     /// Returns the current position of the point of the scale that a guided needle touched first.
     ///
-    /// `None` for a round tip between two scales, which touches a corner of each.
+    /// `None` for a free needle, and for a round tip between two scales, which touches both.
     fn ring(&self, state: &RowSnapshot) -> Option<Vec2> {
         let is_on_top = (0.0..=1.0).contains(&self.case.punctured().load_position);
         self.loaded_point(state).filter(|_| is_on_top && state.tip.is_some())
     }
 
-    /// Returns the outline of a guided needle; a dead load has only an arrow.
+    /// Draws the outline of a guided needle; `None` for a dead load, which is only an arrow.
     fn tip(&self, state: &RowSnapshot) -> Option<Element> {
         let radius = self.case.puncture.needle_radius.unwrap_or(0.0);
         let [x, y] = self.place(state.tip?);
@@ -415,7 +415,7 @@ impl<'a> RowSheet<'a> {
         ])
     }
 
-    /// Draws the upward reactions of the substrate over the load, as bars under the scales.
+    /// Draws the upward reactions of the substrate, divided by the load, as bars under the scales.
     fn reactions(&self, shown: &[&ScaleState], load: f64) -> Element {
         let (high, low) = self.reactions;
         // Without a load the reactions are zero, too.
@@ -450,7 +450,7 @@ impl<'a> RowSheet<'a> {
         (self.row.scale().shift() / self.row.pitch()).ceil() as i64 + 1
     }
 
-    /// Returns true if the row ends in front of a neighbour that counts for the coverage.
+    /// Returns true if the row lacks a neighbour that counts for the coverage of a long row.
     fn row_ends_in_coverage_line(&self) -> bool {
         matches!(self.case.puncture.scales, RowLength::Scales(count)
             if (count as i64) / 2 < self.coverage_reach())
@@ -467,7 +467,7 @@ impl<'a> RowSheet<'a> {
                 line(self.place([x, 1.0]), self.place([x, self.body.height(x)]), "#b34700", 1.2)
                     .with("stroke-dasharray", "4 3"),
             ];
-            // The thick parts are in closed form on a flat body only.
+            // The closed form of the thick parts applies only to a flat body.
             if !self.body.is_flat() {
                 return Element::group("coverage").containing(parts);
             }
@@ -483,7 +483,7 @@ impl<'a> RowSheet<'a> {
     }
 }
 
-/// Returns a panel of the elements down to `bottom`, without the `free` px at its top.
+/// Returns a panel with the elements from y = `free` to y = `bottom`, px.
 fn lifted(free: f64, bottom: f64, caption: String, inside: Vec<Element>) -> DrawingPanel {
     let lifted = Element::group("lifted")
         .with("transform", format!("translate(0 {})", px(-free)))
@@ -496,10 +496,10 @@ fn pose(state: &ScaleState) -> Pose {
     Pose::new(x, y, state.rotation_deg.to_radians())
 }
 
-/// Returns the first and last scale to be shown.
+/// Returns the indices of the first and last scale that the drawing shows.
 ///
-/// The range covers all scales in contact or in motion, and two more on each side, but none beyond
-/// the ends of the row.
+/// The range contains all scales that move or touch, and two more on each side. It ends at the ends
+/// of the row, and at a total width of about [`WIDEST`].
 fn window(row: &Row, length: RowLength, states: &[RowSnapshot]) -> (i64, i64) {
     let scales = states.iter().flat_map(|state| &state.scales);
     let moved = scales.map(|s| (s.scale, s.displacement[0].hypot(s.displacement[1])));
@@ -524,7 +524,7 @@ fn window(row: &Row, length: RowLength, states: &[RowSnapshot]) -> (i64, i64) {
     }
 }
 
-/// Returns a point of a circle; the angle is clockwise on paper, where y points down.
+/// Returns a point of a circle; the angle is clockwise on paper, in radians from the right.
 fn on_circle(center: Spot, radius: f64, angle: f64) -> Spot {
     [center[0] + radius * angle.cos(), center[1] + radius * angle.sin()]
 }

@@ -1,4 +1,4 @@
-//! A strip of membrane with scales, bent.
+//! Drawings of a bent strip: a membrane with scales.
 
 use contact::Pose;
 use geometry::{Body, OutOfRange, Row};
@@ -21,7 +21,7 @@ use crate::svg::{Element, Spot, arrow, polygon, polyline, rect};
 const ENLARGED: f64 = 290.0;
 /// Minimum and maximum height of the enlarged gap, px.
 const HEIGHT: [f64; 2] = [190.0, 300.0];
-/// Margins for the arrows around an enlarged gap, px: across and down.
+/// Horizontal and vertical space for the arrows around the enlarged gap, px.
 const ARROWS: Spot = [100.0, 150.0];
 /// Maximum height of the whole strip, px.
 const TALLEST: f64 = 430.0;
@@ -114,16 +114,16 @@ struct Enlarged {
     shape: Shape,
     /// Length of `t`, px.
     scale: f64,
-    /// Centre of the two scales beside the gap.
+    /// Centre of the two scales beside the gap, in units of `t`.
     middle: [f64; 2],
     /// Height of the enlarged gap, px.
     height: f64,
-    /// True if the moment bends the strip towards its scales.
+    /// True if the moment bends the strip so that the scales are on the inside.
     bends_inward: bool,
 }
 
 impl Enlarged {
-    /// Returns the middle gap, enlarged as far as its frame allows.
+    /// Returns the middle gap of a strip, enlarged as far as its frame allows.
     fn of(row: &Row, state: &StripSnapshot) -> Self {
         let shape = Shape::of_gap(row, state, (state.scales.len() - 1) / 2);
         let extent = shape.extent();
@@ -185,7 +185,7 @@ impl Shape {
     /// Returns the gap right of scale `left` and its two scales.
     fn of_gap(row: &Row, state: &StripSnapshot, left: usize) -> Self {
         let pair: Vec<Pose> = poses(state)[left..left + 2].to_vec();
-        // A pair is measured from its left scale, a strip from its first scale.
+        // `overlaps` measures from the left scale of the pair, a strip from its first scale.
         let along = left as f64 * row.pitch();
         let bodies = (0..2).map(|i| corners(row, Body::default(), (left + i) as f64, &pair[i]));
         let overlaps = overlaps(row, Body::default(), &pair)
@@ -248,7 +248,7 @@ fn poses(state: &StripSnapshot) -> Vec<Pose> {
 fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
     let ([left, ..], [_, right, ..]) = (shape.bodies[0], shape.bodies[1]);
     let (left, right) = (view.place(left), view.place(right));
-    // Move the arrows of a short gap apart.
+    // Distance by which both arrows of a short gap move outwards.
     let apart = (0.5 * (50.0 - (right[0] - left[0]))).max(0.0);
     let (left, right) = (shifted(left, [-apart, 0.0]), shifted(right, [apart, 0.0]));
     // The arrows run outwards from below the base, so that they do not cross slanted scales.
@@ -266,9 +266,9 @@ fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
     ])
 }
 
-/// Draws an arrow along the arc from angle `start` over `sweep`.
+/// Draws an arrow along an arc around `center`.
 ///
-/// A positive `sweep` is counter-clockwise.
+/// The arc begins at the angle `start` and spans the angle `sweep`, in radians counter-clockwise.
 fn moment_arrow(center: Spot, start: f64, sweep: f64) -> Element {
     let arc: [Spot; 18] = std::array::from_fn(|k| {
         // The last point is the tip of the arrow, beyond the end of the line.

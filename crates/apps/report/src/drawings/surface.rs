@@ -17,7 +17,7 @@ pub(super) fn folds(row: &Row, body: Body, view: &View, poses: &[(i64, Pose)]) -
     )
 }
 
-/// Formats the number of gaps with a fold; empty if there is none.
+/// Returns the end of a caption with the number of gaps with a fold; empty without folds.
 pub(super) fn folds_label(row: &Row, poses: &[(i64, Pose)]) -> String {
     match folded(row, Body::default(), poses).count() {
         0 => String::new(),
@@ -26,9 +26,10 @@ pub(super) fn folds_label(row: &Row, poses: &[(i64, Pose)]) -> String {
     }
 }
 
-/// Returns the ends of the folded strips: the right base begins left of the end of the left base.
+/// Returns both ends of each strip of surface that is folded.
 ///
-/// On a curved body the displacements along the surface decide, as in the mechanics.
+/// A strip is folded if the right base begins left of the end of the left base. On a curved body,
+/// displacements along the surface decide, as in the mechanics.
 fn folded<'a>(
     row: &'a Row,
     body: Body,

@@ -1,13 +1,13 @@
-//! The map from the plane of the scales to paper.
+//! The transformation from the plane of the scales to paper.
 
 use crate::svg::Spot;
 
-/// A map from points of the plane (over `t`, `y` up) to paper (px, `y` down).
+/// The transformation from points in units of `t`, `y` up, to spots on paper in px, `y` down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct View {
     /// Length of `t` on paper, px.
     pub(super) scale: f64,
-    /// The spot of the origin.
+    /// Spot of the origin of the plane.
     pub(super) origin: Spot,
 }
 
@@ -21,7 +21,7 @@ impl View {
     }
 }
 
-/// A rectangle of the plane.
+/// A rectangle in the plane of the scales, in units of `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extent {
     pub(super) low: [f64; 2],

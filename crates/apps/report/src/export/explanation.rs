@@ -14,7 +14,7 @@ type Explanation = (&'static str, &'static str);
 ///
 /// `None` if this program writes no such column.
 pub(super) fn explained(table: &str, name: &str) -> Option<Explanation> {
-    // The table comes first: `contacts` means something else in failures than in designs.
+    // Explanations of the table have priority: `contacts` has a different meaning in `failures`.
     own(table, name).or_else(|| common(name))
 }
 
@@ -34,7 +34,7 @@ fn own(table: &str, name: &str) -> Option<Explanation> {
     }
 }
 
-/// Returns the explanation of columns with the same meaning in all tables.
+/// Returns the explanation of a column that has the same meaning in all tables.
 fn common(name: &str) -> Option<Explanation> {
     among(&[number(|(): &()| Cell::Empty)], name)
         .or_else(|| explain_value(name))

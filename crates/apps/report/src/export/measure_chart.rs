@@ -1,4 +1,4 @@
-//! The native spreadsheet chart of a measure over an axis of the grid.
+//! The native spreadsheet chart of a measure against an axis of the grid.
 
 use csv::StringRecord;
 use rust_xlsxwriter::{Chart, ChartMarker, ChartMarkerType, ColNum, RowNum, Worksheet, XlsxError};
@@ -10,23 +10,26 @@ use crate::figures::physical_of;
 
 /// Candidate columns for the horizontal axis; the first one that varies is used.
 const ALONG: [&str; 3] = ["slant_deg", "length_over_t", "gap_over_t"];
-/// The column that separates the series.
+/// The column with one series for each of its values.
 const APART: &str = "gap_over_t";
-/// Maximum number of series; a chart with more shows all designs as one series.
+/// Maximum number of series. If there would be more, the chart shows all designs as one series.
 const SERIES: usize = 24;
 /// Width and height of a chart, px.
 const SIZE: (u32, u32) = (760, 460);
 
-/// The chart of the table of one measure, collected while the rows are written.
+/// The chart of one measure. Its data is collected while the rows of its table are written.
 #[derive(Debug)]
 pub(super) struct MeasureChart {
-    /// The column of the measure, in newtons or millimetres if available, and its index.
+    /// Name of the column of the measure, in physical units if the table has such a column.
     name: String,
+    /// Index of this column.
     value: ColNum,
     along: Vec<AxisColumn>,
+    /// Index of the column [`APART`].
     apart: Option<usize>,
-    /// The first row of each run of equal values in the column [`APART`], and the value.
+    /// For each run of rows with equal values in [`APART`], its first row and this value.
     runs: Vec<(RowNum, String)>,
+    /// True if all values of the measure are positive.
     is_positive: bool,
 }
 
@@ -34,8 +37,11 @@ pub(super) struct MeasureChart {
 #[derive(Debug)]
 struct AxisColumn {
     name: &'static str,
+    /// Index of the column.
     place: usize,
+    /// Value in the first row.
     first: Option<String>,
+    /// True if the column has several values.
     varies: bool,
 }
 
@@ -73,7 +79,7 @@ impl MeasureChart {
             axis.varies |= first != cell;
         }
         let apart = self.apart.and_then(|place| cells.get(place)).unwrap_or_default();
-        // Stop after one run too many, because a long table would take much memory.
+        // Stop at `SERIES` + 1 runs: all runs of a long table would need much memory.
         if self.runs.len() <= SERIES && self.runs.last().is_none_or(|(_, value)| value != apart) {
             self.runs.push((row, apart.to_owned()));
         }
@@ -121,7 +127,7 @@ impl MeasureChart {
         let mut values: Vec<&str> = self.runs.iter().map(|(_, value)| value.as_str()).collect();
         values.sort_unstable();
         values.dedup();
-        // A series is one range of cells, so a gap with separate runs of rows cannot be one.
+        // A series is one range of cells, so a gap with several runs of rows cannot be a series.
         let stand_together = values.len() == self.runs.len() && self.runs.len() <= SERIES;
         if !stand_together || axis.name == APART {
             return vec![("all designs".to_owned(), 1, rows)];

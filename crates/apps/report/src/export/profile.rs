@@ -14,17 +14,17 @@ pub(super) struct ColumnProfile {
     span: Option<(f64, f64)>,
     /// The smallest nonzero magnitude.
     smallest: Option<f64>,
-    /// True if any number has a fraction.
+    /// True if any number is not whole.
     has_fractions: bool,
-    /// Largest number of decimals, as written in the table.
+    /// Largest number of decimals in the table; `usize::MAX` for a number with a power of ten.
     decimals: usize,
 }
 
-/// Numbers with at most this many decimals are shown as written.
+/// A column with at most this many decimals is displayed as written.
 ///
-/// Other numbers are computed values.
+/// Columns with more decimals hold computed values.
 const WRITTEN: usize = 4;
-/// Significant digits shown for the smallest number of a column.
+/// Number of significant digits displayed for the smallest number of a column.
 const DIGITS: i32 = 3;
 /// Maximum number of decimals of a column; smaller numbers use powers of ten.
 const MOST_DECIMALS: i32 = 6;
@@ -62,7 +62,7 @@ impl ColumnProfile {
         self.span.map_or(0.0, |(low, high)| low.abs().max(high.abs()))
     }
 
-    /// Returns the smallest magnitude above round-off.
+    /// Returns the smallest magnitude, or the largest magnitude if the smallest is round-off.
     fn least(&self) -> f64 {
         let smallest = self.smallest.unwrap_or(1.0);
         if smallest < ROUND_OFF * self.largest() { self.largest() } else { smallest }
@@ -70,16 +70,16 @@ impl ColumnProfile {
 
     /// Returns the number format of the column in the notation of spreadsheets.
     ///
-    /// It shows the significant digits without round-off. The cells hold all digits.
+    /// The format displays significant digits without round-off. The cells hold all digits.
     pub fn number_format(&self) -> String {
         let decimals = DIGITS - 1 - self.least().log10().floor() as i32;
-        // Spreadsheets keep 15 digits.
+        // Spreadsheets keep 15 digits, so whole numbers below 1e15 are exact.
         if !self.has_fractions && self.largest() < 1e15 {
             "0".to_owned()
         } else if self.decimals <= WRITTEN {
             format!("0.{}", "0".repeat(self.decimals))
         } else if decimals <= MOST_DECIMALS {
-            // At least one decimal, because there are fractions.
+            // At least one decimal is displayed, because some numbers are not whole.
             format!("0.{}", "0".repeat(decimals.max(1) as usize))
         } else {
             self.scientific()
@@ -90,8 +90,8 @@ impl ColumnProfile {
     fn scientific(&self) -> String {
         let is_positive = self.span.is_none_or(|(low, _)| low >= 0.0);
         let round_off = ROUND_OFF * self.largest();
-        // Over several decades, large values are legible as decimals; small ones need powers of
-        // ten.
+        // In a column over several decades, large values are legible as decimals, but small values
+        // need powers of ten.
         let is_plain = is_positive && self.largest() < 1e5;
         let digits = if is_plain { "[<0.001]0.000E+00;0.0000" } else { "0.000E+00" };
         if is_positive && round_off > 0.0 && self.smallest.is_some_and(|least| least < round_off) {

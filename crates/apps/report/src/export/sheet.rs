@@ -1,4 +1,4 @@
-//! One sheet of a workbook.
+//! Sheets of a workbook: one for each table, and one that explains all columns.
 
 use csv::StringRecord;
 use rust_xlsxwriter::{
@@ -12,7 +12,7 @@ use super::explanation::{explained, is_leading};
 use super::profile::ColumnProfile;
 use super::{MeasureChart, TableProfile};
 
-/// Ink and background of a failure.
+/// Text colour and background colour of a failure.
 const RED: [Color; 2] = [Color::RGB(0x009C_0006), Color::RGB(0x00FF_C7CE)];
 /// The background of headers.
 const GREY: Color = Color::RGB(0x00E6_E6E6);
@@ -21,7 +21,9 @@ const SCALE: [u32; 3] = [0x00FF_FFD9, 0x007F_CDBB, 0x0041_B6C4];
 
 /// Width of the button of a filter, characters.
 const BUTTON: usize = 3;
-/// Maximum number of columns printed on one page width; more would be too small to read.
+/// Maximum number of columns of a table that is scaled to the width of one printed page.
+///
+/// More columns would be too small to read.
 const ON_PAPER: usize = 14;
 /// Minimum and maximum width of a column, characters.
 const WIDTHS: (usize, usize) = (8, 60);
@@ -29,8 +31,11 @@ const WIDTHS: (usize, usize) = (8, 60);
 /// Cell formats.
 struct Formats {
     header: Format,
+    /// Format of the status of a failed design.
     failed: Format,
+    /// Format of the number of a design.
     number: Format,
+    /// Format of the number of a failed design.
     failed_number: Format,
 }
 
@@ -46,7 +51,7 @@ impl Formats {
     }
 }
 
-/// A sheet that grows row by row.
+/// The sheet of a table, to which rows are added one by one.
 pub(super) struct Sheet {
     /// The name of the table.
     pub table: String,
@@ -63,9 +68,9 @@ pub(super) struct Sheet {
 struct SheetColumn {
     /// Index of the column; a sheet has fewer than 2^14 columns.
     place: ColNum,
-    /// True for the numbers of designs.
+    /// True if the column holds numbers of designs.
     is_number: bool,
-    /// True for the status of designs.
+    /// True if the column holds the status of designs.
     is_status: bool,
     /// True if the column has a colour scale.
     is_measure: bool,
@@ -125,7 +130,7 @@ impl Sheet {
     /// Adds a row.
     pub fn add(&mut self, cells: &StringRecord) -> Result<(), XlsxError> {
         if self.rows == 0 {
-            // Show as many digits as the design numbers of this table have.
+            // Display design numbers with as many digits as in the table.
             let number = self.columns.iter().position(|column| column.is_number);
             let digits = number.and_then(|place| cells.get(place)).map_or(0, str::len);
             self.formats = Formats::new(digits.max(1));
@@ -162,7 +167,7 @@ impl Sheet {
         let (last_row, last_column) = (self.rows.max(1), self.columns.len().saturating_sub(1));
         let last_column = ColNum::try_from(last_column).unwrap_or(ColNum::MAX);
         let begins_with_number = self.columns.first().is_some_and(|column| column.is_number);
-        // Freeze the number of the design while the other columns scroll.
+        // The column with the number of the design stays visible while other columns scroll.
         self.page.set_freeze_panes(1, ColNum::from(begins_with_number))?;
         self.page.autofilter(0, 0, last_row, last_column)?;
         let [low, middle, high] = SCALE.map(Color::RGB);
@@ -209,7 +214,9 @@ impl Guide {
         Ok(Self { page, row: 0 })
     }
 
-    /// Explains the columns of a table; `own` explains those that are specific to this folder.
+    /// Adds explanations of the columns of a table.
+    ///
+    /// `own` holds name, unit and meaning of columns that are specific to this folder.
     pub fn explain(
         &mut self,
         table: &str,

@@ -20,6 +20,7 @@ const NAME: &str = "summary";
 const LISTED: usize = 10;
 /// Warning for a design with a fold in the surface of the substrate.
 const FOLDS: &str = "the surface folds: the critical force is not valid";
+/// Short form of this warning, placed after the number of a design.
 const DOUBT: &str = " ⚠ surface folds";
 /// Widths of the columns, characters.
 const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];
@@ -28,13 +29,15 @@ const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];
 #[derive(Debug, Default)]
 pub(super) struct BestValues {
     columns: Vec<BestColumn>,
+    /// Number of designs.
     designs: u64,
-    /// Index of the column with the force at the first fold, and the designs with a fold.
+    /// Index of the column with the force at the first fold.
     fold: Option<usize>,
+    /// Numbers of the designs with a fold.
     folded: HashSet<String>,
 }
 
-/// The column of a criterion, in newtons or millimetres if available, with its best value.
+/// The column of a criterion, in physical units if the table has one, with its best value.
 #[derive(Debug)]
 struct BestColumn {
     name: String,
@@ -64,7 +67,7 @@ impl BestValues {
         if is_invalid_after_fold(measure) && self.folded.contains(design) { DOUBT } else { "" }
     }
 
-    /// Records a row.
+    /// Records a row of the table.
     pub fn add(&mut self, format: CsvFormat, row: &csv::StringRecord) {
         self.designs += 1;
         let design = row.get(0).unwrap_or_default();
@@ -86,7 +89,7 @@ struct Sheet {
     bold: Format,
 }
 
-/// The content of the summary besides the best values, read and checked.
+/// Content of the summary besides the best values, read from the folder of the run.
 pub(super) struct SummaryFacts {
     /// The record of the run; empty if there is none.
     record: String,
@@ -271,7 +274,7 @@ fn leading(folder: &VerifiedFolder) -> Result<Vec<[String; 3]>, ExportError> {
     if !folder.holds(ranking) {
         return Ok(Vec::new());
     }
-    // An unreadable table has been rejected before, when its own sheet was written.
+    // An unreadable table was already rejected when its own sheet was written.
     let Ok((format, mut table)) = super::open(folder.file(ranking)?) else { return Ok(Vec::new()) };
     let Ok(header) = table.headers().cloned() else { return Ok(Vec::new()) };
     let places = ["rank", "design", "fitness"].map(|name| header.iter().position(|h| h == name));
@@ -282,7 +285,7 @@ fn leading(folder: &VerifiedFolder) -> Result<Vec<[String; 3]>, ExportError> {
         .map(|row| {
             places.map(|place| {
                 let cell = place.and_then(|place| row.get(place)).unwrap_or_default();
-                // Only fitness has decimals. Ranks and design numbers stay as they are.
+                // Only the fitness has decimals. Ranks and design numbers are copied unchanged.
                 match format.number(cell).filter(|_| cell.contains(['.', ','])) {
                     Some(number) => format!("{number:.6}"),
                     None => cell.to_owned(),

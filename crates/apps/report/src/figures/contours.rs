@@ -1,11 +1,12 @@
 //! Contours of values on a grid, by marching squares.
 
-/// A position on the grid; nodes have whole numbers.
+/// A position on the grid. Nodes have whole numbers as coordinates.
 type Place = [f64; 2];
 
-/// Returns the contour segments at `level` of values on a grid of `size` nodes.
+/// Returns the segments of the contours at `level` on a grid of `size` nodes.
 ///
-/// Segments are straight within each square of four nodes. A square with a missing value has none.
+/// A segment is a straight line within a square of four nodes. A square in which a node has no
+/// value has no segments.
 pub(super) fn contours(
     size: [usize; 2],
     value: &impl Fn(usize, usize) -> Option<f64>,
@@ -28,7 +29,7 @@ pub(super) fn joined(segments: Vec<[Place; 2]>) -> Vec<Vec<Place>> {
                 let segment = left.swap_remove(k);
                 line.extend(continued(&line, &segment));
             }
-            // Continue from the other end.
+            // Then extend the line at its other end.
             line.reverse();
         }
         lines.push(line);
@@ -36,7 +37,7 @@ pub(super) fn joined(segments: Vec<[Place; 2]>) -> Vec<Vec<Place>> {
     lines
 }
 
-/// Returns the end of a segment at which it continues a line, if it does.
+/// Returns the far end of a segment if its other end is the end of `line`.
 fn continued(line: &[Place], [from, to]: &[Place; 2]) -> Option<Place> {
     let end = line[line.len() - 1];
     is_same(end, *from).then_some(*to).or(is_same(end, *to).then_some(*from))
@@ -44,18 +45,18 @@ fn continued(line: &[Place], [from, to]: &[Place; 2]) -> Option<Place> {
 
 /// Returns true if two positions are equal up to round-off.
 ///
-/// Neighbouring squares compute a shared end in opposite directions, equal up to round-off.
+/// Two neighbouring squares interpolate a shared position in opposite directions.
 fn is_same(a: Place, b: Place) -> bool {
     (a[0] - b[0]).abs() + (a[1] - b[1]).abs() < 1e-6
 }
 
-/// Returns the pieces within one square.
+/// Returns the segments in the square from node `[i, j]`; `None` if a corner has no value.
 fn square(
     [i, j]: [usize; 2],
     value: &impl Fn(usize, usize) -> Option<f64>,
     level: f64,
 ) -> Option<Vec<[Place; 2]>> {
-    // The corners in cyclic order, so that each edge joins a corner and the next one.
+    // The corners are in cyclic order, so that each edge joins a corner and its successor.
     let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
     let mut values = [0.0; 4];
     for (own, [i, j]) in values.iter_mut().zip(corners) {
@@ -71,7 +72,7 @@ fn square(
     Some(match *edges.as_slice() {
         [a, b] => vec![[a, b]],
         [a, b, c, d] => {
-            // The mean value decides which two of the four crossings are connected.
+            // At a saddle, the mean value decides which of the four crossings are connected.
             let middle = values.iter().sum::<f64>() / 4.0;
             if (middle < level) == (values[0] < level) {
                 vec![[a, b], [c, d]]
@@ -114,7 +115,7 @@ mod tests {
 
     #[test]
     fn contours_of_a_saddle_follow_its_mean_value() {
-        // High values at two opposite corners, so that the mean decides.
+        // Two opposite corners have high values, so that the mean value decides.
         for (high, cuts_off_the_low) in [(3.0, true), (1.5, false)] {
             let pieces = contours([2, 2], &|i, j| Some(if i == j { high } else { 0.0 }), 1.0);
             assert_eq!(pieces.len(), 2);

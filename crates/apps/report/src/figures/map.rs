@@ -1,4 +1,6 @@
-//! Maps of a column over two parameters: one for each value of the others, with contours.
+//! Maps of a column over two parameters, with contours.
+//!
+//! A figure has a map for each combination of the values of all other parameters.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -44,11 +46,12 @@ pub struct MapRequest {
     pub y: String,
     /// Column to show.
     pub of: String,
-    /// Fixed parameters by column name, with their values.
+    /// Fixed parameters: pairs of column name and value.
     ///
-    /// A parameter may have several values. The remaining parameters have a map for each value.
+    /// Several pairs with the same name select several values. The figure has a map for each
+    /// combination of values that remain.
     pub at: Vec<(String, String)>,
-    /// The paper of the figure.
+    /// The paper size for which the figure is laid out.
     pub paper: Paper,
 }
 
@@ -58,9 +61,9 @@ pub enum InvalidMap {
     /// An axis is not a varied parameter.
     #[error("{option} {found}: is not a parameter that varies, expected one of {}", known.join(", "))]
     NoAxis {
-        /// Option with the axis.
+        /// Option that names the axis, `--x` or `--y`.
         option: &'static str,
-        /// Name given.
+        /// Name that the user gave.
         found: String,
         /// Varied parameters.
         known: Vec<String>,
@@ -72,7 +75,7 @@ pub enum InvalidMap {
     #[error("--of {0}: designs.csv has no numeric column of this name")]
     NoNumbers(String),
     /// No design has the given values.
-    #[error("--at {found}: no design has it, expected one of {}", known.join(", "))]
+    #[error("--at {found}: no design has this value, expected one of {}", known.join(", "))]
     NoValue {
         /// The requested column and value.
         found: String,
@@ -91,19 +94,21 @@ pub enum InvalidMap {
     },
 }
 
-/// Draws a column over two parameters, with a map for each value of the parameters left over.
+/// Draws maps of a column over two parameters.
+///
+/// The figure has a map for each combination of the values of all other parameters.
 ///
 /// # Errors
 /// If an axis does not vary, the column has no numbers, no design has the given values, or there
 /// are too many maps.
 pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure, InvalidMap> {
-    // A parameter with words varies, too, but cannot be an axis.
+    // Parameters with words as values may vary, too, but cannot be axes.
     let known = designs.varied().into_iter().filter(|axis| designs.has(axis));
     let known: Vec<String> = known.map(str::to_owned).collect();
     let held = designs.at(&request.at)?;
     let mut axes = Vec::new();
     for (option, axis) in [("--x", &request.x), ("--y", &request.y)] {
-        // A length in mm selects the axis of the same length over the thickness.
+        // A length in mm also selects the axis of this length divided by the thickness.
         let varied = held.varied_as(axis).filter(|varied| designs.has(varied));
         axes.push(varied.ok_or_else(|| InvalidMap::NoAxis {
             option,
@@ -114,7 +119,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     if axes[0] == axes[1] {
         return Err(InvalidMap::Twice(request.y.clone()));
     }
-    // The number of a design is numeric, but not a quantity.
+    // The column `design` holds numbers, but they are names of designs.
     let is_shown = designs.has(&request.of) || request.of == name::FIRST_FAILURE;
     if !is_shown || !designs.headers().contains(&request.of) || request.of == "design" {
         return Err(InvalidMap::NoNumbers(request.of.clone()));
@@ -127,7 +132,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     if parts.len() > MAPS {
         return Err(too_many(&parts));
     }
-    // One scale for all maps, so that their colours are comparable.
+    // All maps have the same scale, so that their colours are comparable.
     let scale = ChartAxis::fit(&axis_label(of), held.numbers(of));
     let subject = MapSubject { x, y, of, scale };
     let at = request.at.iter().filter(|(axis, _)| is_single(&request.at, axis));
@@ -147,7 +152,7 @@ fn is_single(at: &[(String, String)], axis: &str) -> bool {
     at.iter().filter(|(other, _)| other == axis).count() == 1
 }
 
-/// Draws a column over gap and aspect ratio, a map for each slant.
+/// Draws maps of a column over aspect ratio and gap, one for each slant.
 pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str, paper: Paper) -> Figure {
     let axes = ["length_over_t", "gap_over_t"];
     let [x, y] = axes.map(|axis| designs.in_mm(axis));
@@ -160,7 +165,7 @@ pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str, paper: Paper) ->
     MapSubject { x: &x, y: &y, of, scale }.figure(&title, &designs.parts_by(&axes), paper)
 }
 
-/// Draws the first failure over gap and slant, a map for each aspect ratio.
+/// Draws maps of the first failure over gap and slant, one for each aspect ratio.
 pub(crate) fn of_failures(sweep: &str, designs: &Designs, paper: Paper) -> Figure {
     let axes = ["gap_over_t", "slant_deg"];
     let ([x, y], of) = (axes.map(|axis| designs.in_mm(axis)), name::FIRST_FAILURE);
@@ -171,7 +176,9 @@ pub(crate) fn of_failures(sweep: &str, designs: &Designs, paper: Paper) -> Figur
 }
 
 impl Designs {
-    /// Returns the designs with the given values of columns. A column may have several values.
+    /// Returns the designs with the given values, as pairs of column name and value.
+    ///
+    /// If a column has several values, a design needs one of them.
     ///
     /// # Errors
     /// If no design has one of the values.
@@ -194,9 +201,9 @@ impl Designs {
         }
     }
 
-    /// Returns the rows with a value in a column, at least one.
+    /// Returns the rows in which the column `axis` has this value; at least one row.
     fn rows_at(&self, axis: &str, value: &str) -> Result<Vec<usize>, InvalidMap> {
-        // The same number may have another notation than in the table, as 0.10 for 0.1.
+        // The notation of a number may differ from the table, for example 0.10 instead of 0.1.
         let number = value.parse::<f64>().ok();
         let mut rows = Vec::new();
         for row in 0..self.count() {
@@ -234,7 +241,7 @@ struct MapSubject<'a> {
 }
 
 impl MapSubject<'_> {
-    /// Draws a map for each of `parts`. The name of the figure is empty.
+    /// Draws a figure with a map for each of `parts`. The figure has no file name yet.
     fn figure(&self, title: &str, parts: &[(AxisValues<'_>, Designs)], paper: Paper) -> Figure {
         let full = paper.width(WIDTH);
         let [left, right] = if paper.is_narrow(WIDTH) { [56.0, 96.0] } else { [LEFT, RIGHT] };
@@ -292,12 +299,12 @@ impl MapSubject<'_> {
         is_touched_by_folds(self.of)
     }
 
-    /// Returns true for a map of failure modes, which are words.
+    /// Returns true for a map of failure modes. Their values are words.
     fn is_of_modes(&self) -> bool {
         self.of == name::FIRST_FAILURE
     }
 
-    /// Returns the colour of a design; `None` without a value.
+    /// Returns the colour of the cell of a design; `None` if the design has no value.
     fn color_of(&self, designs: &Designs, row: usize) -> Option<String> {
         if self.is_of_modes() {
             let mode = designs.text(self.of, row);
@@ -306,7 +313,7 @@ impl MapSubject<'_> {
         self.color(designs.number(self.of, row)?)
     }
 
-    /// Returns the legend of the failure modes that occur.
+    /// Draws the legend of the failure modes that occur, with its left edge at `left`.
     fn modes(&self, parts: &[(AxisValues<'_>, Designs)], left: f64) -> Element {
         let cells = parts.iter().map(|(_, part)| part.texts(self.of));
         let occurring: BTreeSet<_> = cells.flatten().collect();
@@ -343,9 +350,9 @@ impl MapSubject<'_> {
             .collect()
     }
 
-    /// Returns the colour bar between `left` and its name.
+    /// Draws the colour bar from x = `left`, with its name at x = `name`.
     ///
-    /// It is labelled at the levels of the contours.
+    /// Its labels are at the levels of the contours.
     fn bar(&self, height: f64, [left, name]: [f64; 2]) -> Element {
         let width = 16.0;
         let step = height / f64::from(STEPS);
@@ -363,12 +370,12 @@ impl MapSubject<'_> {
     }
 }
 
-/// Returns half the width and height of a value at a contour, with its halo.
+/// Returns half the width and half the height of the text at a contour with its halo, px.
 fn half_size(text: &str) -> [f64; 2] {
     [0.5 * width(text, VALUE) + 3.0, 0.5 * VALUE + 2.0]
 }
 
-/// One map: a cell for each pair of values.
+/// One map, with a cell for each pair of values of the two parameters.
 struct Map<'a> {
     subject: &'a MapSubject<'a>,
     designs: &'a Designs,
@@ -383,7 +390,7 @@ impl Map<'_> {
         [self.cells(&at), self.contours(&at), self.frame(title, x_labels, y_labels)]
     }
 
-    /// Returns the number of columns and of rows.
+    /// Returns the number of columns and the number of rows of cells.
     fn size(&self) -> [usize; 2] {
         [&self.x, &self.y].map(|values| values.as_slice().len())
     }
@@ -393,7 +400,7 @@ impl Map<'_> {
         [self.area.width / columns as f64, self.area.height / rows as f64]
     }
 
-    /// Returns the row of the design in each cell.
+    /// Maps each cell (column and row of the map) to the row of its design in the table.
     fn rows(&self) -> HashMap<[usize; 2], usize> {
         let axes = [(&self.x, self.subject.x), (&self.y, self.subject.y)];
         let rows = (0..self.designs.count()).filter_map(|row| {
@@ -414,7 +421,7 @@ impl Map<'_> {
             let Some(color) = self.subject.color_of(self.designs, row) else { continue };
             let [left, top] =
                 [self.area.left + i as f64 * width, self.area.bottom() - (j + 1) as f64 * height];
-            // Slightly wider than a cell, so that no seams show.
+            // Rectangles are slightly larger than cells, so that no gaps are visible between them.
             map.add(
                 rect([left, top], [width + 0.3, height + 0.3])
                     .with("fill", color)
@@ -427,7 +434,7 @@ impl Map<'_> {
         map
     }
 
-    /// Returns the contours at the labelled ticks of the colour scale, with their values.
+    /// Draws contours at the labelled ticks of the colour scale, with their values.
     fn contours(&self, at: &HashMap<[usize; 2], usize>) -> Element {
         let value = |i, j| {
             let value = self.designs.number(self.subject.of, *at.get(&[i, j])?)?;
@@ -462,16 +469,16 @@ impl Map<'_> {
             .containing(values)
     }
 
-    /// Returns a spot on a contour for its value, inside the map and clear of other values.
+    /// Returns a spot on a contour where its value fits into the map and overlaps no other value.
     ///
-    /// `None` for a contour that is shorter than its value.
+    /// `None` if there is no such spot, or if the contour is too short for its value.
     fn free_spot(&self, line: &[Spot], text: &str, others: &[(Spot, String)]) -> Option<Spot> {
         let [across, down] = half_size(text);
         let lengths = line.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]));
         if lengths.sum::<f64>() < 2.5 * across {
             return None;
         }
-        // Try the middles of the segments, starting at the middle of the line.
+        // Try the midpoints of the segments, starting at the middle of the line.
         let middle = line.len() as f64 / 2.0 - 1.0;
         let mut spots: Vec<(f64, Spot)> = line
             .windows(2)

@@ -1,4 +1,5 @@
-//! A measure against the aspect ratio: a panel per gap, a line per slant (Figs. 7b and 12).
+//! Figure of a measure against the aspect ratio, with a panel for each gap and a line for each
+//! slant, like Figs. 7b and 12 of the paper.
 
 use text::number::same;
 
@@ -20,7 +21,7 @@ const LEFT: f64 = 78.0;
 const RIGHT: f64 = 16.0;
 const TOP: f64 = 84.0;
 const BOTTOM: f64 = 54.0;
-/// Spacing of panels, px: across and down.
+/// Horizontal and vertical space between panels, px.
 const BETWEEN: [f64; 2] = [12.0, 28.0];
 const HEIGHT: f64 = 190.0;
 /// Minimum width of a panel, px.
@@ -28,10 +29,10 @@ const LEAST: f64 = 120.0;
 /// Maximum number of panels; with more gaps, only a selection of them is shown.
 const PANELS: usize = 15;
 
-/// Returns the column of the horizontal axis and the column of the panels.
+/// Returns the column of the horizontal axis, and the column with a panel for each value.
 ///
-/// Of gap and aspect ratio, the one with more values is the axis. Both are in mm if the table has
-/// these columns.
+/// The columns are gap and aspect ratio; the one with more values is the axis. Both are in mm if
+/// the table has such columns.
 fn lengths(designs: &Designs) -> [String; 2] {
     let (gap, length) = ("gap_over_t", "length_over_t");
     let is_longer = designs.values(length).len() >= designs.values(gap).len();
@@ -39,7 +40,7 @@ fn lengths(designs: &Designs) -> [String; 2] {
     axes.map(|axis| designs.in_mm(axis))
 }
 
-/// Returns the number of columns of panels, and the values of the panels.
+/// Returns the number of columns of panels, and the value of `across` in each panel.
 fn panels(designs: &Designs, across: &str, paper: Paper) -> (usize, Vec<f64>) {
     let values = designs.values(across);
     let room = paper.width(WIDTH) - LEFT - RIGHT;
@@ -48,7 +49,7 @@ fn panels(designs: &Designs, across: &str, paper: Paper) -> (usize, Vec<f64>) {
     (columns, some(values, paper.panels(WIDTH, columns, PANELS)))
 }
 
-/// Describes the panels that do not fit on the paper; `None` if all fit.
+/// Returns a note on panels that do not fit on the paper; `None` if all fit.
 pub(crate) fn omitted(designs: &Designs, paper: Paper) -> Option<String> {
     let across = &lengths(designs)[1];
     let all = designs.values(across).len();
@@ -62,7 +63,9 @@ pub(crate) fn omitted(designs: &Designs, paper: Paper) -> Option<String> {
     })
 }
 
-/// Draws a quantity; marks are filled if the column `filled` holds `yes`.
+/// Draws a quantity of all designs in panels.
+///
+/// Designs with `yes` in the column `filled` have filled marks; without this column, all have.
 pub(crate) fn figure(
     name: &str,
     designs: &Designs,
@@ -129,7 +132,7 @@ struct PanelSeries<'a> {
 impl PanelSeries<'_> {
     /// Draws the designs of one slant.
     ///
-    /// The marks are joined by a line and a band if the values along the axis are distinct.
+    /// A line joins the marks, with a band for random gaps, if no two designs share an x value.
     fn series(&self, panel: &ChartPanel, slant: f64) -> Element {
         let designs = self.designs;
         let own =
@@ -138,11 +141,11 @@ impl PanelSeries<'_> {
             self.rows.iter().filter(own).filter_map(|&row| self.point(panel, row)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut series = Element::group("series").with("data-slant", slant.to_string());
-        // With several designs at one position a line would zigzag.
+        // A line through several designs at the same x value would zigzag.
         if points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
             let color = self.palette.color(slant);
             let band = self.quantity.band.as_ref().map(|band| self.band(panel, &points, band));
-            // The outline stays visible where the band has no width, as at a single design.
+            // The outline is visible even where the band has no width, such as at a single design.
             let stroked = band.map(|band| band.with("fill", &color).with("stroke", &color));
             series = series.containing(stroked);
             // Interrupt the line where contact begins, because the value jumps there.
@@ -156,14 +159,14 @@ impl PanelSeries<'_> {
         }))
     }
 
-    /// Returns the value of a design along the axis, its spot, and its row.
+    /// Returns x value, spot and row of a design; `None` if it has no value or lies outside.
     fn point(&self, panel: &ChartPanel, row: usize) -> Option<(f64, Spot, usize)> {
         let along = self.designs.number(self.along, row)?;
         let value = self.designs.number(&self.quantity.column, row)?;
         Some((along, panel.place(along, value)?, row))
     }
 
-    /// Returns the area between two quantiles of some designs.
+    /// Draws the area between two columns of quantiles for the designs at `points`.
     fn band(
         &self,
         panel: &ChartPanel,

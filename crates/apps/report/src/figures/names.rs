@@ -1,12 +1,12 @@
 //! Names of columns in titles, axis labels and legends.
 //!
-//! `$` delimits italics, as in labels.
+//! `$` starts and ends italics, as in [`crate::label`].
 
 use results::columns::{explain_value, name};
 
-/// Columns with a symbol.
+/// Columns with a symbol: column name, words, symbol, and definition of the symbol.
 ///
-/// Words, symbol, and definition of the symbol, which is used where it fits.
+/// The definition is used where it fits.
 const NAMED: [(&str, &str, &str, &str); 15] = [
     (name::COVERAGE, "coverage", "$λ$", ""),
     (name::CRITICAL_FORCE, "critical force", "$F_c^*$", " = $F_c$(1 − $ν$^2)/($E_s L t$)"),
@@ -25,7 +25,7 @@ const NAMED: [(&str, &str, &str, &str); 15] = [
     ("thickness_mm", "thickness", "$t$", ""),
 ];
 
-/// Unit suffixes of column names, the longest first, with their printed form.
+/// Unit suffixes of column names, with their printed form. A longer suffix precedes its own end.
 const UNITS: [(&str, &str); 8] = [
     ("_N_mm2", "N mm²"),
     ("_kg_m2", "kg/m²"),
@@ -37,7 +37,7 @@ const UNITS: [(&str, &str); 8] = [
     ("_deg", "°"),
 ];
 
-/// Quantile suffixes of column names.
+/// Quantile suffixes of column names, with their words.
 const QUANTILES: [(&str, &str); 3] =
     [("_p05", "5 % quantile of "), ("_p50", "median of "), ("_p95", "95 % quantile of ")];
 
@@ -45,7 +45,7 @@ const QUANTILES: [(&str, &str); 3] =
 fn without_unit(column: &str) -> (&str, String) {
     let end = UNITS.iter().find_map(|(end, unit)| Some((column.strip_suffix(end)?, *unit)));
     let Some((name, unit)) = end else { return (column, String::new()) };
-    // The suffix is ambiguous (a moment, or a force per width), so the column decides.
+    // The suffix `_N_mm` means a moment or a force per width; the column's description decides.
     let said = explain_value(column).map(|(unit, _)| unit.replace("^2", "²"));
     (name, said.filter(|said| !["-", "deg"].contains(&said.as_str())).unwrap_or(unit.to_owned()))
 }
@@ -55,7 +55,7 @@ fn symbol(column: &str) -> Option<(&'static str, &'static str)> {
     NAMED.iter().find(|(name, ..)| *name == column).map(|(.., symbol, meaning)| (*symbol, *meaning))
 }
 
-/// Returns a name without unit as words.
+/// Returns as words the name of a column without its unit.
 fn words(name: &str) -> String {
     let mut quantiles = QUANTILES.iter();
     let quantile = quantiles.find_map(|(end, words)| Some((name.strip_suffix(end)?, *words)));

@@ -1,6 +1,6 @@
 //! Parallel coordinates of the designs of a search.
 //!
-//! The figure has an axis per variable, objective and requirement.
+//! The figure has an axis for each variable, objective and requirement.
 
 use super::names::in_words;
 use super::sheet;
@@ -9,7 +9,7 @@ use crate::colors::{FAINT, INK, RED};
 use crate::label::{Anchor, fitting, label};
 use crate::svg::{Element, Spot, line, polyline};
 
-/// Width, height, margins at the sides and above and below, px.
+/// Width and height of the figure, and its margins at the sides, above and below, px.
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 430.0;
 const SIDE: f64 = 70.0;
@@ -17,7 +17,7 @@ const TOP: f64 = 112.0;
 const BOTTOM: f64 = 36.0;
 /// Colours of designs that miss a requirement, and of feasible designs.
 const COLORS: [&str; 2] = ["#d8d8d8", "#7f9fbf"];
-/// Maximum number of drawn designs; the last ones are drawn.
+/// Maximum number of drawn designs. Of more designs, the last ones are drawn.
 const MOST: usize = 1500;
 
 /// The designs of a search in parallel coordinates.
@@ -25,11 +25,11 @@ const MOST: usize = 1500;
 pub struct ParallelFigure<'a> {
     /// The title.
     pub title: &'a str,
-    /// The columns of the axes.
+    /// Column names of the axes.
     pub axes: &'a [String],
-    /// The values of each design on the axes, and true if it meets every requirement.
+    /// Values of each design on the axes, and true if the design meets every requirement.
     pub designs: &'a [(Vec<f64>, bool)],
-    /// The index of the best design.
+    /// Index of the best design in `designs`.
     pub best: Option<usize>,
 }
 
@@ -59,7 +59,7 @@ impl ParallelFigure<'_> {
         sheet(WIDTH, HEIGHT, self.title, inside)
     }
 
-    /// Returns the distance of two axes.
+    /// Returns the distance between neighbouring axes, px.
     fn step(&self) -> f64 {
         (WIDTH - 2.0 * SIDE) / self.axes.len().saturating_sub(1).max(1) as f64
     }
@@ -84,7 +84,8 @@ impl ParallelFigure<'_> {
         let (low, high) = self.ends(k);
         let x = SIDE + k as f64 * self.step();
         let name = in_words(&self.axes[k]);
-        // Names of neighbours are at two heights, so that each has the width of two axes.
+        // Names of neighbouring axes alternate between two heights, so that each may be two steps
+        // wide.
         let above = [22.0, 36.0][k % 2];
         let room = 1.8 * self.step().min(90.0);
         let size = fitting(&name, 12.0, room);

@@ -27,26 +27,26 @@ const HEIGHT: f64 = 240.0;
 /// Minimum width of a panel, px.
 const LEAST: f64 = 110.0;
 
-/// A criterion on an axis.
+/// A criterion as an axis of a panel.
 pub(crate) struct CriterionAxis {
-    /// Column shown.
+    /// Name of the column.
     column: String,
-    /// Label and short label, which fit along a panel on wide and narrow paper.
+    /// Labels of the axis for wide and for narrow panels.
     labels: [String; 2],
-    /// True to show the inverse of the column.
+    /// True if the axis shows the inverse of the column.
     is_inverse: bool,
-    /// Sign of better values.
+    /// 1 if larger values on the axis are better, −1 if smaller values are better.
     sign: f64,
 }
 
 impl CriterionAxis {
-    /// Returns the value shown for a design.
+    /// Returns the value of a design on the axis; `None` if it has none.
     fn value(&self, designs: &Designs, row: usize) -> Option<f64> {
         let value = designs.number(&self.column, row)?;
         Some(if self.is_inverse { value.recip() } else { value })
     }
 
-    /// Returns the column shown, with the direction of better values.
+    /// Returns the column as a criterion, which is maximised or minimised.
     pub(crate) fn criterion(&self) -> Criterion {
         let is_better_large = (self.sign > 0.0) != self.is_inverse;
         let goal = if is_better_large { Goal::Maximize } else { Goal::Minimize };
@@ -54,7 +54,7 @@ impl CriterionAxis {
     }
 }
 
-/// Returns the axes of the criteria of the paper, all to be maximised.
+/// Returns the axes of the four criteria of the paper; larger values are better on each.
 fn papers_axes() -> [CriterionAxis; 4] {
     let axes = [
         (name::COVERAGE, "coverage ", "$λ$"),
@@ -70,7 +70,7 @@ fn papers_axes() -> [CriterionAxis; 4] {
     })
 }
 
-/// Returns the axes of the criteria in N and mm, where the table has such columns.
+/// Returns the axes of the four criteria, in physical units where the table has such columns.
 pub(crate) fn physical_axes(designs: &Designs) -> [CriterionAxis; 4] {
     papers_axes().map(|axis| {
         let headers = designs.headers().iter();
@@ -90,11 +90,14 @@ pub(crate) fn physical_axes(designs: &Designs) -> [CriterionAxis; 4] {
         }
     })
 }
+/// Indices of the two criteria of each panel.
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 /// Colour of dominated designs.
 const DOMINATED: &str = "#b5b5b5";
 
-/// Draws the designs in all pairs of criteria; `None` for fewer than two designs.
+/// Draws the designs in `rows`, with a panel for each pair of criteria.
+///
+/// `None` for fewer than two designs.
 pub(crate) fn figure(
     name: &str,
     designs: &Designs,
@@ -122,11 +125,11 @@ pub(crate) fn figure(
     let dot = circle([0.0, 0.0], 1.6).with("fill", "currentColor").with("id", "dot");
     let start = if paper.is_narrow(WIDTH) { 20.0 } else { LEFT };
     let (marks, below) = mark_legend(&palette, designs.any_folded(), [start, 50.0], full - 16.0);
-    let legend = "on the line: no other is better in both; grey: the others";
+    let legend = "line: no other design is better in both; grey: the others";
     let legend = label(legend, [start, below], 12.0, Anchor::Start).with("fill", INK);
     let mut inside = vec![marks, Element::new("defs").containing([dot]), legend];
     let top = FIRST_TOP.max(below + 12.0);
-    // Square panels on narrow paper.
+    // Narrow panels are square.
     let first = Area { left, top, width, height: width.min(HEIGHT) };
     for (k, (i, j)) in PAIRS.into_iter().enumerate() {
         let panel = ChartPanel::new(first.panel(k, columns, between), &axes[i], &axes[j]);
@@ -150,20 +153,21 @@ pub(crate) fn figure(
 /// A design in a panel.
 struct Point {
     row: usize,
+    /// Values of both criteria, with signs so that larger values are better.
     criteria: [f64; 2],
     spot: Spot,
 }
 
-/// Draws dominated designs as grey dots, and the front with its line.
+/// Draws dominated designs as grey dots, and the Pareto front as marks on a line.
 fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element {
-    // [`ranking::pareto_front`] takes four criteria; two constant ones do not affect dominance.
+    // `pareto_front` needs four criteria. Two constant criteria do not affect dominance.
     let criteria: Vec<_> =
         points.iter().map(|&Point { criteria: [a, b], .. }| [a, b, 0.0, 0.0]).collect();
     let on_front = ranking::pareto_front(&criteria);
     let mut front: Vec<&Point> =
         points.iter().zip(&on_front).filter(|(_, on)| **on).map(|(point, _)| point).collect();
     front.sort_by(|a, b| a.criteria[0].total_cmp(&b.criteria[0]));
-    // The front keeps all its marks; dominated designs of long tables are thinned.
+    // All designs of the front have marks, but only some dominated designs of a long table.
     let dominated = thinned(points.len(), PAIRS.len()).filter(|&k| !on_front[k]).map(|k| {
         let (point, dot) = (&points[k], Element::new("use").with("href", "#dot"));
         let dot = dot.at("x", point.spot[0]).at("y", point.spot[1]).with("color", DOMINATED);

@@ -1,5 +1,6 @@
-//! Best designs for all weights of the four criteria, in slices of the weight tetrahedron (Fig.
-//! 13).
+//! Figure of the best designs for all weights of the four criteria, like Fig. 13 of the paper.
+//!
+//! The weights form a tetrahedron, which is drawn in slices.
 
 use geometry::{Parallelogram, Row};
 use ranking::{RankedDesign, Ranking, Weights};
@@ -21,6 +22,7 @@ const ENTRY: f64 = 58.0;
 /// Width of paper below which the list of winners does not fit beside the slices, px.
 const NARROW: f64 = 700.0;
 
+/// Draws the slices, and the list of the designs that are best for the most weights.
 pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>, paper: Paper) -> String {
     let winners = ranking.winners();
     // The list is beside the slices, or below them on narrow paper.
@@ -63,9 +65,9 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>, paper
     sheet(full, if is_narrow { last } else { bottom + 16.0 }, &title, inside)
 }
 
-/// Returns the look of the listed regions.
+/// Returns colour and letter of the region of each listed winner.
 ///
-/// The slant of the winner determines the colour; further winners of the same slant are lighter or
+/// The slant of the winner determines the colour. Further winners of the same slant are lighter or
 /// darker.
 fn regions(designs: &Designs, winners: &[RankedDesign<'_>], listed: usize) -> Vec<RegionLook> {
     const SHADES: [f64; 6] = [0.0, 0.55, -0.45, 0.3, -0.25, 0.78];
@@ -89,9 +91,9 @@ fn badge(text: &str, [x, y]: Spot) -> Element {
     ])
 }
 
-/// Draws an entry of the list of best designs.
+/// Draws an entry of the list of best designs, left of `right`.
 ///
-/// The entry ends 14 px left of `right`.
+/// `share` is the fraction of the weights for which the design is best.
 fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot, right: f64) -> Element {
     let lengths = ["gap", "length"].map(|length| {
         let in_mm = format!("{length}_mm");
@@ -100,7 +102,7 @@ fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot, right
     });
     let [design, slant] = ["design", "slant_deg"].map(|column| designs.text(column, region.row));
     let text = format!("{design}:  {},  $α$ = {slant}°", lengths.join(",  "));
-    // Narrow paper has no room for the row.
+    // Narrow paper has no space for the drawing of the row.
     let row = (right >= NARROW).then_some(right - 120.0);
     let room = row.unwrap_or(right) - x - 44.0;
     let share = format!("best for {:.1} % of the weights", 100.0 * share);
@@ -123,9 +125,9 @@ fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot, right
     entry.containing(row.and_then(|row| small_row(designs, region.row, [row, y + 16.0])))
 }
 
-/// Draws the values of the axes besides gap, aspect ratio and slant below the row.
+/// Draws the values of the parameters besides gap, aspect ratio and slant, for an entry.
 ///
-/// The font shrinks to the width of the list.
+/// A long text has a smaller font. `None` if there are no such parameters.
 fn further(designs: &Designs, row: usize, spot: Spot, right: f64) -> Option<Element> {
     let axes = designs.further_axes().into_iter();
     let values = axes.map(|axis| format!("{} {}", in_words(axis), designs.text(axis, row)));
@@ -134,7 +136,9 @@ fn further(designs: &Designs, row: usize, spot: Spot, right: f64) -> Option<Elem
     (!text.is_empty()).then(|| label(&text, spot, size, Anchor::Start).with("fill", FAINT))
 }
 
-/// Draws a few scales of a row, to scale, in 110 by 34 px.
+/// Draws a few scales of the row of a design, to scale, in at most 100 by 30 px.
+///
+/// `None` if the table has no valid geometry of the design.
 fn small_row(designs: &Designs, row: usize, [x, y]: Spot) -> Option<Element> {
     let lengths = ["length_over_t", "gap_over_t", "slant_deg"];
     let [length, gap, slant] = lengths.map(|column| designs.number(column, row));
@@ -146,7 +150,7 @@ fn small_row(designs: &Designs, row: usize, [x, y]: Spot) -> Option<Element> {
     let size = (room / (scale.shift() + 2.0 * half + (4.0 * pitch).max(1.0))).min(30.0);
     let free = room / size - scale.shift() - 2.0 * half;
     let count = ((free / pitch).floor() + 1.0).min(60.0);
-    // The count is a small integer.
+    // The cast is exact, because `count` is a whole number of at most 60.
     let bodies =
         (0..count as usize).map(|i| {
             polygon(&scale.corners().map(|corner| {

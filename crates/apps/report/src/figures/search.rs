@@ -22,7 +22,7 @@ pub const EVALUATION: &str = "evaluation";
 /// A design evaluated by a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchedDesign {
-    /// The values on the two axes.
+    /// Values on the x axis and the y axis.
     pub place: [f64; 2],
     /// True if the design meets every requirement.
     pub met: bool,
@@ -33,7 +33,7 @@ pub struct SearchedDesign {
 pub struct SearchFigure<'a> {
     /// The title.
     pub title: &'a str,
-    /// The columns on the two axes.
+    /// Columns of the x axis and the y axis, or [`EVALUATION`].
     pub axes: [&'a str; 2],
     /// All evaluated designs.
     pub designs: &'a [SearchedDesign],
@@ -44,7 +44,7 @@ pub struct SearchFigure<'a> {
 }
 
 impl SearchFigure<'_> {
-    /// Returns the label of an axis. A count of evaluations has no unit.
+    /// Returns the label of axis `k`. A count of evaluations has no unit.
     fn name(&self, k: usize) -> String {
         if self.axes[k] == EVALUATION { EVALUATION.to_owned() } else { axis_label(self.axes[k]) }
     }

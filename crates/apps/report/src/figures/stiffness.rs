@@ -1,4 +1,4 @@
-//! Stiffness against critical force (Fig. 8).
+//! Figure of stiffness against critical force, like Fig. 8 of the paper.
 
 use results::columns::name;
 
@@ -17,7 +17,7 @@ const STIFFNESSES: [(&str, &str); 2] = [
     (name::SECANT_STIFFNESS, "secant at the critical tilt"),
 ];
 
-/// Margins left and right of a panel, and spacing of panels, px.
+/// Margins left and right of the panels, px.
 const MARGINS: [f64; 2] = [78.0, 20.0];
 /// Minimum width of a panel, px.
 const LEAST: f64 = 240.0;
@@ -33,7 +33,7 @@ pub(crate) fn figure(name: &str, designs: &Designs, paper: Paper) -> String {
     let start = if paper.is_narrow(WIDTH) { 20.0 } else { MARGINS[0] };
     let (legend, below) = mark_legend(&palette, designs.any_folded(), [start, 50.0], full - 16.0);
     let mut inside = vec![legend];
-    // Samples have no stiffness, so both axes show the perfect design.
+    // Tables have no stiffness of samples, so both axes show the perfect designs.
     let force = shown_column(designs, name::CRITICAL_FORCE);
     let x = ChartAxis::fit(&axis_label(&force), designs.numbers(&force));
     let first = Area {

@@ -1,6 +1,6 @@
-//! Slices of the weight tetrahedron at equal weights of coverage.
+//! Slices of the tetrahedron of the weights of four criteria.
 //!
-//! In slices no point hides another.
+//! Each slice has a constant weight of coverage. In slices, no weighting hides another.
 
 use crate::colors::{FAINT, INK, RED};
 use crate::designs::Designs;
@@ -13,36 +13,37 @@ const SLICES: u32 = 5;
 const SIDE: f64 = 286.0;
 /// Height of an equilateral triangle relative to its side.
 const RISE: f64 = 0.866_025_403_784_438_6;
-/// Left end and base of each slice and of the corner, on wide paper.
+/// Lower left corner of each slice, and spot of the corner of the tetrahedron, on wide paper.
 const PLACES: [Spot; SLICES as usize + 1] =
     [[44.0, 340.0], [352.0, 340.0], [44.0, 566.0], [258.0, 566.0], [412.0, 566.0], [520.0, 566.0]];
-/// Distance of the lowest text from the lowest base, px.
+/// Distance of the lowest text below the base of the lowest slice, px.
 const BELOW: f64 = 74.0;
-/// Radius of the letter of a region, and maximum radius of a dot, px.
+/// Radius of the circle around the letter of a region, px.
 const LETTER: f64 = 6.6;
+/// Maximum radius of the dot of a weighting, px.
 const LARGEST_DOT: f64 = 8.0;
-/// Colour of regions that are not listed.
+/// Colour of the regions of designs that are not in the list.
 const OTHERS: &str = "#d9d9d9";
 
-/// The look of a region of weights.
+/// Colour and letter of the region of weights for which one design is best.
 pub(crate) struct RegionLook {
-    /// Row of the best design in the region.
+    /// Row of this design in the table.
     pub(crate) row: usize,
     pub(crate) color: String,
     pub(crate) letter: String,
 }
 
-/// The best design for every weighting, in slices.
+/// The slices, with the best design for every weighting.
 pub(crate) struct WeightSlices {
     /// Number of steps along an edge of the tetrahedron.
     pub(crate) resolution: u32,
-    /// Weightings, each with the row of its best design.
+    /// The four weights of each weighting, and the row of its best design.
     pub(crate) winners: Vec<([f64; 4], usize)>,
-    /// Size of the slices, 1 on wide paper.
+    /// Scale factor of the slices; 1 on wide paper.
     pub(crate) size: f64,
 }
 
-/// A weighting as a point on paper.
+/// A weighting as a dot on a slice.
 struct Dot {
     spot: Spot,
     row: usize,
@@ -53,8 +54,8 @@ struct Dot {
 impl WeightSlices {
     /// Draws the slices.
     ///
-    /// `best` names the best design by each criterion alone; it is empty if the criteria may
-    /// change.
+    /// `best` holds the number of the best design for each criterion alone. It is empty if the
+    /// criteria may change.
     pub(crate) fn drawn(
         &self,
         designs: &Designs,
@@ -72,7 +73,7 @@ impl WeightSlices {
         drawn
     }
 
-    /// Returns the weights of coverage of the slices, in steps from 0 to the corner.
+    /// Returns the weight of coverage of each slice, in steps of the grid, ascending from 0.
     fn slices(&self) -> Vec<u32> {
         let mut steps: Vec<u32> = (0..=SLICES).map(|k| k * self.resolution / SLICES).collect();
         // A coarse grid may have fewer steps than slices.
@@ -86,16 +87,17 @@ impl WeightSlices {
 
     /// Returns the spot of a weighting on slice `k`.
     ///
-    /// Corners: critical force at the top, penetration resistance left, compliance right.
+    /// The top corner of a slice has the remaining weight on critical force, the left corner on
+    /// penetration resistance, and the right corner on compliance.
     fn spot(&self, k: usize, [_, n, _, l]: [f64; 4]) -> Spot {
         let [left, base] = PLACES[k].map(|place| self.size * place);
         let side = self.size * SIDE;
-        // The letters above and between the slices do not shrink.
+        // Smaller slices move down, because the texts above and between them keep their size.
         let down = (1.0 - self.size) * if base > self.size * PLACES[0][1] { 120.0 } else { 60.0 };
         [left + side * (l + 0.5 * n), base + down - side * RISE * n]
     }
 
-    /// Returns the position of the lowest text.
+    /// Returns the y coordinate of the lowest text, px.
     pub(crate) fn bottom(&self) -> f64 {
         self.spot(2, [0.0; 4])[1] + BELOW
     }
@@ -122,7 +124,9 @@ impl WeightSlices {
         (0.48 * self.size * SIDE / f64::from(self.resolution)).min(LARGEST_DOT)
     }
 
-    /// Draws a weighting in the colour of its best design, crossed out if its surface folds.
+    /// Draws a weighting as a dot in the colour of its best design.
+    ///
+    /// The dot is crossed out if the surface folds under this design.
     fn marked(&self, designs: &Designs, looks: &[RegionLook], dot: &Dot) -> Vec<Element> {
         let look = looks.iter().find(|look| look.row == dot.row);
         let color = look.map_or(OTHERS, |look| look.color.as_str());
@@ -138,9 +142,9 @@ impl WeightSlices {
         marked
     }
 
-    /// Draws the outline and title of a slice, with the names of its corners.
+    /// Draws the outline and title of slice `k`, with the names of its corners.
     ///
-    /// The first slice has the full names.
+    /// Only the first slice has full names.
     fn frame(&self, k: usize, best: &[&str]) -> Element {
         let m = self.weight(self.slices()[k]);
         let [top, left, right] = self.corners(k);
@@ -180,9 +184,9 @@ impl WeightSlices {
         })
     }
 
-    /// Returns the names of the criteria at the corners of slice `k`.
+    /// Draws the names of the criteria at the corners of slice `k`.
     ///
-    /// The first slice has them as words.
+    /// The first slice has words, the others have symbols.
     fn corner_names(&self, k: usize) -> impl Iterator<Item = Element> {
         let names: [&str; 3] = match k {
             0 if self.is_small() => ["critical force $n$", "resistance $k$", "compliance $l$"],
@@ -202,7 +206,7 @@ impl WeightSlices {
 
     /// Draws the letter of each listed design on one of its dots.
     ///
-    /// The dot has the largest clearance from other designs.
+    /// This dot has the largest distance from the dots of other designs.
     fn letters(&self, dots: &[Dot], looks: &[RegionLook]) -> Element {
         Element::group("letters").containing(looks.iter().filter_map(|look| {
             let own = dots.iter().filter(|dot| dot.row == look.row);
@@ -214,7 +218,7 @@ impl WeightSlices {
     }
 }
 
-/// Returns the distance to the nearest dot of another design on the same slice.
+/// Returns the distance of a dot from the nearest dot of another design on the same slice, px.
 fn clearance(dots: &[Dot], own: &Dot) -> f64 {
     let others = dots.iter().filter(|dot| dot.slice == own.slice && dot.row != own.row);
     let away = others.map(|dot| (dot.spot[0] - own.spot[0]).hypot(dot.spot[1] - own.spot[1]));

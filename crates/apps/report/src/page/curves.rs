@@ -10,13 +10,14 @@ use crate::svg::{Element, Spot, polyline};
 const PANEL: [f64; 2] = [400.0, 250.0];
 /// Margins of a panel, px: left, above, below.
 const MARGINS: [f64; 3] = [78.0, 44.0, 52.0];
-/// Range of a logarithmic axis below the smallest maximum of a curve, as a factor.
+/// A logarithmic axis starts at the smallest maximum of a curve, divided by this factor.
 const DECADES: f64 = 100.0;
 
-/// A kind of curve: its points in a design and the labels of its axes.
+/// A kind of curve.
 struct Kind {
+    /// Returns the points of this curve of a design.
     points: fn(&PageDesign) -> &[[f64; 2]],
-    /// Labels in dimensionless and in physical units.
+    /// Labels of the x axis and the y axis: first dimensionless, then in physical units.
     labels: [[&'static str; 2]; 2],
 }
 
@@ -62,12 +63,10 @@ pub(super) fn figure(page: &Page, is_log: bool) -> Option<String> {
     (!inside.is_empty()).then(|| sheet(width, height, "Curves", inside))
 }
 
-/// Draws the curves of one kind, each scaled to the full panel.
+/// Draws the curves of one kind, each scaled to the full panel, and ticks for every possible axis.
 ///
-/// Includes all axes that may be needed.
-///
-/// The page selects the axes for two curves and scales both curves to them. A logarithmic vertical
-/// axis is the same for all.
+/// The page selects the ticks that fit two curves, and scales these curves to them. A logarithmic
+/// y axis is the same for all curves.
 fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) -> Vec<Element> {
     let solved: Vec<(&PageDesign, [f64; 2])> = page
         .solved
@@ -114,13 +113,13 @@ fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) 
 
 /// Returns axes from 0 to `high`.
 ///
-/// A logarithmic axis, if any, replaces the vertical axis.
+/// If `logarithmic` is given, it is the y axis.
 fn axes(labels: [&str; 2], logarithmic: Option<&ChartAxis>, high: f64) -> [ChartAxis; 2] {
     let [x, y] = labels.map(|label| ChartAxis::exact(label, 0.0, high));
     [x, logarithmic.cloned().unwrap_or(y)]
 }
 
-/// Returns round upper ends of axes, from the smallest curve to the largest.
+/// Returns all round upper ends of an axis for curves with maxima from `low` to `high`.
 fn rungs((low, high): (f64, f64)) -> Vec<f64> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     let steps = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * 10f64.powi(decade)));

@@ -19,8 +19,8 @@ use crate::palette::SlantPalette;
 
 /// Writes the cells of the table: numeric columns as bytes, text columns as JSON.
 ///
-/// For each numeric column all first bytes are written first, then all second bytes, and so on.
-/// Similar bytes are then adjacent and compress to half the size.
+/// In each numeric column, the first bytes of all numbers precede the second bytes of all numbers,
+/// and so on. Similar bytes are then adjacent, and compress to half the size.
 pub(super) fn write_packed_cells(out: &mut impl Write, designs: &Designs) -> io::Result<()> {
     let (mut numbers, mut texts) = (Vec::new(), BTreeMap::new());
     for header in designs.headers() {
@@ -48,7 +48,7 @@ fn drawing_id(design: &PageDesign) -> String {
     format!("solved-{}", design.number)
 }
 
-/// Returns the data of a page with its written figures.
+/// Returns the data of a page, with the descriptions of its written figures.
 pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
     let headers = page.designs.headers();
     let columns = headers.iter().zip(&page.columns);
@@ -88,7 +88,7 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
     })
 }
 
-/// Returns a criterion. Only the criteria of the paper have names.
+/// Returns a criterion as JSON. Only the criteria of the paper have names.
 fn named_criterion(criterion: &Criterion) -> Value {
     let name = CRITERIA.contains(criterion).then_some(&criterion.name);
     json!({"column": criterion.column, "goal": criterion.goal.key(), "name": name})

@@ -1,6 +1,6 @@
-//! The figures of a page, drawn by this crate and packed.
+//! The figures of a page, drawn by this crate and compressed.
 //!
-//! The page unpacks the visible figures, and marks and hides elements in them.
+//! The scripts of the page decompress the visible figures, and mark and hide elements in them.
 
 use std::collections::HashSet;
 use std::io::{self, Write};
@@ -20,10 +20,10 @@ use crate::svg::untitled;
 
 /// Maximum number of measures with a figure, in addition to the paper's criteria.
 const MEASURES: usize = 24;
-/// Approximate maximum number of marks in all their figures.
+/// Approximate maximum number of marks in all figures of these measures.
 const MARKS: usize = 60_000;
 
-/// The page lays its figures out for wide paper, and scales them.
+/// Paper of the figures; the page scales them to its width.
 const PAGE: Paper = Paper::WIDE;
 
 /// Writes the figures of a page and collects their descriptions.
@@ -58,7 +58,7 @@ impl<W: Write> FigureWriter<'_, W> {
         svg.map_or(Ok(()), |svg| self.add(kind, choice, &Map::new(), &svg))
     }
 
-    /// Writes the figures of designs that differ in gap, aspect ratio and slant.
+    /// Writes the figures of designs that differ only in gap, aspect ratio and slant.
     fn part(
         &mut self,
         (values, designs): &(AxisValues<'_>, Designs),
@@ -96,7 +96,7 @@ impl<W: Write> FigureWriter<'_, W> {
 pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>> {
     let designs = &page.designs;
     let mut parts = designs.parts();
-    // Prefer the parts with the best designs, which are the ones that were solved again.
+    // Write parts with the best designs first: designs that were solved again are the best ones.
     let solved: HashSet<&str> = page.solved.iter().map(|design| design.number.as_str()).collect();
     parts.sort_by_key(|(_, part)| !(0..part.count()).any(|row| solved.contains(part.design(row))));
     let measures = measures(designs);
@@ -115,9 +115,9 @@ pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>>
     Ok(figures.written)
 }
 
-/// Returns the measures with a figure in addition to the paper's criteria.
+/// Returns the columns with a figure, in addition to the criteria of the paper.
 ///
-/// Large tables have fewer.
+/// Large tables have fewer such figures.
 fn measures(designs: &Designs) -> Vec<String> {
     let most = MEASURES.min(MARKS / designs.count().max(1));
     let shown = designs.headers().iter().filter(|header| {
@@ -131,7 +131,7 @@ fn measures(designs: &Designs) -> Vec<String> {
     shown.take(most).cloned().collect()
 }
 
-/// Returns the rows of the covered designs that have all criteria of the paper.
+/// Returns the rows of the designs for which all criteria of the paper are positive.
 fn rankable(designs: &Designs) -> Vec<usize> {
     let positive = CRITERIA.each_ref().map(|criterion| designs.positive(&criterion.column));
     (0..designs.count()).filter(|row| positive.iter().all(|rows| rows[*row])).collect()
@@ -140,7 +140,7 @@ fn rankable(designs: &Designs) -> Vec<usize> {
 /// Draws the slices of all weightings; the page colours them by the best design.
 fn weights() -> String {
     let grid = TetrahedralGrid::default();
-    // No rows: the page itself determines the best design for each weighting.
+    // The weightings have no valid rows: the page determines the best design for each of them.
     let winners = grid.nodes().map(|steps| (grid.weights(steps), usize::MAX)).collect();
     let slices = WeightSlices { resolution: grid.resolution(), winners, size: 1.0 };
     sheet(600.0, 624.0, "weights", slices.drawn(&Designs::default(), &[], &[]))

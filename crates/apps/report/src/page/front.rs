@@ -1,4 +1,4 @@
-//! The figure of designs found by a search, with the designs of the grid.
+//! The figure of the designs that a search found, together with the designs of a grid.
 
 use ranking::{Criterion, Requirement};
 use serde_json::{Map, Value, json};
@@ -31,20 +31,20 @@ pub struct PageFront {
     pub requirements: Vec<Requirement>,
     /// The columns of sample statistics that the search used.
     pub made: Vec<String>,
-    /// True if designs with a fold are left out.
+    /// True if the search excluded designs with a fold of the surface.
     pub sound: bool,
     /// The columns of the varied parameters.
     pub variables: Vec<String>,
-    /// Fixed parameters that differ from the grid, as text.
+    /// Fixed parameters of the search that differ from the grid, as text.
     pub differences: Vec<String>,
-    /// The designs, with the columns of the grid, binding constraints and prices.
+    /// The found designs, with the columns of the grid, binding constraints and prices.
     pub designs: Designs,
 }
 
 impl PageFront {
-    /// Returns the columns of the axes: the objectives.
+    /// Returns the columns on the axes of the panels: the objectives.
     ///
-    /// A single objective is paired with the first requirement or variable.
+    /// If there is a single objective, the second axis is the first requirement or variable.
     fn axes(&self) -> Vec<&str> {
         let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
         let required = self.requirements.iter().map(|requirement| requirement.column.as_str());
@@ -53,7 +53,7 @@ impl PageFront {
         objectives.chain(others.take(usize::from(self.objectives.len() == 1))).collect()
     }
 
-    /// Draws the designs found over the designs of `grid`, with a panel for each pair of axes.
+    /// Draws the found designs on top of the designs of `grid`, a panel for each pair of axes.
     pub(super) fn figure(&self, grid: &Designs) -> String {
         let axes = self.axes();
         let pairs = (0..axes.len()).flat_map(|i| (i + 1..axes.len()).map(move |j| (i, j)));
@@ -78,9 +78,9 @@ impl PageFront {
         sheet(WIDTH, above + rows * (PANEL + below), "Designs found by the search", inside)
     }
 
-    /// Draws one panel: grid designs, designs found, and the line of a front.
+    /// Draws one panel with the designs of the grid and the found designs.
     ///
-    /// The line is drawn if the designs form a front of two objectives.
+    /// If the search had two objectives, a line joins the found designs, which are a front.
     fn panel(&self, grid: &Designs, pair: &[&str; 2], area: Area, panels: usize) -> Vec<Element> {
         let [x, y] = &pair.map(|column| {
             let values = grid.numbers(column).chain(self.designs.numbers(column));
@@ -95,7 +95,7 @@ impl PageFront {
         let found = (0..self.designs.count())
             .filter_map(|row| Some((row, spot(&panel, &self.designs, pair, row)?)));
         let mut found: Vec<(usize, Spot)> = found.collect();
-        // Sort from left to right for the line, because the table may have another order.
+        // The line needs designs sorted from left to right; the table may have another order.
         found.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
         let joined = if self.objectives.len() == 2 { found.as_slice() } else { &[] };
         let line: Vec<Spot> = joined.iter().map(|(_, spot)| *spot).collect();
@@ -132,7 +132,7 @@ impl PageFront {
     }
 }
 
-/// Returns the spot of a design on a panel of two columns.
+/// Returns the spot of the design in `row` on a panel with the two columns `pair` as axes.
 fn spot(panel: &ChartPanel, designs: &Designs, pair: &[&str; 2], row: usize) -> Option<Spot> {
     let [x, y] = pair.map(|column| designs.number(column, row));
     panel.place(x?, y?)

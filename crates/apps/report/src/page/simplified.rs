@@ -1,4 +1,4 @@
-//! Simplification of curves.
+//! Simplification of curves, to shorten a page.
 
 /// Maximum distance of an omitted point from the curve, relative to the size of the curve.
 const TOLERANCE: f64 = 5e-4;
@@ -10,7 +10,7 @@ pub(super) fn simplified(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let size = [0, 1].map(|k| {
         let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
-        // The extent of a level curve is zero; avoid dividing by it.
+        // A level curve has a height of zero, by which `distance` must not divide.
         (high - low).max(f64::MIN_POSITIVE)
     });
     let mut kept = vec![false; points.len()];

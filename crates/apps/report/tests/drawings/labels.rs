@@ -1,4 +1,4 @@
-//! Labels of figures: inside the sheet, apart from each other, and legible on narrow paper.
+//! Labels of figures are inside the sheet, do not overlap, and are legible on narrow paper.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use report::{
 use results::Results;
 use skin::puncture::FailureMode;
 
-/// The box of a text: left, top, right, bottom.
+/// A text and its box: left, top, right and bottom edge, px.
 type TextBox = (String, [f64; 4]);
 
 fn attribute(element: &str, name: &str) -> Option<f64> {
@@ -18,7 +18,7 @@ fn attribute(element: &str, name: &str) -> Option<f64> {
     element[start..].split('"').next()?.parse().ok()
 }
 
-/// Returns the boxes of all texts, from the mean width of a letter.
+/// Returns all texts with their boxes, estimated from the mean width of a letter.
 fn texts(svg: &str) -> Vec<TextBox> {
     svg.split("<text")
         .skip(1)
@@ -47,7 +47,7 @@ fn texts(svg: &str) -> Vec<TextBox> {
         .collect()
 }
 
-/// Checks that texts are inside the sheet and apart.
+/// Asserts that all texts are inside the sheet and do not overlap.
 fn assert_clear(name: &str, svg: &str) {
     let [width, height] = ["width", "height"].map(|side| attribute(svg, side).expect("a size"));
     let texts = texts(svg);
@@ -63,9 +63,9 @@ fn assert_clear(name: &str, svg: &str) {
     }
 }
 
-/// A table of designs with made-up values, over ten gaps and lengths.
+/// Returns a table of designs with invented values, for ten gaps, ten lengths and six slants.
 ///
-/// In mm and N with a thickness of 2 mm.
+/// If `is_physical`, it also has columns in mm and N, for a thickness of 2 mm.
 fn table(is_physical: bool) -> String {
     let mut text =
         "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,\
@@ -110,7 +110,7 @@ fn results(is_physical: bool) -> Results {
     Results::read(folder.path()).expect("a table")
 }
 
-/// Returns every figure of a table and of a map, once for each paper.
+/// Returns all figures of the table, and a map, for each paper.
 fn all<const N: usize>(is_physical: bool, papers: [Paper; N]) -> [Vec<report::Figure>; N] {
     let results = results(is_physical);
     let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
@@ -131,7 +131,7 @@ fn all<const N: usize>(is_physical: bool, papers: [Paper; N]) -> [Vec<report::Fi
 }
 
 #[test]
-fn labels_are_inside_the_sheet_and_apart() {
+fn labels_are_inside_the_sheet_and_do_not_overlap() {
     let widths = [None, Some(85.0), Some(120.0), Some(170.0)];
     for is_physical in [false, true] {
         let papers = widths.map(|width| width.map_or(Paper::WIDE, Paper::of_width));
@@ -144,7 +144,7 @@ fn labels_are_inside_the_sheet_and_apart() {
 }
 
 #[test]
-fn a_column_of_a_journal_has_fewer_panels_with_legible_letters() {
+fn figures_for_a_journal_column_have_fewer_panels_and_legible_letters() {
     let [wide, narrow] = all(false, [Paper::WIDE, Paper::of_width(85.0)]);
     for (wide, narrow) in wide.iter().zip(&narrow) {
         let points = report::smallest_letters(&narrow.svg, 85.0).expect("letters");
@@ -163,7 +163,7 @@ fn a_column_of_a_journal_has_fewer_panels_with_legible_letters() {
 }
 
 #[test]
-fn narrow_figures_show_a_selection_of_panels() {
+fn each_selected_value_has_a_panel_on_narrow_paper() {
     let designs = Designs::of(&results(false));
     let at = ["0.1", "0.50"].map(|gap| ("gap_over_t".to_owned(), gap.to_owned()));
     let chosen = designs.at(&at).expect("designs");
@@ -175,7 +175,7 @@ fn narrow_figures_show_a_selection_of_panels() {
     assert!(designs.at(&none).is_err());
 }
 
-/// Returns the texts of the first figure with a name.
+/// Returns the texts, separated by `|`, of the first figure with a name that starts with `name`.
 fn words(all: &[report::Figure], name: &str) -> String {
     let figure = all.iter().find(|figure| figure.name.starts_with(name)).expect("a figure");
     texts(&figure.svg).into_iter().map(|(words, _)| words).collect::<Vec<_>>().join("|")
@@ -203,7 +203,7 @@ fn contours_are_labelled_with_their_values() {
     let inside = contours[0].split("</g>").next().expect("a group");
     let values: Vec<_> = texts(inside).into_iter().map(|(words, _)| words).collect();
     assert!(!values.is_empty());
-    // A line is one path, with a light one below.
+    // Each contour is a dark path on a light path.
     assert!(inside.matches("<path").count() < 24 && !inside.contains("<line"), "{inside}");
 }
 
@@ -225,7 +225,7 @@ fn histograms_name_the_measure_and_its_unit_once() {
 }
 
 #[test]
-fn residuals_have_no_text_among_the_points() {
+fn labels_of_fits_are_inside_the_sheet_and_do_not_overlap() {
     let points: Vec<[f64; 3]> = (0..30).map(f64::from).map(|x| [x, x, x + 0.1]).collect();
     let axes = ["displacement, mm".to_owned(), "force, N".to_owned()];
     let panel = FitPanel { file: "a.csv", axes: &axes, points: &points, noise: 0.2 };
@@ -261,7 +261,7 @@ fn measured_curves_are_thin_black_lines() {
     }
 }
 
-/// All modes at one point of the path, and spread over the whole path.
+/// The failures of all modes lie at one point, at neighbouring points, or all over the path.
 #[test]
 fn names_of_limits_do_not_overlap() {
     let case = super::case(&super::design(60.0), "", "");

@@ -15,9 +15,9 @@ fn design(slant_deg: f64) -> Design {
     Design { gap: 0.1, length: 1.0, slant_deg, base: Base::L, width: 1.0 }
 }
 
-/// Solves a puncture with contacts so soft that overlaps are visible.
+/// Solves a puncture with a contact modulus relative to the substrate; soft contacts overlap.
 ///
-/// Returns the states at a displacement and at the critical tilt.
+/// Returns the states at a displacement of 0.15 `t`, at a tilt of 10° and at `F*` = 0.05.
 fn punctured(design: &Design, modulus: f64) -> Vec<RowSnapshot> {
     let springs: Springs =
         substrate::calibrate(&design.footprint(0.5).expect("a footprint")).expect("springs");
@@ -85,14 +85,14 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
         let is_physical = ["N<", "N mm", "mJ"].iter().any(|unit| figure.svg.contains(unit));
         assert!(is_physical && !figure.svg.contains("dimensionless"), "{}", figure.name);
     }
-    // Next to a design without a material both are dimensionless.
+    // If one of two designs has no material, the curves of both designs are dimensionless.
     let plain = Case { material: sweep::Material::default(), ..case };
     let both = [curves.clone(), DesignCurves { case: &plain, ..curves }];
     for figure in report::curves("x", &both, None, report::Paper::WIDE) {
         assert!(figure.svg.contains("dimensionless"), "{}", figure.name);
     }
 
-    // A work of 1 N mm is an energy of 1 mJ.
+    // The work of the load in N mm equals the stored energy in mJ.
     let [mm, newton, energy] = results::puncture_units(&case).expect("units");
     let work: f64 = puncture
         .path
@@ -107,7 +107,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
     assert!((work / stored - 1.0).abs() < 1e-2, "{work} {stored}");
 }
 
-/// A needle that passes has a triangle on its curve, explained in the note.
+/// A triangle on the curve marks the passage of a guided needle, and a note explains it.
 #[test]
 fn the_passage_of_a_needle_is_marked_on_its_curve() {
     let marks = ["guided", "free"].map(|needle| {
@@ -127,9 +127,9 @@ fn the_passage_of_a_needle_is_marked_on_its_curve() {
     assert_eq!(marks, [[1, 1], [0, 0]]);
 }
 
-/// With friction, slipping contacts have rings and sticking contacts discs.
+/// With friction, slipping contacts have rings, and sticking contacts have discs.
 ///
-/// The caption counts both.
+/// The caption states the number of all contacts and of slipping contacts.
 #[test]
 fn contacts_that_slip_have_rings() {
     let design = design(60.0);
@@ -147,7 +147,7 @@ fn contacts_that_slip_have_rings() {
     assert!(drawn.contains(&format!("{} contacts, {slip} slip (rings)", slip + stick)));
 }
 
-/// A guided needle has the same position in all panels; the ring moves with the scale.
+/// A guided needle has the same horizontal position in all panels; the ring moves with the scale.
 #[test]
 fn a_guided_needle_keeps_its_horizontal_position() {
     let design = design(45.0);
@@ -160,7 +160,7 @@ fn a_guided_needle_keeps_its_horizontal_position() {
         snapshots(&design, &springs, &Common::default(), &parameters, &at).expect("a design");
     let states: Vec<_> = solved.at.into_iter().map(|state| state.expect("reached")).collect();
     let text = svg(&design, &states);
-    // The first number with that name after each group of a load.
+    // The first value of the attribute `x1` or `cx` in each group `load`.
     let [needles, rings] = ["x1", "cx"].map(|name| -> Vec<f64> {
         let loads = text.split("class=\"load\"").skip(1);
         let numbers =
@@ -185,7 +185,7 @@ fn a_round_tip_touches_both_corners() {
     let parameters = PunctureParameters {
         needle: Needle::Guided { friction: 0.0 },
         needle_radius: Some(0.5),
-        // The middle of the gap.
+        // The needle is in the middle of the gap.
         load_position: 1.3 / design.length,
         ..PunctureParameters::default()
     };
@@ -210,7 +210,7 @@ fn outlines(svg: &str, class: &str) -> Vec<usize> {
     groups.map(|group| group.matches("<path").count()).collect()
 }
 
-/// A row of `n` scales is drawn with `n` scales at rest, and as ghosts, and punctured.
+/// A row of `n` scales is drawn with `n` scales at rest, `n` punctured, and `n` dashed outlines.
 #[test]
 fn a_short_row_is_drawn_without_scales_beyond_its_ends() {
     for scales in [1, 2, 3, 4, 5] {

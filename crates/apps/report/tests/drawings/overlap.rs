@@ -30,9 +30,7 @@ fn clipped(polygon: &[Point], a: Point, b: Point) -> Vec<Point> {
     inside
 }
 
-/// Returns the intersection area of two convex polygons.
-///
-/// Clips one polygon at each edge of the other.
+/// Returns the intersection area of two convex polygons, by clipping `a` at each edge of `b`.
 fn shared(a: &[Point; 4], b: &[Point; 4]) -> f64 {
     let edges = (0..4).map(|k| (b[k], b[(k + 1) % 4]));
     area(&edges.fold(a.to_vec(), |polygon, (from, to)| clipped(&polygon, from, to)))
@@ -56,7 +54,7 @@ fn bodies(design: &Design, state: &RowSnapshot) -> Vec<[Point; 4]> {
         .collect()
 }
 
-/// Returns the left scale and the area (px²) of every red polygon in a drawing.
+/// Returns index of the left scale, and area in px², of every red polygon in a drawing.
 fn red_areas(svg: &str) -> Vec<(usize, f64)> {
     let paths = svg.split("<path d=\"").skip(1).filter(|path| path.contains("data-left=\""));
     let parsed = paths.map(|path| {
@@ -76,7 +74,7 @@ fn red_areas(svg: &str) -> Vec<(usize, f64)> {
     parsed.collect()
 }
 
-/// Returns the length of `t`, px: the height of a scale at rest.
+/// Returns the length of `t` in a drawing, px, which is the height of a scale at rest.
 fn scale(svg: &str) -> f64 {
     let ghost =
         svg.split("class=\"at-rest\"").nth(1).and_then(|rest| rest.split("<path d=\"").nth(1));
@@ -89,7 +87,9 @@ fn scale(svg: &str) -> f64 {
     numbers[1] - numbers[5]
 }
 
-/// Compares the areas of every pair of scales; returns the largest.
+/// Asserts that the red area of each pair of neighbours is their intersection.
+///
+/// Returns the largest intersection, in units of `t²`.
 fn agree(slant: f64, modulus: f64) -> f64 {
     let design = design(slant);
     let mut largest: f64 = 0.0;
@@ -114,7 +114,7 @@ fn agree(slant: f64, modulus: f64) -> f64 {
 }
 
 #[test]
-fn soft_contacts_are_drawn_with_their_areas() {
+fn overlaps_of_soft_contacts_are_drawn_with_their_areas() {
     for (slant, modulus) in [(0.0, 0.1), (45.0, 2.0), (75.0, 2.0)] {
         let largest = agree(slant, modulus);
         assert!(largest > 1e-7, "slant {slant}: nothing to compare, {largest:e}");
@@ -128,7 +128,7 @@ fn nearly_rigid_contacts_have_exact_tiny_overlaps() {
 }
 
 #[test]
-fn every_contact_has_a_halo_and_its_forces() {
+fn every_contact_has_a_halo() {
     let design = design(45.0);
     let states = punctured(&design, 9677.0);
     let state = &states[1];
@@ -144,7 +144,7 @@ fn snapshots_are_equilibria_at_the_requested_points() {
     assert!((states[1].tilt_deg - 10.0).abs() < 1e-10);
     assert!((states[2].force - 0.05).abs() < 1e-11);
     for state in states {
-        // The reactions of the substrate add up to the load, because L/t is 1.
+        // The reactions of the substrate add up to the load. For L/t = 1, both have the same unit.
         let carried: f64 = state.scales.iter().map(|scale| scale.reaction).sum();
         assert!((carried - state.force).abs() < 1e-8 * state.force, "{carried} {}", state.force);
     }

@@ -7,7 +7,7 @@ use ranking::{CRITERIA, Ranking, TetrahedralGrid};
 use report::{Designs, Figure, MapRequest, Page, PageDesign, Paper, figures, map, untitled};
 use results::Results;
 
-/// A table of 24 designs with made-up values.
+/// Returns a table of 24 designs with invented values.
 fn table() -> String {
     let mut text =
         "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,\
@@ -138,8 +138,7 @@ fn further_axes_have_separate_figures_for_each_value() {
             "critical-force-by-gap-aspect-slant-width-over-t-0.5"
         ]
     );
-    // Each value of the width has its own figure, with half of the marks and the value in its
-    // title.
+    // Each value of the width has its own figure, with the value in its title.
     for (figure, width) in forces.iter().zip(["2", "0.5"]) {
         assert!(figure.svg.contains(&format!("x, b/t = {width}: critical force")));
     }
@@ -196,7 +195,7 @@ fn the_page_lists_numeric_columns() {
     }
 }
 
-/// Returns the unpacked figures of a page, each with kind and variant.
+/// Returns for each figure of a page its kind with its variant, and its decompressed SVG.
 fn figures_of(html: &str) -> Vec<(String, String)> {
     let data = html.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next());
     let data: serde_json::Value = serde_json::from_str(data.expect("data")).expect("JSON");
@@ -237,7 +236,7 @@ fn a_page_has_the_same_figures_as_files() {
         let file = untitled(&file.svg);
         let [own, file] = [svg, &file].map(|svg| svg.split_once("</title>").expect("a title").1);
         assert!(own == file, "{name}");
-        assert!(svg.contains("data-design=\"0007\""), "{name}: marks know their designs");
+        assert!(svg.contains("data-design=\"0007\""), "{name}: marks state their designs");
     }
 }
 
@@ -277,7 +276,7 @@ fn table_with(columns: &[Column]) -> String {
     std::iter::once(header).chain(rows).collect::<Vec<_>>().join("\n")
 }
 
-/// Returns the marks of a figure: design and position.
+/// Returns for each mark of a figure the number of its design, and its y coordinate.
 fn marks(svg: &str) -> Vec<(&str, &str)> {
     let uses = svg.split("<use ").filter(|text| text.contains("data-design"));
     uses.filter_map(|text| Some((attribute(text, "data-design")?, attribute(text, "y")?))).collect()

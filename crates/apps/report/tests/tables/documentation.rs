@@ -53,7 +53,7 @@ fn columns<R>(columns: &[Column<R>]) -> String {
 /// Material of definitions with all columns in physical units.
 const MATERIAL: &str = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nmembrane_modulus_MPa = 1\nscale_density_kg_m3 = 1";
 
-/// Requests of columns: words of the heading, and keys of a definition.
+/// Requests for further columns: words of the heading, and keys of a definition.
 const REQUESTS: [(&str, &str); 10] = [
     ("a guided needle", "puncture.needle = 'guided'"),
     ("`puncture.depth_over_t` or `depth_mm`", "puncture.depth_over_t = 0.2"),
@@ -116,7 +116,7 @@ fn sections_of_single_designs() -> impl Iterator<Item = Section> {
     sections([
         ("Statuses", statuses),
         (
-            "`failures.csv`, after the columns that say which design it is",
+            "`failures.csv`, after the columns that identify the design",
             columns(&failure_detail_columns()),
         ),
         ("`sensitivity.csv`", columns(DERIVATIVE_COLUMNS)),
@@ -195,7 +195,7 @@ fn the_paper_sweep_lists_every_key_with_its_default() {
         let is_given = parameter.is_given(&sweep::Case::default());
         let remark = if is_given { "" } else { "# " };
         let line = format!("\n{remark}{} = ", parameter.key);
-        // Listing the lengths in mm is enough: each replaces its ratio to the thickness.
+        // A length in mm is only mentioned, because it replaces its ratio to the thickness.
         let listed = format!(" {}", parameter.key);
         let stands = paper.contains(if parameter.is_in_mm() { &listed } else { &line });
         assert!(stands, "{} is missing", parameter.path());
@@ -248,7 +248,7 @@ fn the_contribution_guide_names_existing_files_and_code() {
     }
 }
 
-/// The patches hold the code of the examples and apply to the present source.
+/// The patches contain the code of the examples, and apply to the present source.
 ///
 /// `scripts/check-examples` also builds and tests the result.
 #[test]

@@ -112,7 +112,7 @@ fn workbooks_are_reproducible() {
     let one = fs::read(&file).expect("a workbook");
     let other = fs::read(exported(place.path())).expect("a workbook");
     assert!(one == other, "the same bytes");
-    // Neither the archive nor the document contains a time stamp.
+    // Neither the archive nor the document contains the time of the export.
     let mut archive =
         zip::ZipArchive::new(fs::File::open(&file).expect("a workbook")).expect("an archive");
     for part in 0..archive.len() {
@@ -123,7 +123,7 @@ fn workbooks_are_reproducible() {
     for date in properties.split("W3CDTF\">").skip(1) {
         assert!(date.starts_with("2000-01-01T00:00:00Z"), "{properties}");
     }
-    assert_eq!(properties.matches("W3CDTF\">").count(), 2, "created and modified");
+    assert_eq!(properties.matches("W3CDTF\">").count(), 2, "dates of creation and modification");
 }
 
 #[test]
@@ -199,7 +199,7 @@ fn round_off_is_hidden_and_measures_have_a_chart() {
     assert!(chart.contains("<c:scatterChart>"));
     let ranges = ["compliance!$E$2:$E$3", "compliance!$E$4<", "compliance!$D$2:$D$3"];
     assert!(ranges.iter().all(|range| chart.contains(range)), "{chart}");
-    // Headers are column names, for programs that read workbooks; units are in the last sheet.
+    // Headers are plain column names, for programs that read workbooks. The last sheet has units.
     assert_eq!(sheet(&file, "compliance")[0][4], Data::String("compliance".to_owned()));
     let guide = sheet(&file, "columns");
     assert!(guide.iter().any(|row| row[1] == "compliance" && row[2] == "1/(E_m I_m)"));
@@ -224,10 +224,10 @@ fn invalid_workbook_names_and_missing_tables_are_rejected() {
     insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R/designs.csv: cannot be read (it is not UTF-8 text), expected a table that squama writes");
     insta::assert_snapshot!(refused(place.path(), "designs.csv"), @"R/designs.csv: a workbook needs a name that ends in .xlsx");
     insta::assert_snapshot!(refused(place.path(), "designs.csv/x.xlsx"), @"R/designs.csv: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
-    assert_eq!(fs::read_dir(place.path()).expect("a folder").count(), 1, "nothing is left");
+    assert_eq!(fs::read_dir(place.path()).expect("a folder").count(), 1, "no new file");
 }
 
-/// Returns the error of an export of a folder `R`.
+/// Returns the error of an export of `folder`, which the message names `R`.
 fn refused(folder: &Path, name: &str) -> String {
     let error = report::export(&opened(folder), &[], &folder.join(name)).expect_err("refused");
     error.to_string().replace(&folder.display().to_string(), "R")
@@ -244,6 +244,6 @@ fn tables_longer_than_a_sheet_are_rejected() {
     fs::write(place.path().join("designs.csv"), longest + "1\r\n").expect("writable");
     let error = report::export(&opened(place.path()), &[], &file).expect_err("refused").to_string();
     let error = error.replace(&place.path().display().to_string(), "R");
-    insta::assert_snapshot!(error, @"R/designs.csv: has more than 1048575 rows, expected at most as many, because a sheet of Excel takes no more; export a smaller run, e.g. one with --sample 1048575");
-    assert!(fs::read(&file).expect("a workbook") == before, "the old one stays");
+    insta::assert_snapshot!(error, @"R/designs.csv: has more than 1048575 rows, the maximum of a sheet of Excel; export a smaller run, e.g. one with --sample 1048575");
+    assert!(fs::read(&file).expect("a workbook") == before, "the old file is kept");
 }

@@ -1,4 +1,4 @@
-//! Options and definitions for a design.
+//! Command-line options and definitions that reproduce a design.
 
 use ranking::Requirement;
 use sweep::{Axis, Case, PARAMETERS, Scalar, Setting, Sweep};
@@ -6,7 +6,7 @@ use text::toml_source::quoted;
 
 use super::Closest;
 
-/// The axes with an option of `squama design`.
+/// Keys of the axes that have an option of `squama design`, with this option.
 const OPTIONS: [(&str, &str); 3] =
     [("gap_over_t", "--gap"), ("length_over_t", "--length"), ("slant_deg", "--slant")];
 
@@ -39,9 +39,10 @@ pub(crate) fn alone(sweep: &Sweep, base: &Case, case: &Case) -> Result<Sweep, St
     Sweep::parse(&on_axes.to_toml(), "definition", &settings).map_err(|error| error.to_string())
 }
 
-/// Returns the definition of a sweep of one design, with the requirements as options of `rank`.
+/// Returns the definition of a sweep of one design, with the requirements in a comment.
 ///
-/// Its name contains a hash of its content, so that its results have a folder of their own.
+/// The requirements have the form of options of `squama rank`. The name contains a hash of the
+/// definition, so that its results have their own folder.
 pub(crate) fn definition(own: &Sweep, requirements: &[Requirement]) -> String {
     let toml = own.to_toml();
     // FNV-1a, folded to 16 bits.
@@ -61,7 +62,7 @@ pub(crate) fn definition(own: &Sweep, requirements: &[Requirement]) -> String {
 
 /// Returns the settings that differ from the definition, except axes.
 fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = String> {
-    // Omit derived parameters, because a definition with both is rejected.
+    // Omit parameters that follow from others, because a definition with both is rejected.
     PARAMETERS
         .iter()
         .filter(|one| {
