@@ -1,4 +1,4 @@
-"""A measure as a function of JAX, with its exact gradient: on the CPU, by a callback."""
+"""A measure as a function of JAX with its exact gradient, computed on the CPU by a callback."""
 
 import jax
 import jax.numpy as jnp
@@ -10,7 +10,7 @@ jax.config.update("jax_enable_x64", True)
 
 
 def jax_function(skin, keys, measure):
-    """A function of an array of the values of ``keys``, for ``jax.grad`` and ``jax.jit``."""
+    """Returns the measure as a function of an array of values of ``keys``, for ``jax.grad`` and ``jax.jit``."""
     f, jac = squama.function(skin, keys, measure, at_kinks="mean")
     number, row = jax.ShapeDtypeStruct((), jnp.float64), jax.ShapeDtypeStruct((len(keys),), jnp.float64)
 

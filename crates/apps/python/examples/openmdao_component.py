@@ -6,7 +6,7 @@ import squama
 
 
 class SkinComponent(om.ExplicitComponent):
-    """Inputs are parameters of a skin, outputs its measures."""
+    """A component with parameters of a skin as inputs and its measures as outputs."""
 
     def initialize(self):
         self.options.declare("skin", types=squama.Skin)

@@ -9,7 +9,7 @@ import squama
 
 
 class SkinProblem(Problem):
-    """Two measures to maximize over three parameters."""
+    """The problem to maximize two measures over three parameters."""
 
     keys, measures = ("gap_over_t", "length_over_t", "slant_deg"), ("coverage", "compliance")
 
@@ -19,7 +19,7 @@ class SkinProblem(Problem):
     def _evaluate(self, points, out, *args, **kwargs):
         skins = [squama.Skin(**dict(zip(self.keys, point))) for point in points.tolist()]
         table = squama.solve_many(skins, ["coverage", "flexure"])
-        # A skin that could not be solved is worse than any other.
+        # A skin that could not be solved gets an objective that is worse than any other.
         out["F"] = np.column_stack([np.nan_to_num(-table[measure], nan=1e3) for measure in self.measures])
 
 

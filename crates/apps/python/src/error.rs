@@ -1,4 +1,6 @@
-//! Errors as exceptions of the package, which are defined in Python so that they pickle.
+//! Conversion of errors to the exceptions of the package.
+//!
+//! The exceptions are defined in Python, so that they can be pickled.
 
 use std::fmt::Display;
 
@@ -56,7 +58,7 @@ impl<T, E: Display> OrFailed<T> for Result<T, E> {
     }
 }
 
-/// Creates the exception for an invalid definition; `given` has the values from Python.
+/// Creates the exception for an invalid definition; `given` holds the keywords from Python.
 pub fn invalid_definition(
     py: Python<'_>,
     error: &InvalidDefinition,
@@ -72,7 +74,7 @@ pub fn invalid_definition(
             error_of
         }
         InvalidDefinition::Refused { key, problem, .. } => {
-            // Python keywords have no sections.
+            // Keys of definitions have a section, but Python keywords have none.
             let of_name =
                 NAMES.iter().find(|name| *key == format!("{}.{}", name.section, name.key));
             let last = key.rsplit('.').next().unwrap_or(key);

@@ -1,4 +1,4 @@
-//! Derivatives of measures and derived columns.
+//! Derivatives of measures, and of columns that are computed from measures.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::error;
 use crate::skin::{RequestedMeasures, Skin, evaluator, unknown};
 use crate::solved::reason;
 
-/// Step of finite differences along extrapolated rows, which have only the round-off of a formula.
+/// Relative step of finite differences along linearly extrapolated rows, which have no noise.
 const STEP: f64 = 1e-6;
 
 /// Left and right derivative, and the event at a kink.
@@ -21,9 +21,10 @@ type Slopes = (Option<f64>, Option<f64>, Option<String>);
 /// The value of a measure and its derivatives with respect to every key.
 type Gradient = (f64, Vec<Slopes>);
 
-/// Returns `measures` with their derivatives by `keys`, and the force at the first fold.
+/// Returns values and derivatives of `measures` with respect to `keys`, and the force at a fold.
 ///
-/// The force is `None` if nothing folds, or if no measure depends on the path beyond the fold.
+/// The force at the first fold is `None` if nothing folds, or if no measure depends on the path
+/// beyond the fold.
 #[pyfunction]
 pub fn gradients(
     skin: &Bound<'_, Skin>,
@@ -57,7 +58,7 @@ pub fn gradients(
     Ok((gradients.collect::<PyResult<_>>()?, fold))
 }
 
-/// Returns the parameter of a key, which must be continuous.
+/// Returns the parameter `key`; raises an exception unless it is continuous.
 fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<&'static Parameter> {
     let (py, case) = (skin.py(), skin.get().case());
     let parameter = Parameter::named(key).ok_or_else(|| unknown(py, key))?;
@@ -94,7 +95,7 @@ fn gradient(
 fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) -> Slopes {
     let source = measure_name(&column.name);
     let mut known = row.result.sensitivity.iter();
-    // Sensitivities are stored for lengths over the thickness.
+    // Sensitivities are stored for lengths divided by the thickness.
     let of = parameter.over_t().unwrap_or(parameter);
     let known = known.find(|d| d.measure == source && d.parameter == of.key);
     let kink = known.and_then(|derivative| derivative.kink.clone());
@@ -107,7 +108,7 @@ fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) ->
         let at = |by| column.cell(&row.extrapolated_by(parameter, by, side)?).number();
         Some((at(step)? - at(-step)?) / (2.0 * step))
     };
-    // Away from a kink both sides agree up to round-off.
+    // Without a kink, both sides agree up to round-off.
     let left = on(SlopeSide::Left);
     (left, if kink.is_some() { on(SlopeSide::Right) } else { left }, kink)
 }

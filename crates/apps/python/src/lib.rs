@@ -29,9 +29,9 @@ use pyo3::prelude::*;
 use results::columns::{design_columns, name};
 use sweep::{PARAMETERS, Role, Sweep};
 
-/// Documentation of a parameter.
+/// Documentation of a parameter: key, section, unit, meaning, valid values and default as text.
 ///
-/// Key, section, unit, meaning, valid values, and the default as text (geometry has none).
+/// Geometry has no default.
 type Explained = (&'static str, &'static str, &'static str, &'static str, String, Option<String>);
 
 /// Returns the documentation of all parameters.
@@ -49,7 +49,7 @@ fn parameters() -> Vec<Explained> {
 
 /// Returns the keywords that name materials or a body.
 ///
-/// Each comes with its section, its names, and the parameters that they supply.
+/// Each keyword has its section, its possible names, and the parameters that these names supply.
 #[pyfunction]
 fn named() -> Vec<(&'static str, &'static str, Vec<&'static str>, Vec<&'static str>)> {
     let named = NAMES.iter().map(|name| {
@@ -61,7 +61,7 @@ fn named() -> Vec<(&'static str, &'static str, Vec<&'static str>, Vec<&'static s
     named.collect()
 }
 
-/// The keys of `[material]`, in the order of messages.
+/// The keys of `[material]`, in the order in which messages list them.
 const MATERIAL: [&str; 4] =
     ["thickness_mm", "substrate_modulus_MPa", "membrane_modulus_MPa", "scale_density_kg_m3"];
 

@@ -56,7 +56,9 @@ fn solve(
         .collect()
 }
 
-/// Solves skins batch by batch and returns their columns; skins may have different columns.
+/// Solves skins batch by batch, and returns the union of their columns.
+///
+/// `solve` solves the skins of a batch, which are numbered from its first argument.
 fn columns(
     skins: &[Py<Skin>],
     mut solve: impl FnMut(usize, &[Py<Skin>]) -> Option<Vec<DesignRow>>,
@@ -103,7 +105,7 @@ fn columns(
     Some(all)
 }
 
-/// Returns the parameters that differ between skins, except geometry, which every table has.
+/// Returns the parameters that differ between skins, without geometry, which every table has.
 fn differing(skins: &[Py<Skin>]) -> impl Iterator<Item = &'static Parameter> {
     let all = || PARAMETERS.iter().filter(|parameter| !parameter.has(Role::Geometry));
     let mut same: Vec<_> = all().collect();
@@ -117,13 +119,13 @@ fn differing(skins: &[Py<Skin>]) -> impl Iterator<Item = &'static Parameter> {
 
 /// The properties of a skin that determine its columns.
 ///
-/// Guided needle, random gaps, given and non-default parameters, and lists with values in column
-/// names.
+/// These are: guided needle and random gaps; for each parameter, whether it is given and whether it
+/// is set; and lists with values in column names.
 type Kind = ([bool; 2], Vec<[bool; 2]>, [Option<Scalar>; 2]);
 
 fn kind(skin: &Skin) -> Kind {
     let (sweep, case) = (&skin.sweep, skin.case());
-    // Only lists of tilts have values in column names.
+    // Only lists of critical tilts and of needle frictions have values in column names.
     let list = |scalar: Scalar| matches!(scalar, Scalar::List(_)).then_some(scalar);
     let lists = [key::CRITICAL_TILT, key::NEEDLE_FRICTION]
         .map(|key| list(Parameter::named(key)?.get(&case)));

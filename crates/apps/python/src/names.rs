@@ -2,12 +2,14 @@
 
 use sweep::{BODIES, NamedValues, SCALE_MATERIALS, TISSUE_MATERIALS};
 
-/// Keyword that names a material or body.
+/// A keyword that names a material or body.
 pub struct Name {
     pub keyword: &'static str,
-    /// Section and key of a definition.
+    /// Section of the key in a definition.
     pub section: &'static str,
+    /// Key in a definition.
     pub key: &'static str,
+    /// Possible names, with the values that they supply.
     pub known: &'static [NamedValues],
 }
 

@@ -62,7 +62,7 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
             [of.section, of.key]
         } else {
             let parameter = Parameter::named(&name).ok_or_else(|| unknown(py, &name))?;
-            // A pitch determines the gap or the length, whichever is not given.
+            // A pitch counts as a gap; it determines the gap or the length, whichever is missing.
             keys.extend([parameter.key, parameter.over_t().map_or("", |of| of.key)]);
             [parameter.section, parameter.key]
         };
@@ -73,7 +73,7 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
             _ => sections.push(entry(in_section, Value::Table(vec![of]))),
         }
     }
-    // Both gap and pitch are given, so the pitch determines the length.
+    // If both gap and pitch are given, the pitch determines the length.
     let says_length = keys.iter().filter(|key| **key == key::GAP).count() > 1;
     if let Some(missing) = Parameter::with(Role::Geometry).find(|p| {
         let follows = p.key == key::LENGTH && says_length && keys.contains(&key::PITCH);
@@ -104,7 +104,7 @@ fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
     })
 }
 
-/// The measures requested by a call, and the columns if it names only columns.
+/// The measures that a call requests, and the columns if the call names only columns.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RequestedMeasures {
     pub measures: Vec<Measure>,
@@ -165,14 +165,14 @@ impl Skin {
 
     /// Returns the case of the design.
     ///
-    /// It is not stored, to halve the memory of long lists.
+    /// The case is not stored, which halves the memory of long lists.
     pub(crate) fn case(&self) -> Case {
         self.sweep.grid().case(0)
     }
 
     /// Returns true for skins that solve within milliseconds.
     ///
-    /// All others are solved in a separate thread, which can be interrupted.
+    /// Other skins are solved in a separate thread, which can be interrupted.
     fn is_quick(&self) -> bool {
         let Case { imperfection, coupling, flexure, common, puncture, .. } = self.case();
         imperfection.is_none()
@@ -222,7 +222,7 @@ impl Skin {
         Ok(Self::new(&sweep_of(&given)?, 0))
     }
 
-    /// Returns the number of designs of a definition, and all skins or the one at an index.
+    /// Returns the number of designs of a definition, and all skins or only the skin at an index.
     #[staticmethod]
     fn _designs<'py>(
         py: Python<'py>,
@@ -275,7 +275,7 @@ impl Skin {
         let parameter = Parameter::named(name)
             .ok_or_else(|| PyAttributeError::new_err(format!("a Skin has no {name}")))?;
         let case = self.case();
-        // A length has a value in millimetres, whichever unit was given.
+        // A length has a value in millimetres even if it was given in another unit.
         if parameter.is_in_mm() {
             return Ok(parameter.millimetres(&case).into_pyobject(py)?.into_any());
         }
@@ -329,7 +329,7 @@ impl Skin {
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        // Sorted, because equal skins may have been given their parameters in another order.
+        // The map is sorted, because the parameters of equal skins may be given in any order.
         let given = self.given().map(|(of, value)| (of.key, value.to_toml()));
         given.collect::<BTreeMap<_, _>>().hash(&mut hasher);
         hasher.finish()
@@ -339,7 +339,7 @@ impl Skin {
 /// Number of objects created before other threads may run, which takes milliseconds.
 const PORTION: usize = 1024;
 
-/// Creates a list of skins. Other threads run and signals are handled in between.
+/// Creates a list of skins, and lets other threads run and handles signals in between.
 fn list(py: Python<'_>, skins: Vec<Skin>) -> PyResult<Bound<'_, PyList>> {
     let all = PyList::empty(py);
     for (k, skin) in skins.into_iter().enumerate() {

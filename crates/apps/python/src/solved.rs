@@ -1,4 +1,4 @@
-//! A solved skin; Python takes results on demand.
+//! A solved skin. Python requests its results on demand.
 
 use std::collections::HashMap;
 
@@ -25,7 +25,7 @@ pub struct Solved {
     pub design: SolvedDesign,
 }
 
-/// Returns the reason why a column has no value.
+/// Returns the reason why a column has no value; `None` if its measure did not fail.
 pub fn reason(row: &DesignRow, column: &str) -> Option<&'static str> {
     let mut failures = row.result.failures.iter();
     let failure = failures.find(|failure| Some(failure.measure) == measure_of(column));
@@ -54,7 +54,7 @@ impl Solved {
 
     /// Returns requirements with value, limit and margin, and every warning.
     ///
-    /// Solves the design again with gaps 10 % smaller and larger.
+    /// Solves the design again with gaps 10 % smaller and larger, to warn of sensitive measures.
     fn answer(&self, require: Vec<String>) -> PyResult<(Vec<Required>, Vec<String>)> {
         let requirements = requirements(&require)?;
         let (sweep, row) = (&self.sweep, &self.design.row);

@@ -1,4 +1,4 @@
-//! Runs, searches and tolerances in folders: calls of the crates behind the commands.
+//! Runs, rankings, searches and tolerance analyses in folders, with the crates of the commands.
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -44,7 +44,9 @@ pub struct Keywords<'py> {
     out: Option<PathBuf>,
     /// Settings that override the definition: dotted keys and values.
     set: Option<Bound<'py, PyDict>>,
+    /// True to continue earlier results.
     resume: bool,
+    /// True to discard earlier results.
     fresh: bool,
     threads: Option<Bound<'py, PyAny>>,
     progress: Option<Bound<'py, PyAny>>,
@@ -71,7 +73,7 @@ impl Keywords<'_> {
         self.out.clone().unwrap_or_else(|| Path::new("results").join(sweep.name()))
     }
 
-    /// Treatment of earlier results.
+    /// Returns the treatment of earlier results.
     fn start(&self) -> Start {
         match (self.resume, self.fresh) {
             (true, _) => Start::Resume,
@@ -81,7 +83,7 @@ impl Keywords<'_> {
     }
 }
 
-/// Solves the designs of a definition into a folder, and returns the folder.
+/// Solves the designs of a definition, writes the results to a folder, and returns the folder.
 #[pyfunction]
 pub fn run(
     py: Python<'_>,
@@ -138,7 +140,7 @@ pub fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Vec<(String, Py<PyAny>)
     let mut converted = Vec::with_capacity(columns.len());
     for (name, cells) in columns {
         converted.push((name, cells.into_pyobject(py)?.unbind()));
-        // Release the interpreter lock now and then: a table of a million designs takes seconds.
+        // Release the interpreter lock after each column: a million designs take seconds.
         py.detach(thread::yield_now);
     }
     Ok(converted)

@@ -20,12 +20,12 @@ use crate::error::OrFailed as _;
 /// A column for Python: name, unit, meaning, and its cells.
 pub type NamedCells = (String, &'static str, &'static str, Cells);
 
-/// The location of values from Python in messages.
+/// Returns the location that messages state for values from Python.
 pub fn place() -> Place {
     Place::Argument("squama".into())
 }
 
-/// Converts an object to text; unlike `to_string`, propagates interrupts.
+/// Converts an object to text. Unlike `to_string`, this function propagates interrupts.
 pub fn text(of: &Bound<'_, PyAny>) -> PyResult<String> {
     of.str()?.extract()
 }
@@ -107,7 +107,7 @@ impl From<Cell> for PythonCell {
 
 /// The cells of a column: numbers as bytes (NaN if missing), or texts.
 ///
-/// A single text makes the whole column text.
+/// If any cell is text, the whole column is text.
 #[derive(IntoPyObject)]
 pub enum Cells {
     Numbers(Vec<u8>),
@@ -122,7 +122,7 @@ impl Extend<Cell> for Cells {
             && cells.iter().any(|cell| matches!(cell, Cell::Text(text) if !text.is_empty()))
         {
             let (known, _) = known.as_chunks();
-            // NaN stands for a missing cell.
+            // `Cell::from` converts NaN to an empty cell.
             let known = known.iter().map(|of| Cell::from(f64::from_ne_bytes(*of)).number());
             *self = Self::Texts(known.map(|number| Cell::from(number).into()).collect());
         }
@@ -138,7 +138,7 @@ impl Extend<Cell> for Cells {
 }
 
 impl Cells {
-    /// Creates the cells of a column of strings: numbers if every cell is a number or empty.
+    /// Creates the cells of a column; the column is numeric if every cell is a number or empty.
     pub fn of_texts(cells: Vec<String>) -> Self {
         let number =
             |cell: &String| if cell.is_empty() { Some(f64::NAN) } else { cell.parse::<f64>().ok() };
@@ -158,7 +158,7 @@ impl Cells {
     }
 }
 
-/// Returns the cells of every column for some rows.
+/// Returns the cells of every column for the given rows.
 pub fn table<R>(columns: &[Column<R>], rows: impl IntoIterator<Item = R>) -> Vec<NamedCells> {
     let rows: Vec<R> = rows.into_iter().collect();
     columns
@@ -174,7 +174,7 @@ pub fn table<R>(columns: &[Column<R>], rows: impl IntoIterator<Item = R>) -> Vec
 /// Returns a table as an Arrow stream of one batch, in a `PyCapsule`.
 #[pyfunction]
 pub fn arrow(py: Python<'_>, columns: Vec<(String, ArrowCells)>) -> PyResult<Bound<'_, PyCapsule>> {
-    // An empty batch, because `try_from_iter` rejects tables without columns.
+    // A table without columns is an empty batch, because `try_from_iter` rejects it.
     let mut batch = RecordBatch::from(StructArray::new_empty_fields(0, None));
     if !columns.is_empty() {
         let arrays = columns.into_iter().map(|(name, cells)| (name, cells.array(), true));

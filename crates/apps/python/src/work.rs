@@ -19,7 +19,7 @@ use crate::error::{self, OrFailed as _};
 /// Interval between checks for signals and progress reports.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// Time that an interrupted call waits for designs in progress, so that Ctrl-C responds.
+/// Maximum time that an interrupted call waits for designs in progress, so that Ctrl-C responds.
 const GRACE: Duration = Duration::from_millis(600);
 
 /// The progress of running work.
@@ -76,7 +76,7 @@ pub fn whole(key: &str, value: &Bound<'_, PyAny>, range: RangeInclusive<usize>) 
     })
 }
 
-/// Returns the number of threads given by the argument `threads`; `None` is one for each core.
+/// Returns the number of threads of the argument `threads`; `None` means one for each core.
 pub fn threads(given: Option<&Bound<'_, PyAny>>) -> PyResult<usize> {
     match given {
         Some(given) => whole("threads", given, THREADS),
@@ -89,12 +89,12 @@ pub fn interrupted() -> PyErr {
     PyKeyboardInterrupt::new_err(())
 }
 
-/// Creates the thread pool for work without its own threads.
+/// Creates a thread pool, for work that does not create its own threads.
 pub fn pool(given: Option<&Bound<'_, PyAny>>) -> PyResult<ThreadPool> {
     ThreadPoolBuilder::new().num_threads(threads(given)?).build().or_failed("threads")
 }
 
-/// Runs `work` in its own thread, while this one handles signals and reports `progress`.
+/// Runs `work` in its own thread, while the calling thread handles signals and reports `progress`.
 ///
 /// Ctrl-C stops the work; a single long design continues in the background until it ends.
 pub fn watched<T: Send + 'static>(

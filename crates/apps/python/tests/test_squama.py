@@ -28,7 +28,7 @@ SKIN = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60)
 
 
 def same(one, other):
-    """Returns True if two tables have equal bits."""
+    """Asserts that two tables are equal to the last bit."""
     assert list(one) == list(other)
     for name in one:
         if one[name].dtype == float:
@@ -222,7 +222,7 @@ def test_unloading_paths_and_load_positions_are_tables():
     assert SKIN.solve().way_back.rows == 0
 
 
-def test_the_answer_has_the_words_of_the_command(tmp_path):
+def test_answers_have_the_warnings_of_the_command(tmp_path):
     skin = squama.Skin(
         **dict(gap_over_t=0.1, length_over_t=0.2, slant_deg=60),
         **dict(thickness_mm=2, substrate_modulus_MPa=1, membrane_modulus_MPa=4.5),
@@ -235,7 +235,7 @@ def test_the_answer_has_the_words_of_the_command(tmp_path):
     words = " ".join(answer["warnings"])
     for topic in ("Sensitive to the gap", "less than a nozzle", "overhang", "on a finger"):
         assert topic in words, (topic, words)
-    # Without other gaps there is no warning of a cliff.
+    # Only ``answer`` solves other gaps, so only its warnings include the sensitivity to the gap.
     assert set(result.warnings) < set(answer["warnings"])
     assert pickle.loads(pickle.dumps(result)).answer("coverage >= 0.5")["requirements"] == [first]
     if not os.environ.get("SQUAMA"):
@@ -272,7 +272,7 @@ def test_failures_raise_when_a_value_is_used():
         table["gap_mm"]
 
 
-def test_values_are_accessed_by_name():
+def test_a_single_column_can_be_solved():
     only = SKIN.solve("penetration")
     assert only["penetration"] == SKIN.solve()["penetration"] and np.isnan(only["compliance"])
 
@@ -360,8 +360,8 @@ LONG = {
 @pytest.mark.skipif(os.name == "nt", reason="needs signals")
 @pytest.mark.parametrize("call", LONG)
 def test_a_signal_ends_a_call_within_a_second(call, tmp_path):
-    # The signal is handled as Ctrl-C is. It comes after half a second of processor time, summed
-    # over all cores, which does not depend on other programs.
+    # The signal is handled like Ctrl-C. It is sent after half a second of processor time, summed
+    # over all cores, because processor time does not depend on other programs.
     code = f"""
 import signal, sys, time, squama
 signal.signal(signal.SIGPROF, signal.default_int_handler)
@@ -407,8 +407,8 @@ def test_interrupted_runs_can_be_resumed(tmp_path):
 
 
 def ended_early(begin, ending):
-    """Returns True if a command was interrupted after its start and before its end."""
-    # A shell that runs the tests in the background ignores the signal, and children inherit this.
+    """Starts a command, interrupts it when the file ``ending`` exists, and returns True if it had not ended."""
+    # Restore the handler: a shell that runs the tests in the background ignores the signal.
     heed = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # noqa: E731
     process = subprocess.Popen(begin, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=heed)
     while process.poll() is None and not ending.exists():
@@ -637,7 +637,7 @@ def test_other_threads_run_while_definitions_and_results_are_read(tmp_path):
     with ThreadPoolExecutor(1) as executor:
         ticking = executor.submit(tick)
         try:
-            # A single call of the extension each: other threads run only if it releases the lock.
+            # Each is one call of the extension: other threads run only if it releases the lock.
             for call, argument in ((squama._squama.read, tmp_path / "big"), (lambda text: squama.Skin._designs(text, None), definition)):
                 before = len(ticks)
                 call(argument)

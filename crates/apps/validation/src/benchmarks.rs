@@ -11,7 +11,7 @@ use anyhow::Context as _;
 /// A quantity with a known value, and its value computed by squama.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Benchmark {
-    /// The names of problem and quantity.
+    /// Names of the problem and of the quantity.
     pub name: String,
     /// The source of the reference.
     pub source: &'static str,
@@ -19,7 +19,7 @@ pub struct Benchmark {
     pub reference: f64,
     /// The computed value.
     pub ours: f64,
-    /// The accepted relative difference; for an approximate reference its known error.
+    /// The accepted relative difference. For an approximate reference, it is the known error.
     pub band: f64,
     /// The observed order of convergence, if meshes are refined.
     pub order: Option<f64>,

@@ -1,21 +1,21 @@
-//! Claims with a different verdict in another model.
+//! Statements of claims with a different verdict in another model than the paper's.
 
 use crate::page::lines;
 use crate::{CheckedClaim, Finding};
 
-/// The claims with another verdict in another model than the paper's.
+/// The statements of claims that have different verdicts in the paper's model and in other models.
 #[derive(Clone, Debug)]
 pub struct ChangedVerdicts {
-    /// The statements with another verdict, as rows of their table.
+    /// The statements with different verdicts, as rows of a table.
     changed: Vec<String>,
-    /// The number of statements with the same verdict.
+    /// The number of statements with the same verdict in all models.
     kept: usize,
 }
 
 impl ChangedVerdicts {
     /// Compares the verdicts in the paper's model with the verdicts in `others`.
     ///
-    /// With two `bases`, for a base of `L` and of `2L`; otherwise for `L` only.
+    /// If `bases` is 2, it compares them with a base of `L` and of `2L`; if it is 1, with `L` only.
     pub(crate) fn compare(
         paper: &[CheckedClaim],
         others: &[&[CheckedClaim]],
@@ -31,7 +31,7 @@ impl ChangedVerdicts {
         Self { kept: all - changed.len(), changed }
     }
 
-    /// Returns a table of the statements with another verdict for a friction of 0.1 or 0.3.
+    /// Returns a table of the statements for which a friction of 0.1 or 0.3 changes the verdict.
     pub(crate) fn in_words(&self) -> String {
         let kept = self.kept;
         let setting = "With a friction of 0.1 and of 0.3, and the base L,";

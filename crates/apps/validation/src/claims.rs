@@ -34,7 +34,7 @@ const STATEMENTS: &str = include_str!("../statements.csv");
 pub struct Claim {
     /// The number of the claim, `C01` and so on.
     pub id: String,
-    /// Section or figure.
+    /// Section or figure of the paper.
     #[serde(rename = "where")]
     pub place: String,
     /// The measure to which the claim refers.
@@ -45,7 +45,7 @@ pub struct Claim {
     pub reason: String,
 }
 
-/// A claim with its statements, each checked against the two studies.
+/// A claim with its statements, each checked with a base of `L` and of `2L`.
 #[derive(Clone, Debug)]
 pub struct CheckedClaim {
     /// The claim.
@@ -56,7 +56,7 @@ pub struct CheckedClaim {
     pub verdicts: [Verdict; 2],
 }
 
-/// A statement of a claim, checked against the two studies.
+/// A statement of a claim, checked with a base of `L` and of `2L`.
 #[derive(Clone, Debug)]
 pub struct CheckedStatement {
     /// Text of the statement; empty if the statement is the claim itself.
@@ -81,7 +81,7 @@ pub fn claims() -> Result<Vec<Claim>, csv::Error> {
 fn statements() -> anyhow::Result<Vec<(Claim, Vec<Statement>)>> {
     let mut table = csv::Reader::from_reader(STATEMENTS.as_bytes());
     let all: Vec<Statement> = table.deserialize().collect::<Result<_, _>>()?;
-    // C18a and C18b belong to C18: numbers have two digits, so no number is the prefix of another.
+    // C18a and C18b belong to C18. All numbers have two digits, so none is a prefix of another.
     Ok(claims()?
         .into_iter()
         .map(|claim| {
@@ -108,7 +108,7 @@ fn verdict(statements: &[Statement], evidence: &Evidence) -> anyhow::Result<Verd
     Ok(Verdict::of_all(&verdicts.collect::<anyhow::Result<Vec<_>>>()?))
 }
 
-/// Checks every claim against two studies, with the base `L` and with `2L`.
+/// Checks every claim in two studies: with a base of `L` and of `2L`.
 pub(crate) fn check(studies: [&Study; 2]) -> anyhow::Result<Vec<CheckedClaim>> {
     judge(&studies.map(gather::gather))
 }
@@ -151,7 +151,7 @@ pub(crate) fn digits(number: f64) -> String {
     }
 }
 
-/// Formats the parameters of a design.
+/// Formats the parameters of a design as `(d/t, L/t, slant)`.
 pub(crate) fn named(design: &MeasuredDesign) -> String {
     format!("({}, {}, {}°)", design.gap, design.length, design.slant)
 }

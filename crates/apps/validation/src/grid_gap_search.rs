@@ -15,16 +15,17 @@ use crate::claims::{digits, named};
 use crate::page::lines;
 use crate::study::{MeasuredDesign, Study};
 
-/// The parameter ranges of the grid and the settings of all searches.
+/// Start of the definition of every search: the parameter ranges of the grid, and settings.
 ///
-/// Designs with a fold are left out.
+/// The searches leave out designs with a fold.
 const BOX: &str = "name = \"between\"\nmeasures = [\"coverage\", \"puncture\", \"flexure\"]\n\
     [variables]\ngap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.025, to = 1 }\nslant_deg = { from = 0, to = 75 }\n\
     [goal]\nsamples = 256\n";
 
-/// The objectives of the front that is compared with the grid, and their requirement.
+/// Objectives and requirement of the front that is compared with the grid.
 // Four points suffice to equal or dominate every design of the grid.
 const FRONT: &str = "maximize = [\"critical_force\", \"coverage\"]\nrequire = [\"compliance >= 0.2\"]\npoints = 4\n";
+/// The compliance that [`FRONT`] requires.
 const LEAST_COMPLIANCE: f64 = 0.2;
 
 /// Error of a search without a result.
@@ -33,7 +34,7 @@ const NO_OPTIMUM: &str = "a search between the grid points has no optimum";
 /// The best designs on the grid and between its points.
 #[derive(Clone, Debug)]
 pub struct GridGapSearch {
-    /// The best design for each of some weights.
+    /// The fittest design for each of several weights.
     pub fittest: Vec<FittestDesign>,
     /// The front of critical force and coverage.
     pub front: FrontOverGrid,
@@ -44,7 +45,7 @@ pub struct GridGapSearch {
 pub struct FittestDesign {
     /// The weights in words.
     pub weights: String,
-    /// The design on the grid.
+    /// The fittest design on the grid.
     pub on_grid: String,
     /// Fitness of the design on the grid.
     pub grid_fitness: f64,
@@ -61,9 +62,9 @@ pub struct FrontOverGrid {
     pub designs: usize,
     /// The number of grid designs without a fold and with sufficient compliance.
     pub grid: usize,
-    /// The number of these that no other grid design dominates.
+    /// The number of these grid designs that no other grid design dominates.
     pub grid_front: usize,
-    /// The number of grid designs that no design of the front equals or dominates.
+    /// The number of these grid designs that no design of the front equals or dominates.
     pub undominated: usize,
 }
 
@@ -103,7 +104,7 @@ impl GridGapSearch {
 }
 
 impl FittestDesign {
-    /// Returns the relative gain in fitness over the best grid design.
+    /// Returns the relative gain in fitness, compared with the best grid design.
     pub fn gain(&self) -> f64 {
         self.found_fitness / self.grid_fitness - 1.0
     }
@@ -152,10 +153,11 @@ fn objectives(best: &BestDesign) -> Option<&[f64]> {
 
 /// Returns true if `one` is at least as good as `other` in both objectives, up to round-off.
 fn at_least(one: &[f64], other: &[f64]) -> bool {
-    // Equal designs of grid and search differ by the round-off of their paths.
+    // The values of a design on the grid and in the search differ by the round-off of their paths.
     one.iter().zip(other).all(|(a, b)| *a >= b * (1.0 - 1e-9))
 }
 
+/// Returns true if the surface does not fold.
 fn is_sound(design: &MeasuredDesign) -> bool {
     design.fold_force.is_none() && design.gap_stretch_min.is_none_or(|least| least > 0.0)
 }
@@ -163,7 +165,7 @@ fn is_sound(design: &MeasuredDesign) -> bool {
 /// Formats the worst and best value of each criterion in a ranking as a key of a goal.
 fn ends(ranking: &Ranking<'_>) -> String {
     let designs: Vec<_> = ranking.by_fitness(Weights::BALANCED).collect();
-    // Values instead of criteria, because the goal itself inverts the penetration.
+    // The key has values of columns instead of criteria, because the goal inverts the penetration.
     let ends = CRITERIA.iter().enumerate().map(|(c, criterion)| {
         let worst = designs.iter().min_by(|a, b| a.criterion(c).total_cmp(&b.criterion(c)));
         let best = designs.iter().max_by(|a, b| a.criterion(c).total_cmp(&b.criterion(c)));
@@ -174,7 +176,10 @@ fn ends(ranking: &Ranking<'_>) -> String {
     format!("{{ {} }}", ends.collect::<Vec<_>>().join(", "))
 }
 
-/// Searches the fittest design by `weights` between the grid points.
+/// Searches for the fittest design for `weights` between the grid points.
+///
+/// `ends` is the text from [`ends()`]. The last argument is the best fitness on the grid, with its
+/// design.
 fn fittest(
     weights: (Weights, &str),
     ends: &str,

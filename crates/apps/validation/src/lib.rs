@@ -1,6 +1,6 @@
 //! Validation of squama against benchmarks and the claims of the paper.
 //!
-//! It includes the sensitivity of the claims to choices that the paper leaves open.
+//! The validation includes the sensitivity of the claims to choices that the paper leaves open.
 //!
 //! A benchmark holds if the relative difference from its reference lies within its band:
 //!
@@ -127,8 +127,8 @@ impl Validation {
     /// If a benchmark has no result or the temporary folder cannot be written.
     pub fn run(searches: bool, mut progress: impl FnMut(PartProgress<'_>)) -> anyhow::Result<Self> {
         let settings = sensitivity::settings()?;
-        // Benchmarks, claims, strips of equal gaps, searches, and one part per sweep and per
-        // setting.
+        // The parts are benchmarks, claims, strips of equal gaps, searches if requested, and each
+        // sweep and setting.
         let sweeps = MODELS.len() * BASES.len();
         let parts = 3 + usize::from(searches) + sweeps + settings.len();
         let mut done = 0;

@@ -51,7 +51,7 @@ impl Validation {
     }
 }
 
-/// Joins one line per item.
+/// Returns the lines of all items, each with a line break.
 pub(crate) fn lines<T>(items: &[T], line: impl Fn(&T) -> String) -> String {
     items.iter().map(|item| line(item) + "\n").collect()
 }
@@ -60,7 +60,7 @@ impl ChoiceEffect {
     /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let [low, median, high] = self.changes.map(|change| match 100.0 * change {
-            // Values below the displayed digits may have either sign, and a test compares the page.
+            // Changes that round to 0 may have either sign, and a test compares the page.
             percent if percent.abs() < 0.05 => "0 %".to_owned(),
             percent => format!("{percent:+.1} %"),
         });
@@ -106,7 +106,7 @@ impl CheckedClaim {
     /// several.
     pub(crate) fn rows(&self) -> String {
         let Claim { id, place, claim, reason, .. } = &self.claim;
-        // The only statement of a claim would repeat the claim.
+        // The only statement of a claim is in the row of the claim, which it would repeat.
         if let [only] = self.statements.as_slice() {
             return format!("| {id} | {place} | {claim} | {} | {reason} |\n", only.cells());
         }
@@ -120,10 +120,10 @@ impl CheckedClaim {
         rows
     }
 
-    /// Returns rows that compare the statements with the findings of `others`.
+    /// Returns rows that compare the findings of each statement with the findings in `others`.
     ///
-    /// The columns are the findings with the base `L`, and with `2L` if there are two `bases`. Only
-    /// rows with a finding for which `shown` returns true are included.
+    /// The columns are the findings with the base `L`, and with `2L` if `bases` is 2. A row is
+    /// included if `shown` returns true for the findings with any base.
     pub(crate) fn rows_beside(
         &self,
         others: &[&Self],

@@ -8,7 +8,7 @@ use sweep::Sweep;
 use crate::study::Study;
 use crate::{Headlines, PartProgress, Verdict, claims};
 
-/// A setting with its verdicts.
+/// A setting of the open choices, with the verdicts on all claims.
 #[derive(Clone, Debug)]
 pub struct ScoredSetting {
     /// The setting, as `key = value`.
@@ -22,7 +22,7 @@ pub struct ScoredSetting {
 /// Sweeps over combinations of open choices, on the designs of the paper.
 #[derive(Clone, Debug)]
 pub struct SettingSearch {
-    /// All settings, those that reproduce most claims first.
+    /// All settings, sorted by the number of claims that they reproduce, largest first.
     pub settings: Vec<ScoredSetting>,
 }
 

@@ -7,7 +7,7 @@ use sweep::{Axis, Setting, Sweep};
 use crate::claims::{self, CheckedClaim, DesignValue, digits, named};
 use crate::study::{Study, is_geometry};
 
-/// Sweeps over one open choice each, from `sweeps/sensitivity/`.
+/// Name and definition of sweeps over one open choice each, from `sweeps/sensitivity/`.
 const SWEEPS: [(&str, &str); 11] = [
     ("base", include_str!("../sensitivity/base.toml")),
     ("width", include_str!("../sensitivity/width.toml")),
@@ -41,11 +41,11 @@ pub struct Sensitivity {
 /// The main results of a study, as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Headlines {
-    /// `F_c*` at the paper's best design.
+    /// `F_c*` of the paper's strongest design, (0.1, 0.1, 75°).
     pub force: String,
     /// The best design with equal weights.
     pub balanced: String,
-    /// The best designs by each single criterion.
+    /// The best design by each criterion alone.
     ///
     /// The criteria are coverage, critical force, penetration resistance and compliance.
     pub corners: [String; 4],
@@ -60,7 +60,7 @@ pub struct ChoiceEffect {
     pub measure: &'static str,
     /// The number of designs with the measure in both settings.
     pub designs: usize,
-    /// The number of designs without the measure in the other setting only.
+    /// The number of designs that have the measure only in the first setting.
     pub lost: usize,
     /// The smallest, median and largest relative change.
     pub changes: [f64; 3],
@@ -108,7 +108,7 @@ pub(crate) fn settings() -> anyhow::Result<Vec<OpenSetting>> {
     Ok(all)
 }
 
-/// The values of the open parameters, by key.
+/// The key and value of each open parameter.
 type OpenValues = Vec<(&'static str, sweep::Scalar)>;
 
 /// Returns all combinations of the axis values; the last axis varies fastest.
@@ -130,8 +130,8 @@ type ClaimsByFriction = Vec<Vec<CheckedClaim>>;
 
 /// Compares the main results for all settings of the open choices.
 ///
-/// For substrate coupling and friction it also compares the measures design by design; for each
-/// friction it checks the claims. Settings contained in the `known` studies are not solved again.
+/// For substrate coupling and friction, it also compares the measures design by design. For each
+/// friction, it checks the claims. Settings that the `known` studies contain are not solved again.
 /// `begin` is called with the name of each setting.
 ///
 /// # Errors
@@ -144,7 +144,7 @@ pub(crate) fn sensitivity(
     let (mut all, mut couplings, mut frictions) = (Vec::new(), Vec::new(), Vec::new());
     for OpenSetting { sweep, label, definition } in settings {
         begin(&label);
-        // The default setting is part of the paper sweeps, so it is not solved again.
+        // The default setting of each choice is part of the paper sweeps.
         let part = known.iter().find_map(|study| study.part(&definition));
         let study = part.map_or_else(|| Study::run(definition), Ok)?;
         let setting = label.clone();
@@ -155,7 +155,7 @@ pub(crate) fn sensitivity(
             _ => {}
         }
     }
-    // The first setting has no friction and therefore the claims of the paper.
+    // The first setting has no friction, so its claims have already been checked.
     let with_friction = frictions.iter().skip(1).map(|(_, study)| claims::check([study; 2]));
     let with_friction = with_friction.collect::<Result<_, _>>()?;
     let [coupling, friction] = [couplings, frictions].map(|studies| {
@@ -183,7 +183,7 @@ impl ChoiceEffect {
                 let mut changes: Vec<f64> =
                     pairs.iter().filter_map(|pair| Some(pair.1? / pair.0? - 1.0)).collect();
                 changes.sort_by(f64::total_cmp);
-                // Count only the losses, because the page reports failures caused by a choice.
+                // Count only losses and not gains: the page reports failures that a choice causes.
                 let lost = pairs.iter().filter(|(a, b)| a.is_some() && b.is_none()).count();
                 let designs = changes.len();
                 let changes = [0, designs / 2, designs.saturating_sub(1)]
@@ -202,7 +202,7 @@ impl Headlines {
     pub(crate) fn of(study: &Study) -> Self {
         let best = study.design(0.1, 0.1, 75.0);
         let force = best.and_then(|design| design.critical_force);
-        // A study without a ranking keeps its row, which states that there is none.
+        // A study that cannot be ranked has `none` instead of its best designs.
         let ranking = Ranking::new(&study.results, TetrahedralGrid::default()).ok();
         let weights = std::iter::once(Weights::BALANCED).chain(Weights::alone());
         let mut winners = weights.map(|weights| {

@@ -8,7 +8,7 @@ use crate::study::Study;
 
 /// Strips of 40 to 45 gaps in every design, for both bases.
 ///
-/// Punctures do not depend on the strip.
+/// The definition requests no puncture, because punctures do not depend on the strip.
 const STRIPS: &str = "name = \"gaps\"\nmeasures = [\"coverage\", \"flexure\"]\n\
                       designs.gaps = [40, 41, 42, 43, 44, 45]\ndesigns.base = [\"L\", \"2L\"]";
 

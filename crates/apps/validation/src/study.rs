@@ -40,14 +40,14 @@ pub(crate) struct MeasuredDesign {
 }
 
 impl MeasuredDesign {
-    /// Returns true for the lengths of sections 3 and 4 of the paper, at least 0.1.
+    /// Returns true if `L/t` is at least 0.1, as in sections 3 and 4 of the paper.
     pub(crate) fn is_in_figures(&self) -> bool {
         self.length >= 0.1
     }
 
     /// Returns true if the design covers the substrate, as section 5 of the paper requires.
     pub(crate) fn is_covered(&self) -> bool {
-        // `None` is less than any value, so designs without a coverage are left out, too.
+        // `None` is less than any value, so designs without a coverage are excluded, too.
         self.coverage > Some(0.0)
     }
 }
@@ -55,7 +55,7 @@ impl MeasuredDesign {
 /// A sweep with its results, or a part of it.
 pub(crate) struct Study {
     sweep: Sweep,
-    /// The first design. All designs share its parameters, except the geometry.
+    /// The first design. All designs have its parameters, except for the geometry.
     pub(crate) base: Case,
     pub(crate) results: Results,
     pub(crate) designs: Vec<MeasuredDesign>,
@@ -86,8 +86,10 @@ impl Study {
     }
 
     /// Splits the study by the values of all axes except the geometry.
+    ///
+    /// Returns each setting as `key = value`, with its designs.
     pub(crate) fn settings(&self) -> Vec<(String, Self)> {
-        // A list instead of a map keeps the order of the sweep.
+        // Unlike a map, a list keeps the order of the sweep.
         let mut settings = Vec::<(String, Vec<usize>)>::new();
         for row in 0..self.results.len() {
             let setting = self.setting(row);

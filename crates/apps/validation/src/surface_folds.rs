@@ -7,26 +7,25 @@ use crate::study::{MeasuredDesign, Study};
 /// The claims about the strongest and most slanted designs.
 const CONCERNED: [&str; 6] = ["C12", "C13", "C15", "C18", "C27", "C28"];
 
-/// Number of strongest designs among which folded ones are counted.
+/// Number of strongest designs among which designs with a fold are counted.
 const STRONGEST: usize = 60;
 
-/// The folds of both laws of the substrate, and the claims that they concern.
+/// Folds with both laws of the substrate, and the claims that the folds concern.
 #[derive(Clone, Debug)]
 pub struct SurfaceFolds {
-    /// Rows of the page: quantity, then linear and neo-Hookean for a base of `L` and of `2L`.
+    /// Rows of the page: quantity, linear and neo-Hookean with base `L`, the same with base `2L`.
     rows: Vec<[String; 5]>,
     /// Rows for the statements of the claims in [`CONCERNED`].
     claims: Vec<String>,
-    /// Rows for other claims that change their verdict with the law.
+    /// Numbers of the other claims for which the law changes the verdict.
     changed: Vec<String>,
 }
 
 impl SurfaceFolds {
-    /// Compares studies on a linear and a neo-Hookean substrate.
+    /// Compares studies on a linear and on a neo-Hookean substrate.
     ///
-    /// Each study has bases of `L` and of `2L`.
-    ///
-    /// `claims` are the checked claims on either substrate.
+    /// On each substrate, there is a study with a base of `L` and one with `2L`. `claims` are the
+    /// checked claims on the linear and on the neo-Hookean substrate.
     pub(crate) fn compare(
         linear: &[Study; 2],
         neo_hookean: &[Study; 2],
@@ -57,10 +56,10 @@ impl SurfaceFolds {
     }
 }
 
-/// A function that computes a cell of a row for a study.
+/// A function that returns a quantity of a study as the text of a cell.
 type Count = fn(&Study) -> String;
 
-/// Returns the rows of the counts of each study.
+/// Returns a row for each quantity, with the values in all studies.
 fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
     let studies = [&linear[0], &neo_hookean[0], &linear[1], &neo_hookean[1]];
     let counts: [(&str, Count); 7] = [
@@ -70,16 +69,16 @@ fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
         ("of the 60 with the largest `F_c*`", |study| {
             strongest(study).into_iter().filter(|design| folds(design)).count().to_string()
         }),
-        ("force at the fold over `F_c*`: smallest, median, largest", |study| {
+        ("force at the fold divided by `F_c*`: smallest, median, largest", |study| {
             spread(
                 study.designs.iter().filter_map(|d| Some(d.fold_force? / d.critical_force?)),
                 digits,
             )
         }),
-        ("width of the narrowest gap at 10°, over its width at rest", |study| {
+        ("width of the narrowest gap at 10°, divided by its width at rest", |study| {
             spread(study.designs.iter().filter_map(|d| d.gap_stretch_min).reduce(f64::min), digits)
         }),
-        ("width of the widest gap at 10°, over its width at rest", |study| {
+        ("width of the widest gap at 10°, divided by its width at rest", |study| {
             spread(study.designs.iter().filter_map(|d| d.gap_stretch_max).reduce(f64::max), digits)
         }),
         ("largest `F_c*`", |study| largest(study, |design| design.critical_force)),
@@ -94,7 +93,7 @@ fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
         let changes = [0, 1].map(|base| changes(&linear[base], &neo_hookean[base], folded));
         let [paper, as_written] = changes;
         let what = format!(
-            "change of `F_c*` from linear springs, of designs {what} on them: smallest, median, largest"
+            "change of `F_c*` compared with linear springs, for designs {what} on linear springs: smallest, median, largest"
         );
         // The columns of linear springs stay empty, because linear springs are the reference.
         rows.push([what, String::new(), paper, String::new(), as_written]);
@@ -118,14 +117,14 @@ fn strongest(study: &Study) -> Vec<&MeasuredDesign> {
     designs
 }
 
-/// Formats the largest value with its design.
+/// Formats the largest value in a study with its design; empty without values.
 fn largest(study: &Study, value: DesignValue) -> String {
     let values = study.designs.iter().filter_map(|design| Some((value(design)?, design)));
     let best = values.max_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or_else(String::new, |(value, design)| format!("{} {}", digits(value), named(design)))
 }
 
-/// Formats the change of the critical force for designs with or without a fold.
+/// Formats the changes of the critical force of the designs with (or without) a fold in `from`.
 fn changes(from: &Study, to: &Study, folded: bool) -> String {
     // Both studies have the same designs in the same order.
     let pairs = from.designs.iter().zip(&to.designs).filter(|(a, _)| folds(a) == folded);
@@ -136,13 +135,15 @@ fn changes(from: &Study, to: &Study, folded: bool) -> String {
     )
 }
 
-/// Formats smallest, median and largest value; a single value alone; nothing if empty.
+/// Formats the smallest, median and largest value.
+///
+/// A single value is shown once; without values, the text is empty.
 fn spread(values: impl IntoIterator<Item = f64>, format: impl Fn(f64) -> String) -> String {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);
     let last = values.len().saturating_sub(1);
     let mut places = vec![0, values.len() / 2, last];
-    // With one or two values the median equals an end, which is printed once.
+    // If the median is the same value as an end, it is printed once.
     places.dedup();
     let shown = places.into_iter().filter_map(|place| values.get(place).copied().map(&format));
     shown.collect::<Vec<_>>().join(", ")

@@ -17,7 +17,7 @@ class InvalidParameter(ValueError):
 
     @property
     def others(self):
-        """Further problems, one line each."""
+        """Further problems, one line for each."""
         return self.__dict__.get("_others", [])
 
     def add(self, line):
@@ -26,7 +26,7 @@ class InvalidParameter(ValueError):
 
 
 def _shown(value):
-    """``value`` for a message: shortened, and its type if it has no ``repr``, such as a deeply nested list."""
+    """Returns a short text of ``value`` for a message: its type if ``repr`` fails, as for a deeply nested list."""
     try:
         text = repr(value)
     except Exception:  # noqa: BLE001
@@ -39,7 +39,7 @@ class InvalidDefinition(ValueError):
 
 
 class Failed(RuntimeError):
-    """A requested result has no value: ``what`` names it, ``reason`` says why."""
+    """A requested result has no value: ``what`` is its name, ``reason`` is the reason."""
 
     def __init__(self, what, reason):
         super().__init__(what, reason)
@@ -52,8 +52,9 @@ class Failed(RuntimeError):
 class KinkWarning(UserWarning):
     """A measure has a kink: its derivatives for a decrease (``left``) and an increase (``right``) of a parameter differ.
 
-    ``warnings.simplefilter("error", squama.KinkWarning)`` turns it into an error. A side on which the measure does not
-    exist is NaN. ``change`` names the event at the kink. ``at_kinks`` selects the value in the gradient.
+    ``warnings.simplefilter("error", squama.KinkWarning)`` turns the warning into an error. A derivative is NaN if the
+    measure has no value on its side. ``change`` names the event at the kink. ``at_kinks`` selects the value in the
+    gradient.
     """
 
     def __init__(self, measure, key, left, right, change):
@@ -72,9 +73,9 @@ class CheckWarning(UserWarning):
 
 
 class FoldWarning(UserWarning):
-    """The surface of the substrate folds at ``fold_force``, before the path ends: beyond it the model does not hold.
+    """The surface of the substrate folds at ``fold_force``, before the path ends. Beyond it the model is not valid.
 
-    Optimise ``"sound_force"`` in place of ``"critical_force"``: it is the force up to the fold.
+    Optimise ``"sound_force"`` in place of ``"critical_force"``: it is the largest valid force, up to the fold.
     """
 
     def __init__(self, fold_force):
@@ -82,4 +83,4 @@ class FoldWarning(UserWarning):
         self.fold_force = fold_force
 
     def __str__(self):
-        return f"the surface folds at fold_force {self.fold_force:.6g}, beyond which the model does not hold: use sound_force"
+        return f"the surface folds at fold_force {self.fold_force:.6g}, beyond which the model is not valid: use sound_force"

@@ -42,10 +42,11 @@ def value_and_gradient(self, measure, keys, at_kinks=None):
 
     ``measure`` is any column of numbers with derivatives, in physical units too (``"critical_force_N"``); keys are
     continuous parameters, or lengths in mm. At a kink there is no derivative: the gradient is NaN, and a
-    `squama.KinkWarning` reports both one-sided derivatives. ``at_kinks`` replaces NaN by the derivative for a decrease of
-    the parameter (``"left"``), for an increase (``"right"``), or their ``"mean"``; the warning remains. If the surface of
-    the substrate folds before the path ends, a `squama.FoldWarning` reports the force at the fold: the model does not
-    hold beyond it, and ``"sound_force"`` is the force up to it. Raises `squama.Failed` if the measure has no value.
+    `squama.KinkWarning` reports both one-sided derivatives. ``at_kinks`` replaces NaN by the derivative for a decrease
+    of the parameter (``"left"``), for an increase (``"right"``), or their ``"mean"``; the warning remains. If the
+    surface of the substrate folds before the path ends, a `squama.FoldWarning` reports the force at the fold. The model
+    is not valid beyond the fold; ``"sound_force"`` is the force up to it. Raises `squama.Failed` if the measure has no
+    value.
     """
     values, rows, _ = _gradient(self, [measure], list(keys), at_kinks, 3)
     return float(values[0]), rows[0]
@@ -62,9 +63,9 @@ class _Solution:
         try:
             point = np.atleast_1d(np.asarray(x))
         except ValueError:
-            # Lists of different lengths form no array.
+            # Lists of different lengths cannot be converted to an array.
             point = np.array(None)
-        # Without this check texts and bytes would be converted to numbers.
+        # Without this check, texts and bytes would be converted to numbers.
         if point.dtype.kind not in "iuf" or point.shape != (len(self.keys),):
             raise InvalidParameter("x", x, f"{len(self.keys)} numbers: {', '.join(self.keys)}")
         x = point.astype(float)
@@ -80,10 +81,11 @@ class _Solution:
 def function(skin, keys, measures, at_kinks=None):
     """Returns functions ``f`` and ``jac`` of the values of ``keys``, for ``scipy.optimize``.
 
-    All other parameters are those of ``skin``. For one measure (a text), ``f(x)`` is a number and ``jac(x)`` an array of
-    shape ``(len(keys),)``; for a list of ``m`` measures, the shapes are ``(m,)`` and ``(m, len(keys))``. A point is solved
-    once for both. Kinks and failures are handled as in ``Skin.value_and_gradient``; set ``at_kinks``, because most
-    optimisers fail on NaN. A point out of bounds raises `squama.InvalidParameter`.
+    All other parameters have their values in ``skin``. For one measure (a text), ``f(x)`` is a number and ``jac(x)`` an
+    array of shape ``(len(keys),)``; for a list of ``m`` measures, the shapes are ``(m,)`` and ``(m, len(keys))``. Calls of
+    ``f`` and ``jac`` at the same point share one solution. Kinks and failures are handled as in
+    ``Skin.value_and_gradient``; set ``at_kinks``, because most optimisers fail on NaN. A point out of bounds raises
+    `squama.InvalidParameter`.
     """
     is_one = isinstance(measures, str)
     solution = _Solution(skin, keys, [measures] if is_one else list(measures), at_kinks)

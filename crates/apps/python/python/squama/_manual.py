@@ -34,8 +34,8 @@ def skin():
         "A skin of scales: Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60).",
         "",
         "Skins are immutable and hashable, and can be pickled. Every parameter of a definition is a keyword and an",
-        "attribute; None stands for its default. Lengths are over the thickness t of the scales; with thickness_mm every",
-        "*_over_t may be given in mm as *_mm.",
+        "attribute; None means its default. Lengths *_over_t are divided by the thickness t of the scales; with",
+        "thickness_mm they may be given in mm as *_mm.",
     ]
     last = None
     for key, section, unit, meaning, expected, default in parameters():
@@ -85,7 +85,7 @@ def stub(text):
     """Returns the text of ``__init__.pyi``; the part after the mark is generated."""
     all_of = [(key, _type(expected), default) for key, *_, expected, default in parameters()]
     geometry = {key for key, section, *_ in parameters() if section == "designs"}
-    # Optional, because the same length may be given in mm.
+    # Lengths are optional, because the same length may be given in mm.
     required = {key for key in geometry if not key.endswith(("_over_t", "_mm"))}
     given = [f"        {key}: {of}{'' if key in required else ' | None = None'}," for key, of, _ in all_of]
     given += [f"        {key}: str | None = None," for key, *_ in named()]

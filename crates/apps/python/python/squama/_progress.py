@@ -5,7 +5,10 @@ import time
 
 
 class Bar:
-    """A progress bar on standard error; ``progress`` may be a function of the completed fraction and a text."""
+    """A progress bar on standard error, if ``progress`` is true.
+
+    ``progress`` may also be a function, which is called with the completed fraction and a text instead.
+    """
 
     def __init__(self, progress):
         self.tell = progress if callable(progress) else self.show if progress else None

@@ -22,7 +22,7 @@ class Result:
     ==================  ==========================================================================================
     ``skin``            the skin
     ``status``          ``"complete"``, or the reason why a measure has no value
-    ``warnings``        texts: failures, limits of the model, curved bodies and printing, as the commands print them
+    ``warnings``        texts on failures, limits of the model, curved bodies and printing, as the commands print them
     ``values``          all measures as a dict, ``None`` for a missing value; ``units`` and ``meanings`` likewise
     ``path``            puncture: displacement, force, tilt … at every equilibrium, as a `Table`
     ``events``          puncture: contacts that open, close and slide, folds and snaps
@@ -69,7 +69,7 @@ class Result:
         """Returns requirements, such as ``"coverage >= 0.6"``, with value, limit and margin, and every warning.
 
         The answer is a dict with ``"requirements"``, a list of dicts, and ``"warnings"``, in the words of ``squama design``.
-        The skin is solved again with gaps 10 % smaller and larger, to warn of cliffs.
+        The skin is solved again with gaps 10 % smaller and larger, to warn of measures that are sensitive to the gap.
         """
         require = [require] if isinstance(require, str) else list(require)
         solved = self._solved if self._solved is not None else self.skin.solve()._solved

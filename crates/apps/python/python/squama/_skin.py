@@ -1,15 +1,15 @@
-"""Methods of a skin that need no solver."""
+"""Methods of ``Skin`` that do not need the solver."""
 
 from ._errors import InvalidParameter
 from ._squama import Skin, named
 
 
 def replace(self, **parameters):
-    """Returns a skin with other values of some parameters; ``None`` is the default.
+    """Returns a skin with other values of some parameters; ``None`` restores the default.
 
     The name of another material or body replaces all values that it supplies.
     """
-    # A length replaces the same length in the other unit.
+    # A length replaces the value of the same length in the other unit.
     lengths = {name.removesuffix("_mm") for name in parameters} | {name.removesuffix("_over_t") for name in parameters}
     other = {f"{name}{unit}" for name in lengths for unit in ("_mm", "_over_t")} - {"thickness_mm"}
     other.update(key for keyword, _, _, keys in named() if keyword in parameters for key in keys)

@@ -16,7 +16,7 @@ def solve_many(skins, measures="all", *, threads=None, progress=False):
     """Solves skins on all cores, and returns a `Table` with the columns of ``designs.csv``, one row per skin.
 
     Parameters in which the skins differ have columns too. A measure that failed is NaN; ``puncture_status`` and
-    ``flexure_status`` say why. Ctrl-C discards the results; use `run` to keep them.
+    ``flexure_status`` state the reason. Ctrl-C discards the results; use `run` to keep them.
     """
     with Bar(progress) as tell:
         skins = [skins] if isinstance(skins, _squama.Skin) else list(skins)
@@ -38,7 +38,8 @@ class Run(Table):
     def rank(self, require=(), maximize=(), minimize=(), weights=None):
         """Ranks the designs that meet the requirements, such as ``"coverage >= 0.6"``, by fitness; returns a `Table`.
 
-        The default criteria are those of the paper; ``maximize`` and ``minimize`` name others. ``weights`` has one for each.
+        The default criteria are the four of the paper; ``maximize`` and ``minimize`` name other columns. ``weights`` holds
+        one weight for each criterion.
         """
         listed = lambda of: [of] if isinstance(of, str) else list(of)  # noqa: E731
         return Table(_squama.rank(self.folder, listed(require), listed(maximize), listed(minimize), weights))
@@ -59,14 +60,14 @@ class Run(Table):
 
 
 def read(folder):
-    """Reads and verifies the designs in a results folder of ``run`` or ``optimise``."""
+    """Reads and verifies the designs in a results folder that ``run`` or ``optimise`` has written."""
     return Run(folder)
 
 
 def run(definition, out=None, *, set=None, resume=False, fresh=False, threads=None, progress=False):
-    """Solves every design of a definition (a path, a text in TOML or a `Skin`) into a folder, as ``squama run``.
+    """Solves every design of a definition (a path, a text in TOML or a `Skin`), and returns a `Run`, as ``squama run``.
 
-    ``out`` defaults to ``results/NAME``; ``set={"puncture.scales": 41}`` overrides keys of the definition.
+    The folder ``out`` defaults to ``results/NAME``; ``set={"puncture.scales": 41}`` overrides keys of the definition.
     Ctrl-C keeps the solved designs, ``resume=True`` continues, and ``fresh=True`` discards earlier results.
     """
     with Bar(progress) as tell:

@@ -14,7 +14,7 @@ def find(known, name, what, given=()):
     try:
         return known[name]
     except KeyError:
-        # Tables have lengths over the thickness, even if the skin was given in mm.
+        # Tables have lengths divided by the thickness, even if the skin was given in mm.
         over_t = str(name).removesuffix("_mm") + "_over_t"
         if over_t not in known and any(name == column for column, *_ in _squama.columns()):
             needed = " and ".join(key for key in _squama.needs(name) if key not in given) or "other parameters or measures"

@@ -1,4 +1,4 @@
-//! Plane frames of co-rotational beams under one load, followed along their equilibrium path.
+//! Equilibrium paths of plane frames of co-rotational beams under a single load.
 
 use membrane::{CorotationalBeam, Ends};
 use solver::{
@@ -8,8 +8,9 @@ use solver::{
 /// A node of a frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrameNode {
+    /// Position at rest.
     pub(super) place: [f64; 2],
-    /// True for fixed `u_x`, `u_y` and `φ`.
+    /// For `u_x`, `u_y` and `φ`, true if it is fixed.
     pub(super) held: [bool; 3],
 }
 
@@ -30,8 +31,8 @@ pub(super) enum Drive {
 
 /// A chain of beams with unit bending stiffness and a vertical dead load on one node.
 ///
-/// The unknowns are the displacements and rotations of the nodes. The load follows the unknowns of
-/// the loaded node.
+/// The unknowns are the displacements and rotations of the nodes, and the load. In the list of
+/// unknowns, the load is placed after the unknowns of the loaded node.
 #[derive(Clone, Debug)]
 pub(super) struct PlaneFrame {
     nodes: Vec<FrameNode>,
@@ -69,13 +70,13 @@ impl PlaneFrame {
     }
 
     fn unknown(&self, node: usize, k: usize) -> usize {
-        // The load follows the unknowns of its node, which keeps the tangent banded.
+        // The load is placed after the unknowns of its node, which keeps the tangent banded.
         3 * node + k + usize::from(node > self.loaded)
     }
 
     /// Returns the poses of the ends of a beam, and the indices of their unknowns.
     ///
-    /// Rotations are measured from the axis at rest.
+    /// The rotations of the ends are the direction of the beam at rest plus the unknown rotations.
     fn ends(&self, z: &[f64], beam: usize) -> (Ends, [usize; 6]) {
         let [from, to] = [self.nodes[beam].place, self.nodes[beam + 1].place];
         let direction = (to[1] - from[1]).atan2(to[0] - from[0]);
@@ -97,7 +98,7 @@ impl PlaneFrame {
         (path.termination() == Some(Termination::Reached)).then_some(points)
     }
 
-    /// Returns the load at its first extremum along the path.
+    /// Returns the load at its first extremum along the path; `None` without one.
     pub(super) fn limit_load(self, max_step: f64) -> Option<f64> {
         let load = self.load();
         let points = self.path(max_step)?;

@@ -5,9 +5,7 @@ use substrate::{Footprint, Springs, calibrate, extrapolated};
 
 use super::Benchmark;
 
-/// Gap (over `a`) at which the coupling of rectangles is negligible.
-///
-/// The coupling is below the precision of the references.
+/// Gap, divided by `a`, at which the coupling of rectangles is below the precision of references.
 const ALONE: f64 = 1e5;
 
 /// Names of the six coefficients.
@@ -48,7 +46,7 @@ fn square() -> anyhow::Result<Vec<Benchmark>> {
     ];
     let square = square.map(|(name, source, values)| Benchmark::new(name, source, values, 1e-4));
     let mut all = Vec::from(square);
-    // The reference has three decimals.
+    // The band is the round-off of the reference, which has three decimals.
     let row = six(&springs(0.2, 2.0)?);
     let printed = [half_space::THREE_SQUARES_DIRECT, half_space::THREE_SQUARES_COUPLING];
     let printed = printed.iter().flat_map(half_space::Stiffnesses::values);
@@ -59,15 +57,17 @@ fn square() -> anyhow::Result<Vec<Benchmark>> {
     Ok(all)
 }
 
-/// Compares the coefficient with the largest difference from a much finer mesh.
+/// Compares the springs of rectangles with a much finer mesh.
+///
+/// Each rectangle has one benchmark: the coefficient with the largest difference.
 fn converged() -> anyhow::Result<Vec<Benchmark>> {
     let corners = [(0.05, 0.25), (0.05, 80.0), (0.2, 2.0), (2.0, 20.0), (80.0, 0.25), (80.0, 80.0)];
     let mut all = Vec::new();
     for (gap, width) in corners {
         let ours = six(&springs(gap, width)?);
         let fine = extrapolated(&footprint(gap, width)?, [16, 24])?;
-        // Relative to the direct coefficient, because a vanishing coupling has no significant
-        // digits.
+        // Differences are relative to the direct coefficient, because a vanishing coupling has no
+        // significant digits.
         let off: [f64; 6] = std::array::from_fn(|k| ((ours[k] - fine[k]) / fine[k % 3]).abs());
         let k = (0..6).max_by(|a, b| off[*a].total_cmp(&off[*b])).unwrap_or(0);
         let name = format!("d/a = {gap}, b/a = {width}: {} (the worst)", NAMES[k]);

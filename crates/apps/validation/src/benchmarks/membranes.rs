@@ -9,13 +9,13 @@ use super::frame::{Drive, FrameNode, PlaneFrame};
 
 /// Loads `P L²/EI`, for small, medium and large rotations.
 const LOADS: [f64; 3] = [1.0, 5.0, 10.0];
-/// Half a unit of the last digit in the table.
+/// Half a unit of the last digit in Mattiasson's table.
 const DIGITS: f64 = 5e-6;
 /// Axial stiffness of a cantilever with unit length and bending stiffness.
 ///
-/// The stretch at the largest load is 1e-6.
+/// With this value, the strain at the largest load is only 1e-6.
 const AXIAL: f64 = 1e7;
-/// Numbers of elements: two meshes for the order of convergence, and the compared one.
+/// Numbers of elements: two meshes for the order of convergence, and the mesh that is compared.
 const MESHES: [usize; 3] = [8, 16, 64];
 
 /// Returns the displacement of the tip under a load; `None` if the path stops before.

@@ -11,7 +11,7 @@ pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
     Ok(vec![toggle()?, lees_frame()?])
 }
 
-/// Compares the limit load of half a toggle frame.
+/// Compares the limit load of half a toggle frame with its closed form.
 fn toggle() -> anyhow::Result<Benchmark> {
     let (base, height, axial) = (1.0, 0.2, 1e3);
     let hinge = FrameNode { place: [0.0, 0.0], held: [true, true, false] };
@@ -48,7 +48,8 @@ fn lees_frame() -> anyhow::Result<Benchmark> {
     };
     let order = ((coarse - medium) / (medium - fine)).abs().log2();
     let name = "Lee's frame: first limit load P L²/EI";
-    // The reference is inextensible and our frame is not, so a difference remains on all meshes.
+    // The reference is inextensible. The frame of squama is not, so a difference remains on all
+    // meshes.
     let source = "Lee, Manuel & Rossow 1968, inextensible";
     Ok(Benchmark { order: Some(order), ..Benchmark::new(name, source, [LEES_FRAME, fine], 5e-3) })
 }

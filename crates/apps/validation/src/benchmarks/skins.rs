@@ -18,7 +18,7 @@ pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
     Ok(all)
 }
 
-/// Compares the critical force and displacement of a scale without neighbours.
+/// Compares critical force and displacement of a scale without neighbours with closed forms.
 fn isolated_scale() -> anyhow::Result<Vec<Benchmark>> {
     let design = Design { gap: 1.0, length: 0.5, slant_deg: 45.0, base: Base::L, width: 1.0 };
     let parameters = puncture::PunctureParameters {
@@ -46,14 +46,14 @@ fn isolated_scale() -> anyhow::Result<Vec<Benchmark>> {
     rows.collect()
 }
 
-/// Compares the bending of upright blocks before and at their first contact.
+/// Compares the bending of upright blocks before and at their first contact with closed forms.
 fn bending() -> anyhow::Result<Vec<Benchmark>> {
     let design = Design { gap: 0.1, length: 1.0, slant_deg: 0.0, base: Base::L, width: 1.0 };
     let (gap, pitch) = (design.gap, design.gap + design.length);
     let missing = "upright blocks do not meet";
     let [one, many] = [MembraneMesh::Elements(1), MembraneMesh::Auto].map(|elements_per_gap| {
         let parameters = flexure::FlexureParameters {
-            // With the length of the sweeps, 100 t, upright blocks with this gap never touch.
+            // On a strip of 100 t, as in the sweeps, upright blocks with this gap never touch.
             membrane_length: 10.0,
             elements_per_gap,
             ..flexure::FlexureParameters::default()

@@ -10,6 +10,7 @@ pub(super) const FORCE: DesignValue = |design| design.critical_force;
 pub(super) const LARGEST_STIFFNESS: DesignValue = |design| design.max_stiffness;
 pub(super) const INITIAL_STIFFNESS: DesignValue = |design| design.initial_stiffness;
 
+/// Returns the rank correlation of a stiffness with the critical force.
 pub(super) fn correlation(evidence: &Evidence, stiffness: DesignValue) -> Option<Measured> {
     let pairs: Vec<_> = evidence
         .designs
@@ -20,12 +21,15 @@ pub(super) fn correlation(evidence: &Evidence, stiffness: DesignValue) -> Option
     Some(ranking::rank_correlation(&pairs)?.into())
 }
 
+/// Returns the effect of the slant on a value, relative to the larger effect of gap and length.
+///
+/// Effects are fractions of the variance of the logarithm.
 pub(super) fn shares(
     evidence: &Evidence,
     among: fn(&MeasuredDesign) -> bool,
     value: DesignValue,
 ) -> Option<Measured> {
-    // Variance of the logarithm, because the largest of values over decades would dominate.
+    // Values span decades, so without the logarithm the largest would dominate the variance.
     let designs: Vec<_> = evidence
         .designs
         .iter()
@@ -36,7 +40,7 @@ pub(super) fn shares(
         return None;
     }
     let [gap, length, slant] = [GAP, LENGTH, SLANT].map(|p| 100.0 * explained(&designs, p));
-    // Relative to the larger of the others: the slant matters most if the ratio is at least 1.
+    // The slant has the largest effect if this ratio is at least 1.
     let value = slant / gap.max(length);
     let shown = format!("{}: d/t {gap:.0} %, L/t {length:.0} %, slant {slant:.0} %", digits(value));
     Some(Measured { value, shown })

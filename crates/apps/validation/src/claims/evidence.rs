@@ -1,4 +1,4 @@
-//! The evidence for the verdicts: only numbers, so that tests can construct it.
+//! The evidence for the verdicts. It consists of numbers, so that tests can construct it.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,7 +9,7 @@ use crate::study::MeasuredDesign;
 
 /// Relative difference below which two values are equal.
 ///
-/// Equivalent values differ by the round-off of their paths.
+/// The values of equivalent designs differ by the round-off of their paths.
 const EQUAL: f64 = 1e-6;
 
 /// Maximum number of equal designs that are listed.
@@ -20,19 +20,19 @@ const LISTED: usize = 3;
 pub(crate) struct Evidence {
     /// Every design of the study.
     pub(crate) designs: Vec<MeasuredDesign>,
-    /// The punctures of Fig. 6b by slant, with `L/t = 1` and `d/t = 0.1`.
+    /// The punctures of Fig. 6b, sorted by slant, with `L/t = 1` and `d/t = 0.1`.
     pub(crate) by_slant: Vec<PunctureCurve>,
-    /// The punctures of Fig. 6d by length, with `d/t = 0.1` and 45°.
+    /// The punctures of Fig. 6d, sorted by length, with `d/t = 0.1` and 45°.
     pub(crate) by_length: Vec<PunctureCurve>,
-    /// The punctures of Fig. 6f by gap, with `L/t = 0.5` and 45°.
+    /// The punctures of Fig. 6f, sorted by gap, with `L/t = 0.5` and 45°.
     pub(crate) by_gap: Vec<PunctureCurve>,
     /// The rows of Fig. 9 with slants of 0° and 75°, under the same force.
     pub(crate) loaded: Option<[LoadedRow; 2]>,
     /// Stiffness of two blocks just after first contact, relative to just before.
     pub(crate) kink: Option<f64>,
-    /// The strips of Figs. 10c and 11b by slant, with `L/t = 1` and `d/t = 0.1`.
+    /// The strips of Figs. 10c and 11b, sorted by slant, with `L/t = 1` and `d/t = 0.1`.
     pub(crate) strips: Vec<BentStrip>,
-    /// The strip without slant, with a length of ten thicknesses.
+    /// A strip of upright scales with a length of ten thicknesses.
     pub(crate) short_strip: Option<BentStrip>,
     /// The best design for equal weights.
     pub(crate) balanced: Option<Balanced>,
@@ -62,7 +62,7 @@ pub(crate) struct CurveEnd {
     pub(crate) force: f64,
     /// Tilt of the punctured scale, degrees.
     pub(crate) tilt_deg: f64,
-    /// Depth of the deepest base corner, over `t`.
+    /// Depth of the deepest base corner, divided by `t`.
     pub(crate) penetration: f64,
 }
 
@@ -101,7 +101,9 @@ pub(crate) struct BentStrip {
     pub(crate) axial_before: f64,
     /// Ratio of axial to bending energy of the membrane at the end.
     pub(crate) axial_at_end: f64,
-    /// Slope `dM*/dκ*` at the end, over the largest slope after contact.
+    /// Slope `dM*/dκ*` at the end, divided by the largest slope after contact.
+    ///
+    /// `None` without contact, or if the path stops early.
     pub(crate) softening: Option<f64>,
 }
 
@@ -114,7 +116,7 @@ pub(crate) struct Balanced {
     pub(crate) fitness: f64,
     /// Percentage of the weightings for which this design is the best.
     pub(crate) share: f64,
-    /// Percentage of the weightings for which the printed optimum is the best.
+    /// Percentage of the weightings for which the optimum printed in the paper is the best.
     pub(crate) share_of_printed: f64,
 }
 
@@ -124,7 +126,7 @@ impl From<Balanced> for BestDesigns {
     }
 }
 
-/// The designs with the largest value; several if they are equal.
+/// The design with the largest value, or several designs with equal values.
 #[derive(Clone, Debug)]
 pub(crate) struct BestDesigns {
     pub(crate) designs: Vec<MeasuredDesign>,
@@ -145,7 +147,7 @@ impl fmt::Display for BestDesigns {
 impl Evidence {
     /// Returns the design with these parameters.
     pub(crate) fn design(&self, gap: f64, length: f64, slant: f64) -> Option<&MeasuredDesign> {
-        // Exact comparison, because tables hold the numbers of the grid with all digits.
+        // Numbers are compared exactly, because tables hold all digits of the grid.
         self.designs.iter().find(|d| (d.gap, d.length, d.slant) == (gap, length, slant))
     }
 
@@ -162,9 +164,9 @@ impl Evidence {
         Some(BestDesigns { designs: equal.map(|(design, _)| design).collect(), value: largest })
     }
 
-    /// Returns values along lines of designs that differ in one parameter, sorted by it.
+    /// Returns the values on each line of designs that differ only in the parameter `along`.
     ///
-    /// Only designs of the figures are included.
+    /// The values of a line are sorted by this parameter. Only designs of the figures are included.
     pub(crate) fn lines(
         &self,
         along: DesignParameter,

@@ -13,19 +13,19 @@ use super::evidence::{Balanced, BentStrip, CurveEnd, Evidence, LoadedRow, Punctu
 use super::statistics::{DesignParameter, GAP, LENGTH, SLANT};
 use crate::study::{MeasuredDesign, Study};
 
-/// Displacement `u/t` at the end of the curves, as for the rows in Fig. 6.
+/// Displacement `u/t` at the end of the curves, as in Fig. 6.
 const DEPTH: f64 = 0.7;
 
 /// The number of depths at which contact forces are evaluated.
 const DEPTHS: usize = 14;
 
-/// Minimum fraction of the load for a scale to count as loaded.
+/// Minimum fraction of the load that a scale must carry to count as loaded.
 const CARRIES: f64 = 0.05;
 
 /// Largest step of paths from which slopes are taken.
 const FINE: f64 = 2e-3;
 
-/// Length (over `t`) of a strip that bends further than the strips of the paper.
+/// Length, divided by `t`, of a strip that bends further than the strips of the paper.
 const SHORT: f64 = 10.0;
 
 /// Maximum number of halvings of a strip until its scales touch.
@@ -89,7 +89,7 @@ fn curve(study: &Study, design: &MeasuredDesign) -> PunctureCurve {
     }
 }
 
-/// Returns `u*` and `F*` at the first contact, if it lies on the curve.
+/// Returns `u*` and `F*` at the first contact; `None` if it lies beyond the curve.
 fn first_contact(puncture: &Puncture) -> Option<[f64; 2]> {
     let first = puncture.events.iter().find(|event| event.change == ContactChange::Closed)?.point;
     (first.displacement < DEPTH).then_some([first.displacement, first.force])
@@ -109,16 +109,16 @@ fn curve_end(case: &Case, snapshot: &RowSnapshot) -> CurveEnd {
     }
 }
 
-/// Returns the angle between the strongest contact force and the horizontal.
+/// Returns the angle between the largest contact force and the horizontal, degrees.
 fn contact_angle_deg(snapshot: &RowSnapshot) -> Option<f64> {
     let forces = snapshot.contacts.iter().map(|contact| contact.force);
     let strongest = forces.max_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])))?;
     Some(strongest[1].abs().atan2(strongest[0].abs()).to_degrees())
 }
 
-/// Solves the rows of Fig. 9 under the largest force that both reach on their curves.
+/// Solves the rows of Fig. 9, with 0° and 75°, under the largest force that both rows reach.
 ///
-/// The designs are the ones in Fig. 6a.
+/// The designs are the designs of Fig. 6a.
 fn loaded(study: &Study) -> Option<[LoadedRow; 2]> {
     let cases = [0.0, 75.0].map(|slant| case(study, 0.1, 1.0, slant));
     let forces =
@@ -145,10 +145,11 @@ fn loaded_row(snapshot: &RowSnapshot) -> LoadedRow {
     }
 }
 
+/// Solves the puncture of a row of two upright scales.
 fn two_blocks(study: &Study) -> Option<Puncture> {
     let mut case = case(study, 0.1, 1.0, 0.0);
     case.puncture.scales = RowLength::Scales(2);
-    // Small, equal steps, so that mean slopes approximate the slopes at the contact.
+    // Steps are small and equal, so that mean slopes approximate the slopes at the contact.
     case.common.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
     puncture::solve(&case.design, &substrate(&case)?, &case.common, &case.punctured()).ok()
 }
@@ -213,7 +214,7 @@ fn balanced(study: &Study) -> Option<Balanced> {
         best: study.designs.get(best.row()).copied()?,
         fitness: best.fitness,
         share: 100.0 * best.share(),
-        // A design without a win has 0 % of the weightings.
+        // A design that is never the best has 0 % of the weightings.
         share_of_printed: printed.map_or(0.0, |winner| 100.0 * winner.share()),
     })
 }

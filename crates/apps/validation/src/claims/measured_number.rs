@@ -1,9 +1,9 @@
-//! A measured number.
+//! A number measured for a statement.
 
 use super::digits;
 use super::statistics::TrendSteps;
 
-/// A measured number, with its text for the page.
+/// A number measured for a statement, with its text for the page.
 pub(crate) struct Measured {
     pub(crate) value: f64,
     pub(crate) shown: String,

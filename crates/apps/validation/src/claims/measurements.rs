@@ -15,7 +15,7 @@ use crate::study::MeasuredDesign;
 pub(crate) enum Measurement {
     /// A number that must lie within limits.
     Number(fn(&Evidence) -> Option<Measured>),
-    /// The designs with a largest value, which must be the paper's.
+    /// The designs with a largest value, which must be the designs that the paper names.
     Best(fn(&Evidence) -> Option<BestDesigns>),
 }
 
@@ -28,7 +28,7 @@ pub(super) fn measurement(id: &str) -> Option<Measurement> {
 /// Measurements of coverage and of the punctures of Figs. 3 and 6.
 fn of_puncture(id: &str) -> Option<Measurement> {
     Some(match id {
-        // If the largest coverage is 0, all coverages are.
+        // If the largest coverage is 0, all coverages are 0.
         "C01" => Number(|e| Some(e.best(|d| d.slant == 0.0, |d| d.coverage)?.value.into())),
         "C02a" => Best(|e| e.best(|_| true, |d| d.coverage)),
         "C02b" => Number(smallest_gap_largest_length),
@@ -120,16 +120,16 @@ fn of_best_designs(id: &str) -> Option<Measurement> {
     })
 }
 
-/// Returns the coverage of smallest gap and largest length, relative to the maximum.
+/// Returns the coverage at the smallest gap and largest length, relative to the maximum.
 fn smallest_gap_largest_length(evidence: &Evidence) -> Option<Measured> {
     let there = evidence.design(0.1, 1.0, 45.0)?;
     let best = evidence.best(|_| true, |d| d.coverage)?;
-    // One of several equal designs has the maximum, too.
+    // If the design equals the best one up to round-off, the ratio must be exactly 1.
     let equal = best.designs.iter().any(|design| named(design) == named(there));
     Some(if equal { 1.0 } else { there.coverage? / best.value }.into())
 }
 
-/// Counts the scales of a row in Fig. 9 that `count` selects.
+/// Returns a number of scales in row `which` of Fig. 9: 0 is upright, 1 has a slant of 75°.
 fn loaded(evidence: &Evidence, which: usize, count: fn(&LoadedRow) -> usize) -> Option<Measured> {
     let row = evidence.loaded.as_ref()?.get(which)?;
     let count = count(row);
@@ -138,6 +138,7 @@ fn loaded(evidence: &Evidence, which: usize, count: fn(&LoadedRow) -> usize) -> 
     Some(Measured { value: count as f64, shown })
 }
 
+/// Returns the percentage of weightings for which the optimum printed in the paper is the best.
 fn share_of_printed(evidence: &Evidence) -> Option<Measured> {
     let balanced = evidence.balanced?;
     let ours = format!("{}, wins {:.1} %", named(&balanced.best), balanced.share);

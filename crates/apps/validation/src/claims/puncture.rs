@@ -13,10 +13,10 @@ pub(super) fn first_contact(evidence: &Evidence, slant: f64) -> Option<f64> {
     evidence.design(0.1, 1.0, slant)?.first_contact
 }
 
+/// Returns `u*` at first contact with 75°, relative to the smaller value of 0° and 45°.
 pub(super) fn steep_scales_touch_first(evidence: &Evidence) -> Option<Measured> {
     let [flat, slanted, steep] = [0.0, 45.0, 75.0].map(|slant| first_contact(evidence, slant));
     let (flat, slanted, steep) = (flat?, slanted?, steep?);
-    // Relative to the earlier of the two others.
     let value = steep / flat.min(slanted);
     let [of, others] = [steep, flat.min(slanted)].map(digits);
     Some(Measured { value, shown: format!("{}: {of} against {others}", digits(value)) })
@@ -27,7 +27,7 @@ fn listed(values: &[Option<f64>]) -> String {
     shown.collect::<Vec<_>>().join(", ")
 }
 
-/// Counts the steps along a line of curves in the expected direction.
+/// Returns the percentage of steps between neighbouring curves in the expected direction.
 pub(super) fn trend(
     curves: &[PunctureCurve],
     value: impl Fn(&PunctureCurve) -> Option<f64>,
@@ -39,7 +39,7 @@ pub(super) fn trend(
     Some(Measured { value: steps.percent()?, shown: format!("{steps}: {shown}") })
 }
 
-/// Returns the ratio of the largest to the smallest existing value.
+/// Returns the ratio of the largest to the smallest value of the curves that have a value.
 pub(super) fn spread(
     curves: &[PunctureCurve],
     value: impl Fn(&PunctureCurve) -> Option<f64>,
@@ -52,7 +52,9 @@ pub(super) fn spread(
     Some(Measured { value, shown: format!("{ratio}: {low} to {high}") })
 }
 
-/// Counts the steps with later contact; rows without contact count as latest.
+/// Returns the percentage of steps to a larger gap with later contact.
+///
+/// Rows without contact count as latest contact.
 pub(super) fn contact_is_delayed(evidence: &Evidence) -> Option<Measured> {
     let contacts: Vec<_> = evidence.by_gap.iter().map(|curve| Some(curve.contact?[0])).collect();
     let touching = contacts.iter().rposition(Option::is_some)?;
@@ -64,11 +66,13 @@ pub(super) fn contact_is_delayed(evidence: &Evidence) -> Option<Measured> {
     Some(Measured { value: steps.percent()?, shown })
 }
 
+/// Returns the slope after contact with 75°, relative to the slope with 0°.
 pub(super) fn stiffening_by_slant(evidence: &Evidence) -> Option<Measured> {
     let [steep, upright] = [75.0, 0.0].map(|slant| at_slant(evidence, slant));
     Some((steep?.slope_after_contact()? / upright?.slope_after_contact()?).into())
 }
 
+/// Returns the slope after contact of upright scales, relative to their slope before contact.
 pub(super) fn stiffening_by_contact(evidence: &Evidence) -> Option<Measured> {
     let curve = at_slant(evidence, 0.0)?;
     Some((curve.slope_after_contact()? / curve.slope_before_contact()?).into())

@@ -20,7 +20,7 @@ pub(crate) struct Statement {
     pub(crate) limits: String,
 }
 
-/// The verdict on a statement, with the result behind it.
+/// The verdict on a statement, with the result that decides it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// The verdict.
@@ -30,7 +30,7 @@ pub struct Finding {
 }
 
 impl Statement {
-    /// Judges the statement; a missing value counts as not reproduced.
+    /// Checks the statement. A missing value counts as not reproduced.
     ///
     /// # Errors
     /// If the statement has no measurement, or its limits cannot be parsed.

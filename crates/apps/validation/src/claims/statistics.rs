@@ -21,6 +21,7 @@ pub(crate) struct TrendSteps {
     pub(crate) right: usize,
     /// Steps without a value at one end, hence without direction.
     pub(crate) missing: usize,
+    /// All steps.
     pub(crate) all: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Verdicts on constructed tables.
+//! Verdicts on constructed evidence.
 
 use Verdict::{InPart, NotReproduced, Reproduced};
 
@@ -7,6 +7,7 @@ use super::verdict::{Limits, Optimum, Verdict};
 use super::{STATEMENTS, judge, statements, verdict};
 use crate::study::MeasuredDesign;
 
+/// Returns the verdict on the claim `id`.
 fn on(id: &str, evidence: &Evidence) -> Verdict {
     let claims = statements().expect("tables");
     let (_, statements) = claims.iter().find(|(claim, _)| claim.id == id).expect("a claim");
@@ -122,7 +123,7 @@ fn the_best_coverage_may_be_shared_with_a_shorter_scale_but_not_with_another_sla
     assert_eq!(on("C02", &designs(steeper_is_better)), NotReproduced);
 }
 
-/// Returns a curve with first contact at `contact`, continued with `slope`.
+/// Returns a curve with first contact at `[u*, F*]`, and the slope `slope` from there to its end.
 fn curve(design: MeasuredDesign, contact: [f64; 2], slope: f64) -> PunctureCurve {
     let [displacement, force] = contact;
     let force = force + slope * (0.7 - displacement);
@@ -295,7 +296,7 @@ fn slanted_scales_soften_and_unslanted_ones_do_not() {
 }
 
 #[test]
-fn ranges_of_three_orders_of_magnitude_are_checked() {
+fn a_loss_of_compliance_by_three_orders_of_magnitude_is_checked() {
     let loss = |loss: f64| {
         let touching = MeasuredDesign {
             initial_compliance: Some(0.5),
@@ -303,7 +304,7 @@ fn ranges_of_three_orders_of_magnitude_are_checked() {
             bends_to_contact: true,
             ..design(0.1, 1.0, 75.0)
         };
-        // This length is not part of the figure.
+        // The figures do not include this length.
         let shorter = MeasuredDesign { length: 0.05, compliance: Some(1e-9), ..touching };
         designs([touching, shorter])
     };
@@ -344,7 +345,7 @@ fn the_most_flexible_slant_is_60_only_if_75_is_not_as_good() {
     let exposed = MeasuredDesign { coverage: Some(0.0), ..flexible(0.0, 2.0) };
     let with = |other| designs([flexible(60.0, 0.9), flexible(75.0, other), exposed]);
     assert_eq!(on("C26", &with(0.8)), Reproduced);
-    // Equal up to round-off, on either side.
+    // Both compliances are equal up to round-off, which may have either sign.
     assert_eq!(on("C26", &with(0.9 - 1e-10)), InPart);
     assert_eq!(on("C26", &with(0.9 + 1e-10)), InPart);
     assert_eq!(on("C26", &designs([flexible(45.0, 0.9), flexible(60.0, 0.8)])), NotReproduced);

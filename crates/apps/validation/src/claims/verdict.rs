@@ -7,11 +7,11 @@ use crate::study::MeasuredDesign;
 /// The verdict on a claim of the paper, or on one of its statements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The claim holds.
+    /// The result agrees with the claim.
     Reproduced,
-    /// The claim holds in part.
+    /// The result agrees with a part of the claim, or approximately.
     InPart,
-    /// The claim does not hold.
+    /// The result contradicts the claim, or has no value.
     NotReproduced,
 }
 
@@ -26,7 +26,8 @@ impl Verdict {
 
     /// Returns the verdict on a claim from the verdicts on its statements.
     ///
-    /// It is reproduced if all are, and not reproduced if none is, not even in part.
+    /// The claim is reproduced if all statements are reproduced, and not reproduced if all are not
+    /// reproduced. Otherwise it is reproduced in part.
     pub(crate) fn of_all(statements: &[Self]) -> Self {
         let is_whole = statements.iter().all(|found| *found == Self::Reproduced);
         let is_partial = statements.iter().any(|found| *found != Self::NotReproduced);
@@ -82,7 +83,9 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Parses limits such as `≥ 100; in part ≥ 75`; with a single range no part is possible.
+    /// Parses limits such as `≥ 100; in part ≥ 75`.
+    ///
+    /// With a single range, a number is reproduced or not, but never in part.
     pub(crate) fn read(text: &str) -> Option<Self> {
         let (holds, in_part) = text.split_once("; in part ").unwrap_or((text, text));
         Some(Self { holds: interval(holds)?, in_part: interval(in_part)? })
@@ -111,7 +114,7 @@ impl DesignRange {
     }
 }
 
-/// The designs that must be the best for reproduction in full and in part.
+/// The ranges in which the best designs must lie for reproduction in full and in part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Optimum {
     /// The designs with the printed numbers.
@@ -125,7 +128,7 @@ impl Optimum {
     ///
     /// The format is `(0.1, 0.1, 75°); in part (0.1 to 0.3, any, 60° to 75°) or among equals`.
     ///
-    /// Without ranges after `in part`, the words mean the printed designs.
+    /// Without ranges after `in part`, the printed designs are used for both.
     pub(crate) fn read(text: &str) -> Option<Self> {
         // Best designs may always be equal, so limits without `among equals` are invalid.
         let (printed, in_part) = text.split_once("; in part ")?;
@@ -133,9 +136,9 @@ impl Optimum {
         Some(Self { printed: DesignRange::read(printed)?, words: DesignRange::read(words)? })
     }
 
-    /// Returns the verdict on the best designs; there are several if they are equal.
+    /// Returns the verdict on the best designs; several best designs have equal values.
     ///
-    /// If only some of them are the printed design, the claim is reproduced in part.
+    /// If only some of the best designs are printed designs, the claim is reproduced in part.
     pub(crate) fn verdict(&self, best: &[MeasuredDesign]) -> Verdict {
         let all =
             |region: &DesignRange| !best.is_empty() && best.iter().all(|d| region.contains(d));
