@@ -1,6 +1,7 @@
-//! Journals are accepted, or rejected with a one-line error.
+//! Fuzzes the reader of journals: it accepts an input, or rejects it with a one-line error.
 //!
-//! Half of the inputs get correct checksums first, so that the contents of their lines are read.
+//! Half of the inputs get a valid header and correct checksums, so that the reader parses the
+//! contents of their lines.
 #![no_main]
 
 use std::io::Cursor;
@@ -21,7 +22,7 @@ fuzz_target!(|bytes: &[u8]| {
     }
 });
 
-/// Returns a journal with correct checksums: the header of a small sweep, and the lines of `bytes`.
+/// Builds a journal from a valid header and the lines of `bytes`, all with correct checksums.
 fn sealed(bytes: &[u8]) -> Vec<u8> {
     let definition = Sweep::parse("name = 'x'", "x.toml", &[]).expect("a sweep").to_toml();
     let digest = sha256(&definition);
@@ -38,7 +39,7 @@ fn sealed(bytes: &[u8]) -> Vec<u8> {
     journal
 }
 
-/// Returns a line of a journal with its checksum.
+/// Builds a line of a journal: its checksum, computed from `seal` and `content`, and the content.
 fn line(seal: &str, content: &[u8]) -> Vec<u8> {
     let mut hasher = crc32fast::Hasher::new();
     hasher.update(seal.as_bytes());

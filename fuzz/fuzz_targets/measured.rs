@@ -1,4 +1,5 @@
-//! Files of testing machines are accepted, or rejected with an error that names the file.
+//! Fuzzes the reader of test data: it accepts an input, or rejects it with an error that names the
+//! file.
 #![no_main]
 
 use fit::MeasuredCurve;
@@ -10,7 +11,7 @@ fuzz_target!(|bytes: &[u8]| {
     std::fs::write(&path, bytes).expect("writable");
     match MeasuredCurve::read(&path, None) {
         Ok(curves) => {
-            // A point takes at least one byte.
+            // Each point takes at least one byte of the input.
             let points: usize = curves.iter().map(|curve| curve.points.len()).sum();
             assert!(points <= bytes.len());
             for curve in &curves {

@@ -1,4 +1,5 @@
-//! Records of runs and `contents.toml` are accepted, or rejected with one-line errors.
+//! Fuzzes the readers of `run.toml` and `contents.toml`: they accept an input, or reject it with
+//! one-line errors.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

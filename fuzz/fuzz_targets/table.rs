@@ -1,4 +1,4 @@
-//! Tables of designs are accepted, or rejected with a one-line error.
+//! Fuzzes the reader of design tables: it accepts an input, or rejects it with a one-line error.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -45,7 +45,7 @@ fi
 [ "$found" = "$sum" ] || fail "$name.tar.gz has another checksum than this release; nothing was installed"
 tar -xzf "$work/archive" -C "$work"
 mkdir -p "$bin"
-# A rename, because a running command cannot be overwritten.
+# Copy and rename, because a running command cannot be overwritten.
 cp "$work/$name/squama" "$bin/.squama.new"
 mv "$bin/.squama.new" "$bin/squama"
 printf '%s: %s\n' "$bin/squama" "$("$bin/squama" --version)"

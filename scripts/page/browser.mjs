@@ -1,4 +1,4 @@
-// The browser, the pages that are open, and what tests read from them.
+// Starts the browser, opens pages, and reads tables and charts for the tests.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -9,16 +9,16 @@ import { pathToFileURL } from "node:url";
 
 export const WIDE = { width: 1500, height: 1000 };
 
-/** Rows of a table of a run, by header. */
+/** Returns the rows of a CSV table of a run, each as an object with the headers as keys. */
 export const table = (folder, name) => {
   const [header, ...rows] = readFileSync(join(folder, name), "utf8").trim().split(/\r?\n/).map((line) => line.split(","));
   return rows.map((row) => Object.fromEntries(header.map((key, k) => [key, row[k]])));
 };
 
-/** Words of a command, of which some are in quotes. */
+/** Splits a shell command into words; single quotes may enclose a word. */
 const words = (command) => [...command.matchAll(/'([^']*)'|(\S+)/g)].map(([, quoted, plain]) => quoted ?? plain);
 
-/** Starts a browser; `squama` is the program under test. */
+/** Starts a browser; `squama` is the path of the command under test, `place` the folder of the pages. */
 export const start = async ({ place, squama, chromium }) => {
   const { chromium: browserType } = createRequire(join(place, "package.json"))("playwright-core");
   const profile = mkdtempSync(join(tmpdir(), "squama-page-"));
@@ -31,7 +31,7 @@ export const start = async ({ place, squama, chromium }) => {
   });
   const problems = [], requests = [];
 
-  /** Opens a file, and notes what goes wrong and what is asked for. */
+  /** Opens a file in a new page, and records its errors in `problems` and its requests in `requests`. */
   const openFile = async (file, state = "") => {
     const page = await context.newPage();
     page.on("console", (message) => { if (message.type() === "error") problems.push(message.text()); });
@@ -41,14 +41,14 @@ export const start = async ({ place, squama, chromium }) => {
     return page;
   };
 
-  /** Opens the page of a folder, with a state in its address. */
+  /** Opens the report of a run; `state` is the part of the address that selects a state. */
   const open = async (folder, state = "") => {
     const page = await openFile(join(folder, "report.html"), state);
     await ready(page);
     return page;
   };
 
-  /** Runs a command as the page words it. */
+  /** Runs a command that a page shows, with further arguments, and returns its output. */
   const run = (command, ...more) => {
     const [program, ...rest] = words(command);
     assert.equal(program, "squama");
@@ -62,16 +62,16 @@ export const start = async ({ place, squama, chromium }) => {
   return { open, openFile, run, stop, problems, requests };
 };
 
-/** Waits until a page has chosen a design, which is the last thing that it does. */
+/** Waits until a page has selected a design, which is the last step of opening it. */
 export const ready = (page) => page.waitForFunction(() => document.getElementById("detail-title").textContent.startsWith("Design"));
 
-/** Scrolls to a chart, and waits until it is drawn. */
+/** Scrolls to the chart with this `id`, and waits until it is drawn. */
 export const shown = async (page, id) => {
   await page.locator(`#chart-${id}`).scrollIntoViewIfNeeded();
   await page.waitForFunction((own) => { const chart = squama.charts.find((one) => one.id === own); return !chart.stale && chart.svg; }, id);
 };
 
-/** Where the marks of a chart stand in the window, with their rows; the chart is scrolled to. */
+/** Returns rows and positions (in the window, px) of the marks of a chart, after scrolling to it. */
 export const spots = async (page, id) => {
   await shown(page, id);
   return page.evaluate((own) => {
@@ -80,7 +80,7 @@ export const spots = async (page, id) => {
   }, id);
 };
 
-/** The texts of a chart, and the data of its lines. */
+/** Returns path data or text of all elements of a chart that match `selector`. */
 export const drawn = async (page, id, selector = "text") => {
   await shown(page, id);
   return page.locator(`#chart-${id} svg ${selector}`).evaluateAll((all) => all.map((one) => one.getAttribute("d") ?? one.textContent));

@@ -1,4 +1,4 @@
-// Charts and the tetrahedron.
+// Tests of the charts and of the tetrahedron of weights.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { drawn, ready, shown, spots } from "./browser.mjs";
@@ -23,7 +23,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
   },
 
   async "the page shows the figures drawn by the program"() {
-    // One renderer: every mark of the figure in a file has the same position on the page.
+    // Page and command use the same renderer, so the marks of a figure have equal positions.
     run(`squama plot ${results}`, "--out", `${place}/figures`);
     for (const [id, file] of [["critical-force", "critical-force-by-gap-aspect-slant"], ["coverage", "coverage-maps-by-slant"], ["pareto", "pareto-fronts-pairwise"]]) {
       const svg = readFileSync(`${place}/figures/${file}.svg`, "utf8");
@@ -47,15 +47,16 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     for (const [slant, own] of looks) assert.equal(own.size, 1, `${slant}: ${[...own]}`);
   },
 
-  async "no line of compliance crosses the onset of contact"() {
+  async "no line of the compliance chart connects designs with and without contact"() {
     const lines = await drawn(page, "compliance", ".series path[fill=none]");
     assert.ok(lines.length > 10);
-    // Contact reduces the compliance by decades; a panel of 190 px has five decades.
+    // Contact reduces the compliance by decades. A panel of 190 px covers five decades, so a step of
+    // 60 px would connect designs with and without contact.
     const heights = (line) => [...line.matchAll(/[ML]\S+ (\S+)/g)].map(([, y]) => Number(y));
     for (const line of lines) heights(line).slice(1).forEach((y, k) => assert.ok(y - heights(line)[k] < 60, line));
   },
 
-  async "a click on a mark of any figure shows and rings its design"() {
+  async "a click on a mark of any figure selects its design and draws a ring around the mark"() {
     for (const id of CHARTS) {
       const marks = (await spots(page, id)).filter(({ silent }) => !silent);
       const { x, y } = marks[7];
@@ -83,7 +84,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     assert.equal(seen.size, here(one).length);
   },
 
-  async "the arrow keys go from design to design in every figure"() {
+  async "the arrow keys select the next or previous design in every figure"() {
     for (const id of CHARTS) {
       await page.locator(`#chart-${id}`).focus();
       await spots(page, id);
@@ -113,7 +114,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     assert.ok((await drawn(page, "measure")).includes("max moment, dimensionless"));
   },
 
-  async "a click on a weighting shows its best design, and the weights of the sliders are ringed"() {
+  async "a click on weights in the tetrahedron shows their best design, and the current weights are marked"() {
     await page.locator("#equal-weights").click();
     await page.waitForFunction(() => document.querySelector("#tetrahedron .now"));
     assert.equal(await page.locator("#tetrahedron .now").getAttribute("data-steps"), "4,5,5,6");
@@ -129,7 +130,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     assert.ok(colors >= await page.locator("#tetrahedron-legend button").count() - 1, `${colors}`);
   },
 
-  async "the theme follows the button or the system; paper is light"() {
+  async "the theme follows the button or the system, and printed pages are light"() {
     const colors = () => page.evaluate(() => {
       const style = getComputedStyle(document.body);
       const paper = document.querySelector("#tetrahedron svg > rect");

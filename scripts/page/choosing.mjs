@@ -1,4 +1,4 @@
-// Requirements, criteria, weights, the ranking, and the address.
+// Tests of requirements, criteria, weights, the ranking, and the state in the address.
 import assert from "node:assert/strict";
 import { shown, spots, table } from "./browser.mjs";
 
@@ -102,7 +102,7 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.match(await text("#requirement-count"), /all 54 designs/);
     },
 
-    async "criteria are selected, reversed, removed and reset to the paper's"() {
+    async "criteria are added, reversed, removed and reset to the criteria of the paper"() {
       await page.locator("#add-criterion").selectOption("sink");
       assert.deepEqual((await texts("#weights output")).map(Number).reduce((a, b) => a + b, 0).toFixed(9), "1.000000000");
       assert.match(await command(), /--criteria max:coverage,max:critical_force,min:penetration,max:compliance,min:sink --weights/);
@@ -138,10 +138,10 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.equal(await state(sent), await state(page));
       assert.equal(await sent.locator("#detail-title").textContent(), "Design 0030");
       assert.ok(await sent.locator("#compare").isVisible());
-      // An address from outside takes effect immediately, even before a pending update; leading zeros are
-      // ignored.
+      // A new address takes effect immediately and cancels a pending update. Leading zeros of the design
+      // number may be omitted.
       await sent.evaluate(() => { squama.setWeight(0, 70); location.hash = "design=33"; });
-      // Independent of speed: the page rewrites the address with the number of the table.
+      // Wait until the page has written the address with the design number of the table.
       await sent.waitForFunction(() => location.hash === "#design=0033");
       assert.equal(await sent.locator("#detail-title").textContent(), "Design 0033");
       assert.ok(!await sent.locator("#unread").isVisible());

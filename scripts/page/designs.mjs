@@ -1,4 +1,4 @@
-// The table, the selected design, and the comparison of two designs.
+// Tests of the table, of the selected design, and of the comparison of two designs.
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { table } from "./browser.mjs";
@@ -50,7 +50,7 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
     async "a row of the table is selected with the keyboard"() {
       await page.locator("#table thead input").last().focus();
       await page.keyboard.press("Tab");
-      // Tab reaches the selected design.
+      // Tab moves the focus from the last filter to the selected design.
       const from = number(await detail());
       await page.keyboard.press("ArrowDown");
       await page.keyboard.press("Enter");
@@ -67,7 +67,7 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       for (const command of commands.slice(1)) assert.match(run(command, "--out", join(place, "drawn")), /\.svg/);
     },
 
-    async "the drawing of a good design is enlarged, and Escape closes it"() {
+    async "the drawing of a design is enlarged with Enter and closed with Escape"() {
       await page.locator("#best tbody tr").first().focus();
       await page.keyboard.press("Enter");
       await page.locator("#drawing button").focus();
@@ -92,7 +92,8 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       values.forEach((value, k) => assert.ok(Math.abs(value / Number(row([first, second][k]).critical_force) - 1) < 1e-3));
       assert.equal(await page.locator("#compare-drawings > div").count(), 2);
       assert.ok(await page.locator("#compare-drawings svg polygon").count() > 6);
-      // Both curves of each measure are visible on linear and logarithmic axes; the pinned one is dashed.
+      // The curves of both designs are visible on linear and logarithmic axes. The curves of the pinned
+      // design are dashed.
       const curves = () => page.locator("#compare-curves .curve.on").evaluateAll((all) => all.map((one) => ({ design: one.dataset.design, dash: one.style.strokeDasharray, wide: one.getBoundingClientRect().width })));
       for (const kind of ["linear", "logarithmic"]) {
         await page.waitForFunction((log) => document.querySelectorAll("#compare-curves .curve.on").length === 4 && document.querySelector("#compare-curves .drawn").dataset.log === String(log), kind === "logarithmic");

@@ -1,4 +1,4 @@
-// Tests of the explorer: alone, and on the page of a run.
+// Tests of the explorer, as a separate page and in the report of a run.
 import assert from "node:assert/strict";
 import { mkdtempSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -6,22 +6,22 @@ import { join } from "node:path";
 
 const SIZES = [{ width: 1400, height: 900 }, { width: 390, height: 844 }];
 const STATES = 12;
-/** The page of each size: on a half-space, and in millimetres on a layer. */
+/** Page that is tested at each window width: on a half-space, and in millimetres on a layer. */
 const PAGES = { 1400: "explore.html", 390: "finger.html" };
 
-/** Waits for a complete answer of the solver. */
+/** Waits until the solver has returned its final (fine) answer and is idle. */
 const settled = (page) => page.waitForFunction(() => squama.live.answer?.fine && squama.solver.idle(), null, { timeout: 180_000 });
-/** Does something, and waits for the answer to it. */
+/** Calls `act`, and waits for the final answer of the solver to this action. */
 const after = async (page, act) => {
   await page.evaluate(() => { squama.live.answer.fine = false; });
   await act();
   await settled(page);
 };
-/** A number from 0 to 1, the same at every call. */
+/** Creates a reproducible random generator of numbers from 0 to 1. */
 const random = (seed) => { let state = seed; return () => { state = (1664525 * state + 1013904223) % 4294967296; return state / 4294967296; }; };
-/** That two numbers are the same to six digits; what is zero but for round-off has none. */
+/** Asserts that two numbers agree to six digits, or that both are zero up to round-off. */
 const same = (one, other, name) => assert.ok(Math.abs(one - other) <= 1e-6 * Math.max(Math.abs(one), Math.abs(other)) + 1e-10, `${name}: ${one} and ${other}`);
-/** Estimates of errors are round-off themselves, and round-off changes counts of steps. */
+/** Excludes error estimates and numbers of steps, which depend on round-off, from comparisons. */
 const isMeasured = (name) => !/_(error|iterations|points)$/.test(name);
 
 export default ({ openFile, open, place, results, run, problems }) => {
@@ -37,7 +37,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
     return page;
   };
   const values = (page) => page.evaluate(() => Object.fromEntries(squama.live.answer.values.map(({ name, value }) => [name, value])));
-  /** Returns the output of the command for the current design, even if its path ends early. */
+  /** Runs a command and returns its measures, also with exit code 1 (a path ended early). */
   const solved = (command) => {
     try { return JSON.parse(run(command, "--json", "--out", out)).measures; } catch (error) {
       if (error.status !== 1) throw error;
@@ -47,7 +47,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
   const of = (tests) => Object.fromEntries(SIZES.flatMap((size) => tests(size)));
 
   return {
-    ...of((size) => [[`the explorer solves ${STATES} random states as the command does, at ${size.width} pixels`, async () => {
+    ...of((size) => [[`the explorer gives the measures of the command for ${STATES} random designs, at ${size.width} pixels`, async () => {
       const page = await explore(size, "", PAGES[size.width]), next = random(size.width);
       for (let k = 0; k < STATES; k++) {
         const shares = Array.from({ length: 16 }, next);
@@ -61,7 +61,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
         }
       }
       await page.close();
-    }], [`a drag redraws in time at ${size.width} pixels`, async () => {
+    }], [`the median answer time during drags is below 1 s, at ${size.width} pixels`, async () => {
       const page = await explore(size);
       const opened = await page.evaluate(() => { squama.live.times.length = 0; return performance.now(); });
       for (const [id, far] of [["slant", -50], ["gap", 40], ["length", -30]]) {
@@ -79,14 +79,14 @@ export default ({ openFile, open, place, results, run, problems }) => {
       console.log(`        ${times.length} answers to three drags: median ${at(0.5).toFixed(0)} ms, 90 % within ${at(0.9).toFixed(0)} ms, slowest ${at(1).toFixed(0)} ms`);
       assert.ok(times.length > 30 && at(0.5) < 1000, `${times.length} answers, ${at(0.5)} ms`);
       await page.close();
-    }], [`handles, sliders and buttons are large enough and named, at ${size.width} pixels`, async () => {
+    }], [`handles, sliders and buttons are at least 44 px high and have names, at ${size.width} pixels`, async () => {
       const page = await explore(size);
       assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), size.width);
       for (const one of await page.locator("#live button:visible, #live input[type=range]:visible, #live .handle .reach").all()) assert.ok((await one.boundingBox()).height >= 44);
       for (const one of await page.locator("#live [role=slider], #live input, #live button:visible").all()) assert.ok((await one.evaluate((own) => own.getAttribute("aria-label") ?? own.labels?.[0]?.textContent ?? own.textContent)).length > 0);
       assert.match(await page.locator("#live-set-gap_over_t").getAttribute("aria-valuetext"), /^[\d.]+ mm$/);
       await page.close();
-    }], [`a sentence selects a design, and the needle moves sideways, at ${size.width} pixels`, async () => {
+    }], [`a typed sentence selects a design, and dragging the needle moves it sideways, at ${size.width} pixels`, async () => {
       const page = await explore(size, "", "pin.html"), found = page.locator("#live-found");
       const ask = async (sentence) => {
         await page.locator("#live-sentence").fill(sentence);
@@ -96,12 +96,12 @@ export default ({ openFile, open, place, results, run, problems }) => {
         return found.textContent();
       };
       assert.match(await ask("a unicorn"), /^Not understood: a unicorn/);
-      assert.match(await ask("pin 3 mm, 2,5 N, bends to 25 mm"), /^This design meets it/);
+      assert.match(await ask("pin 3 mm, 2,5 N, bends to 25 mm"), /^This design meets the requirements/);
       const own = await values(page);
       assert.ok(own.failure_force_N >= 2.5 && own.bend_radius_mm <= 25, JSON.stringify(own));
       assert.match(await page.locator("#live-command").textContent(), /needle_radius_mm=1\.5/);
       assert.equal(await page.locator("#live-required .unmet").count(), 0);
-      if (size.width > 1000) assert.match(await ask("5000 N"), /^None of \d+ solved designs meets it.*failure force ≥ 5000 N/);
+      if (size.width > 1000) assert.match(await ask("5000 N"), /^None of \d+ solved designs meets the requirements.*failure force ≥ 5000 N/);
       const grip = page.locator("#live-handle-needle .grip"), { x, y, width } = await grip.boundingBox(), at = [x + width / 2, y + width / 2];
       const place = () => page.evaluate(() => squama.live.answer.puncture.load_position), before = await place();
       await after(page, async () => {
@@ -113,7 +113,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.ok(await place() < before - 0.02, `${await place()} and ${before}`);
       assert.match(await page.locator("#live-command").textContent(), /--set puncture\.load_position=/);
       await page.close();
-    }], [`four measures and four sliders come first, at ${size.width} pixels`, async () => {
+    }], [`four measures and four sliders are visible first, and all after "more", at ${size.width} pixels`, async () => {
       const page = await explore(size);
       for (const card of await page.locator("#live-cards .card").all()) { const { y, height } = await card.boundingBox(); assert.ok(y + height <= size.height, `${y}`); }
       if (size.width < 1000) await page.locator("#live-sheet").click();
@@ -128,12 +128,12 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.equal(printed.toString("latin1").match(/\/Type\s*\/Page\b/g).length, 1);
       await page.close();
     }]]),
-    async "the row lies on the arc of its body"() {
+    async "the drawn row lies on the arc of its body, and the radius can be typed and dragged"() {
       const size = SIZES[0], page = await explore(size);
       await page.locator("#live-more").click();
       const field = page.locator(".control", { hasText: "Body radius" }).locator("input[type=text]");
       const type = (text) => after(page, async () => { await field.fill(text); await field.press("Enter"); });
-      /** Lowest points of the drawn scales, from left to right, relative to the punctured scale, px. */
+      /** Returns the base midpoints of the drawn scales relative to the punctured scale, left to right, px. */
       const bases = (id) => page.evaluate((own) => {
         const scales = [...document.querySelectorAll(`#${own} .scale:not(.ghost)`)].map((one) => ({ base: one.getAttribute("points").split(" ").slice(0, 2).map((point) => point.split(",").map(Number)), hit: one.classList.contains("punctured") }));
         const middle = ({ base: [[x, y], [u, v]] }) => [(x + u) / 2, (y + v) / 2], [x, y] = middle(scales.find(({ hit }) => hit));
@@ -157,7 +157,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
         await field.press("Enter");
         assert.equal(await field.getAttribute("aria-invalid"), "true", text);
       }
-      // Nodes at rest lie on a circle: the drop is x²/(R + √(R² − x²)).
+      // Nodes at rest lie on a circle, at x²/(R + √(R² − x²)) below the punctured scale.
       await type("20");
       const [scale, thickness] = await page.evaluate(() => { const [a, b] = [...document.querySelectorAll("#live-rest .scale.punctured")].flatMap((one) => one.getAttribute("points").split(" ").slice(0, 2).map((point) => Number(point.split(",")[0]))); return [(b - a) / squama.live.value("length_over_t"), squama.live.value("thickness_mm")]; });
       const radius = (scale * 20) / thickness;
@@ -176,7 +176,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.match(address, /live\.radius_mm=20(&|$)/);
       const other = await explore(size, address);
       assert.equal((await values(other)).critical_force, own);
-      // The radius in mm stays if the thickness changes, and the slider reaches a flat body.
+      // The radius in mm does not change with the thickness. The end of the slider is a flat body.
       await after(page, () => page.evaluate(() => squama.live.set({ thickness_mm: 0.8 })));
       assert.equal(await field.inputValue(), "20");
       await after(page, () => page.evaluate(() => { const slider = document.querySelector("#live-set-radius_mm"); slider.value = 0.0004; slider.dispatchEvent(new Event("input")); }));
@@ -196,7 +196,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.match(await page.locator("#live-command").textContent(), /--set puncture\.needle=free/);
       await page.close();
     },
-    async "the page shows that it is solving until there is an answer"() {
+    async "the page shows 'solving …' until the solver answers"() {
       const page = await openFile(join(place, "explore.html"));
       await page.addInitScript(() => { globalThis.Worker = class { postMessage() {} terminate() {} }; });
       await page.reload();
@@ -212,7 +212,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.deepEqual(problems, []);
       await page.close();
     },
-    async "contacts that stick and slip are counted where they are drawn"() {
+    async "the numbers of sticking and slipping contacts match the drawn contacts"() {
       const page = await explore(SIZES[0]), told = () => page.locator("#live-needle-stuck").textContent();
       assert.equal(await told(), "");
       await after(page, () => page.evaluate(() => squama.live.set({ friction: 0.2, slant_deg: 50 })));
@@ -220,7 +220,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.ok(slip > 0 && await told() === `Where scales touch: ● ${all - slip} stick, ○ ${slip} slip`, await told());
       await page.close();
     },
-    async "typed, key and drag input is solved, and invalid input is ignored"() {
+    async "typed values and arrow keys change the design, and invalid input is ignored"() {
       const page = await explore(SIZES[0]), gap = () => page.evaluate(() => squama.live.value("gap_over_t") * squama.live.value("thickness_mm"));
       const field = page.locator(".control", { hasText: "Gap" }).locator("input[type=text]");
       await after(page, async () => { await field.fill("0,3"); await field.press("Enter"); });
@@ -247,7 +247,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       await settled(page);
       await page.close();
     },
-    async "an arrow moves the design to a limit, which is named"() {
+    async "an improvement arrow moves the design in one direction up to a limit, and the page names the limit"() {
       const page = await explore(SIZES[0]);
       const before = (await values(page)).failure_force;
       const arrow = page.locator(".control", { hasText: "Length" }).locator(".arrow");
@@ -299,7 +299,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
         await page.close();
       }
     },
-    async "requirements are updated, and the handles move along both paths"() {
+    async "requirements are listed, and the drawings follow the chosen points of both paths"() {
       const page = await explore(SIZES[0]);
       assert.equal(await page.locator("#live-required li").count(), 2);
       const words = () => page.locator("#live-needle-words").textContent();
@@ -320,7 +320,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       }
       await page.close();
     },
-    async "the pages are small enough to be sent"() {
+    async "the explorer is smaller than 0.9 MB and the report smaller than 2 MB"() {
       assert.ok(statSync(join(place, "explore.html")).size < 900_000, String(statSync(join(place, "explore.html")).size));
       assert.ok(statSync(join(results, "report.html")).size < 2_000_000);
     },

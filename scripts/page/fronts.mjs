@@ -1,10 +1,10 @@
-// Designs of a search, over the designs of a grid.
+// Tests of the section that compares the front of a search with the designs of a grid.
 import assert from "node:assert/strict";
 import { spots, table } from "./browser.mjs";
 
 export default ({ open, page, place, folders }) => ({
   async "a front is drawn over the grid, joined by a line, with the active constraints of each design"() {
-    assert.ok(!await page.locator("#front").isVisible() && !await page.locator("#front-link").isVisible(), "a sweep without a search has no such section");
+    assert.ok(!await page.locator("#front").isVisible() && !await page.locator("#front-link").isVisible(), "the report of a sweep without a search shows a front");
     const own = await open(folders.front), front = table(`${place}/found`, "front.csv"), grid = table(folders.front, "designs.csv");
     const marks = await spots(own, "front");
     assert.equal(marks.filter(({ row }) => row === null).length, front.length);
@@ -12,14 +12,14 @@ export default ({ open, page, place, folders }) => ({
     const line = (await own.locator("#chart-front .found .line").getAttribute("d")).split(/[ML] ?/).filter(Boolean).map((part) => part.trim().split(" ").map(Number));
     const diamonds = await own.locator("#chart-front [data-front]").evaluateAll((all) => all.map((one) => [Number(one.dataset.front), Number(one.getAttribute("x")), Number(one.getAttribute("y"))]));
     assert.deepEqual(line, diamonds.map(([, x, y]) => [x, y]));
-    // From the smallest coverage to the largest, at the right positions.
+    // The line runs from the smallest to the largest coverage, and diamonds have the right positions.
     assert.deepEqual(diamonds.map(([k]) => k), front.map((one, k) => [k, Number(one.coverage)]).sort((a, b) => a[1] - b[1]).map(([k]) => k));
     const slope = (name, at) => { const [a, b] = [diamonds[0], diamonds.at(-1)]; return (b[at] - a[at]) / (Number(front[b[0]][name]) - Number(front[a[0]][name])); };
     for (const [k, x, y] of diamonds) {
       assert.ok(Math.abs(x - diamonds[0][1] - slope("coverage", 1) * (front[k].coverage - front[diamonds[0][0]].coverage)) < 0.1);
       assert.ok(Math.abs(y - diamonds[0][2] - slope("gap_over_t", 2) * (front[k].gap_over_t - front[diamonds[0][0]].gap_over_t)) < 0.1);
     }
-    // Designs beyond the bound of the search and folded ones are pale and not compared.
+    // Designs that violate the requirement of the search, and folded designs, are pale and not compared.
     const allowed = grid.filter((one) => Number(one.slant_deg) <= 60 && !one.fold_force);
     const beaten = allowed.filter((one) => front.some((other) => {
       const better = ["coverage", "gap_over_t"].map((name) => Number(other[name]) - Number(one[name]));
@@ -31,8 +31,8 @@ export default ({ open, page, place, folders }) => ({
     const rows = await own.locator("#front-table tbody tr").allTextContents();
     assert.equal(rows.length, front.length);
     assert.ok(rows.some((row) => /slant_deg <= 60|upper end/.test(row)), rows.join());
-    // A diamond shows its active constraints and opens in the explorer, like its row; a mark of the grid
-    // is selected.
+    // A diamond shows its active constraints. A click on a diamond or on its table row opens the design
+    // in the explorer; a click on a mark of the grid selects the design of the grid.
     const chosen = await own.locator("#detail-title").textContent();
     const diamond = marks.find(({ row }) => row === null);
     await own.mouse.move(diamond.x, diamond.y);

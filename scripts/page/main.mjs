@@ -1,4 +1,5 @@
-// Tests of the page in a real browser; check-page writes the pages and runs this.
+// Runs all tests of the pages in a real browser. scripts/check-page writes the pages and starts
+// this script. The environment variable ONLY selects the tests with this text in their names.
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -19,7 +20,7 @@ const results = folder("results");
 const { open, openFile, run, stop, problems, requests } = await start({ place, squama, chromium });
 
 const page = await open(results);
-/** Texts of elements, without the sign of a folded design. */
+/** Returns the texts of elements, without the warning sign of folded designs. */
 const texts = async (selector) => (await page.locator(selector).allTextContents()).map((own) => own.replace("⚠", ""));
 const text = (selector) => page.locator(selector).textContent();
 const detail = () => text("#detail-title");
@@ -30,7 +31,7 @@ const column = async (name) => {
   return texts(`#table tbody tr[data-row] td:nth-child(${headers.indexOf(name) + 1})`);
 };
 
-/** That the design which is shown has its parameters, values, drawing and command. */
+/** Asserts that the detail of the selected design has parameters, values, drawing and command. */
 const detailIsWhole = async () => {
   const design = (await detail()).replace("Design ", "");
   const { gap_over_t, length_over_t, slant_deg } = table(results, "designs.csv").find((row) => row.design === design);

@@ -1,5 +1,5 @@
-// Tables for tests of the page: one with folds and physical units, one of 20,000 designs; both from a
-// run.
+// Derives two tables for tests of the page from the table of a run: one with folds and physical
+// units, one with 20,000 designs.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -13,7 +13,7 @@ const write = (name, headers, lines, definition = (text) => text) => {
   writeFileSync(join(place, name, "run.toml"), definition(readFileSync(join(place, "results", "run.toml"), "utf8")));
 };
 
-// Every seventh design folds, at a third of its critical force.
+// Let every seventh design fold at a third of its critical force.
 const force = (row) => Number(row[column("critical_force")]);
 const more = (row, k) => {
   const folded = k % 7 === 3;
@@ -28,7 +28,7 @@ write("folded", headers, rows.map((row, k) => {
   return headers.map((name) => own[name]);
 }));
 
-// Repeats the designs with other widths and values.
+// Repeat the designs with different widths, and vary their values.
 const COPIES = Math.ceil(20000 / rows.length), at = column("slant_deg");
 const widths = Array.from({ length: COPIES }, (_, k) => Number((0.2 + 0.01 * k).toFixed(2)));
 const copies = rows.flatMap((row) => widths.map((width) => ({ row, width })));

@@ -9,19 +9,19 @@ import { table } from "./browser.mjs";
 const TABLES = Number(process.env.TABLES ?? 1000);
 const COLUMNS = ["coverage", "critical_force", "penetration", "compliance"];
 
-/** The scripts of the page that rank, without the page. */
+/** Loads the ranking scripts of the page without the page. */
 const scripts = () => {
   const source = ["ranking", "weightings"].map((name) => readFileSync(`crates/apps/report/assets/page/scripts/${name}.js`, "utf8"));
   return vm.runInNewContext(`const squama = { measures: ${JSON.stringify(COLUMNS)}, criteria: ${JSON.stringify(COLUMNS.map((column) => ({ column, goal: column === "penetration" ? "min" : "max" })))} }; ${source.join("\n")}; squama`);
 };
 
-/** A generator with a seed of its own, so that a failure comes again. */
+/** Creates a seeded random generator, so that failures can be reproduced. */
 const generator = (seed) => () => {
   seed = (1103515245 * seed + 12345) % 2147483648;
   return seed / 2147483648;
 };
 
-/** Designs with ties, gaps, zeros and values over decades. */
+/** Draws a table of designs with ties, empty cells, zeros and values over several decades. */
 const randomDesigns = (random) => Array.from({ length: 2 + Math.floor(25 * random()) }, (_, k) => {
   const cell = (zero) => {
     if (random() < 0.06) return "";
@@ -31,7 +31,7 @@ const randomDesigns = (random) => Array.from({ length: 2 + Math.floor(25 * rando
   return { design: String(k + 1).padStart(4, "0"), coverage: random() < 0.2 ? "0" : String(Math.ceil(20 * random()) / 20), critical_force: cell(0.02), penetration: cell(0.02), compliance: cell(0.02) };
 });
 
-/** Rows as the scripts of the page see a table. */
+/** Wraps rows in the table interface that the scripts of the page use. */
 const asTable = (rows) => ({
   rows: rows.map((_, row) => row),
   has: (name) => name in rows[0],
@@ -41,7 +41,7 @@ const asTable = (rows) => ({
 
 const pick = (random, all) => all[Math.floor(random() * all.length)];
 
-/** Requirements, criteria, weights and a scale: the paper's half of the time. */
+/** Draws requirements, criteria, weights and a scale; in half of the cases those of the paper. */
 const randomChoice = (random, rows) => {
   const columns = random() < 0.5 ? null : COLUMNS.filter(() => random() < 0.7);
   const criteria = columns?.length > 0 ? columns.map((column) => `${random() < 0.5 ? "max" : "min"}:${column}`) : null;
@@ -57,7 +57,7 @@ const randomChoice = (random, rows) => {
 const command = (folder, { criteria, requirements, weights, scale }) => ["rank", folder, ...requirements.flatMap((one) => ["--require", one]),
   ...(criteria ? ["--criteria", criteria.join(",")] : []), "--weights", weights.join(","), "--scale", scale];
 
-/** Compares one table; returns whether it could be ranked. */
+/** Compares page and command for one table; returns true if the table could be ranked. */
 const compare = ({ ranking, weightings }, squama, folder, rows, choice, what) => {
   const own = asTable(rows), criteria = (choice.criteria ?? ranking.USUAL).map((text) => ranking.criterion(own, text));
   const requirements = choice.requirements.map((text) => ranking.requirement(own, text));

@@ -1,14 +1,17 @@
-// Compares the module that pages carry with the native solver: node solver.mjs ANSWERS, where ANSWERS
-// is the example `answers` of the crate `wasm`.
+// Compares the WebAssembly module of the pages with the native solver.
+//
+//     node solver.mjs ANSWERS
+//
+// ANSWERS is the path of the compiled example `answers` of the crate `wasm`.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";
 
 const DESIGNS = 200;
-/** The largest difference of two numbers, over the larger one or 1. */
+/** Largest accepted difference of two numbers, divided by the larger magnitude or 1. */
 const DIFFERENCE = 1e-9;
-/** Estimates of errors and counts of steps: what compilers do with the last digit shows in them first, and no measure depends on them. */
+/** Error estimates and numbers of steps, which are not compared: they depend on the round-off of a compiler. */
 const OF_THE_SOLUTION = /_error$|_iterations$|_points$/;
 
 const packed = readFileSync(new URL("../../crates/apps/report/assets/explore/solver.wasm.gz", import.meta.url));
@@ -21,14 +24,14 @@ const answer = (request) => {
   return new TextDecoder().decode(new Uint8Array(solver.memory.buffer, solver.squama_room(0), length));
 };
 
-/** Number `k` of a sequence that fills the interval from 0 to 1, the same at every call. */
+/** Returns number `k` of the van der Corput sequence in `base`, which fills the interval from 0 to 1. */
 const share = (k, base) => (k === 0 ? 0 : ((k % base) + share(Math.floor(k / base), base)) / base);
 const definition = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\ndesigns.gap_over_t = 0.5\ndesigns.length_over_t = 0.5\ndesigns.slant_deg = 30";
-// Every second needle is guided, with friction.
+// Every second design has a guided needle with friction.
 const guided = (k) => (k % 2 ? { needle: "guided", needle_friction: 0.6 * share(k + 1, 7) } : {});
-// Every second row has friction between scales, under needles of both kinds.
+// Half of the designs have friction between scales, with needles of both kinds.
 const rubbing = (k) => (k % 4 < 2 ? { friction: 0.4 * share(k + 1, 11) } : {});
-// Every tenth row lies on a layer, which needs boundary elements.
+// Every tenth design lies on a layer, which needs boundary elements.
 const layered = (k) => (k % 10 === 9 ? { tissue_thickness_over_t: 0.5 + 5 * share(k + 1, 13) } : {});
 const requests = Array.from({ length: DESIGNS }, (_, k) => JSON.stringify({
   id: k, definition, drawn: [1, 0.5],

@@ -1,4 +1,5 @@
-// Pages of other sweeps: more axes, folds and physical units, failures, a table of 20,000 designs.
+// Tests of the reports of other sweeps: further axes, folds and physical units, failures, a table
+// of 20,000 designs.
 import assert from "node:assert/strict";
 import { drawn, shown, spots, table } from "./browser.mjs";
 
@@ -13,12 +14,12 @@ export default ({ open, run, folders }) => ({
     assert.equal(new Set(titles).size, titles.length);
     const legend = await page.locator("#tetrahedron-legend button").allTextContents();
     assert.ok(legend.length > 1 && legend.every((label) => /b\/t \d/.test(label) && /h\/t \d/.test(label)), legend[0]);
-    // Figures follow the selected design.
+    // Figures change to the axes values of the selected design.
     const other = await page.evaluate(() => squama.rows.findLast((row) => squama.cell(row, "width_over_t") !== squama.view.shown("width_over_t")));
     await page.evaluate((row) => squama.choose(row), other);
     await page.waitForTimeout(300);
     assert.ok((await spots(page, "critical-force")).some(({ row }) => row === other));
-    // Figures exist for every value.
+    // Figures can be shown for every value of an axis.
     const widths = await page.evaluate(() => squama.different("width_over_t").map(String));
     assert.equal(widths.length, 3);
     for (const width of widths) {
@@ -31,7 +32,7 @@ export default ({ open, run, folders }) => ({
     await page.close();
   },
 
-  async "folded designs are marked everywhere, explained, and left out by a switch"() {
+  async "folded designs are marked and explained everywhere, and a switch removes them"() {
     const page = await open(folders.folded), rows = table(folders.folded, "designs.csv");
     const folded = rows.filter((row) => row.fold_force !== "").map((row) => row.design);
     assert.ok(folded.length > 2);
@@ -85,7 +86,7 @@ export default ({ open, run, folders }) => ({
     assert.ok(await nothing.locator("#best tbody tr").count() > 5);
     assert.ok(await nothing.locator("#failure-list tbody tr").count() >= 12);
     assert.ok((await spots(nothing, "coverage")).length >= 12);
-    // With bases twice as long as scales, the thick parts of the line are the coverage.
+    // In a drawing, the thick parts of the vertical line are the covered fraction of its length.
     const covered = await nothing.evaluate(() => {
       const length = (line) => Math.abs(line.getAttribute("y1") - line.getAttribute("y2"));
       return squama.rows.filter((row) => squama.cell(row, "coverage") > 0).map((row) => {
@@ -122,10 +123,10 @@ export default ({ open, run, folders }) => ({
       assert.deepEqual(front, table(out, "pareto.csv").map(({ design }) => design).sort());
     }
     assert.notDeepEqual(orders[0], orders[1]);
-    // The ranking follows the figures, and the figures follow the selected design.
+    // Selecting a design changes the figures, and thus the designs that are ranked.
     await page.evaluate(() => squama.choose(squama.rows.find((row) => squama.cell(row, "membrane_thickness_over_t") === 0.1)));
     assert.deepEqual(plain(await best()), orders[0]);
-    // One front for each kind of design.
+    // Charts with the compliance have a front for each membrane thickness, other charts a single front.
     await shown(page, "pareto");
     const fronts = await page.locator("#chart-pareto [data-criteria]").evaluateAll((all) => all.map((one) => [one.dataset.criteria.includes("compliance"), one.querySelector(".line").getAttribute("d").match(/M/g).length]));
     for (const [measured, lines] of fronts) assert.equal(lines, measured ? 2 : 1);
@@ -146,7 +147,7 @@ export default ({ open, run, folders }) => ({
         sorting: (k) => document.querySelectorAll("#table thead button")[4 + k].click(),
       };
       const median = {};
-      // Up to the next frame, with figures in sight.
+      // Measure the time of a new requirement up to the next frame, with figures in view.
       document.getElementById("figures").scrollIntoView();
       await rest();
       const waits = [];
@@ -158,7 +159,7 @@ export default ({ open, run, folders }) => ({
         await rest();
         await rest();
       }
-      // Other load on the machine only adds time.
+      // Use the smallest time, because other load on the machine only adds time.
       median.requirement = Math.min(...waits);
       squama.require([]);
       document.getElementById("designs").scrollIntoView();
@@ -178,7 +179,7 @@ export default ({ open, run, folders }) => ({
     });
     console.log(`        ${Object.entries(times).map(([name, ms]) => `${name} ${ms.toFixed(0)} ms`).join(", ")}`);
     for (const [name, ms] of Object.entries(times)) assert.ok(ms < 100, `${name}: ${ms} ms`);
-    assert.ok(await page.locator("#table tbody tr[data-row]").count() < 100, "only rows in sight exist");
+    assert.ok(await page.locator("#table tbody tr[data-row]").count() < 100, "rows outside the view exist");
     await page.close();
   },
 });

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Solves one shard of a sweep, as an element of a job array; see submit.sh.
+# Solves one shard of a sweep; submit.sh submits this script as a job array, with one element for
+# each shard.
 #
 # A requeued element resumes its shard and appends to its log. A minute before the time limit Slurm
-# sends SIGTERM: squama discards the designs in progress and writes its tables.
+# sends SIGTERM; squama then discards the designs in progress and writes its tables.
 #SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --signal=B:TERM@60
