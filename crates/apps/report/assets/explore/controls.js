@@ -1,4 +1,4 @@
-// Sliders: one per parameter, with an input field and an arrow in the direction of improvement.
+// Sliders: one for each parameter, with an input field and an arrow that shows how to improve.
 
 (() => {
   const { element, at, live } = squama;
@@ -48,11 +48,11 @@
         if (number !== null) live.set({ [control.key]: number });
       } });
     const unit = element("span", { class: "unit" });
-    // The body is given, so its control has no arrow.
+    // The body is not part of the design, so its control has no arrow.
     control.arrow = control.is_radius ? null : element("button", { type: "button", class: "arrow", onclick: () => live.follow(control.key, control.better > 0) });
     control.show = () => {
       const [factor, name] = live.shownAs(control);
-      // Any step, because a fixed one would round values that were typed or dragged.
+      // The step is "any", because a fixed step would round values that were typed or dragged.
       Object.assign(range, { min: control.min, max: control.max, step: "any", value: live.current(control) });
       range.setAttribute("aria-valuetext", live.text(control.key));
       if (document.activeElement !== field || field.getAttribute("aria-invalid") !== "true") {

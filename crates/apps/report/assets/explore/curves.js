@@ -1,4 +1,4 @@
-// Force over depth and moment over curvature, each with a mark at the current state.
+// Charts of force against depth and moment against curvature, with a mark at the drawn state.
 
 (() => {
   const { svg, at, live } = squama;

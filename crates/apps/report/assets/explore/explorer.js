@@ -31,7 +31,7 @@
     if (open) at("live-rest").scrollIntoView();
   });
 
-  /** Opens a design by keys and values of its parameters; others keep their initial values. */
+  /** Opens a design by keys and values of parameters; other parameters get their initial values. */
   squama.take = (pairs) => {
     const given = pairs.filter(([key, value]) => value !== null && live.control(key));
     const known = given.map(([key, value]) => [key, live.inside(live.control(key), value)]);
@@ -60,7 +60,7 @@
     at("live").classList.toggle("waiting", live.solving() !== null);
   });
 
-  /** Follows the colours of the system; paper is white. */
+  /** Uses the dark or light colours of the system, and light colours in print. */
   const setTheme = () => {
     const root = document.documentElement, dark = matchMedia("(prefers-color-scheme: dark)");
     const show = () => { root.dataset.theme = dark.matches ? "dark" : "light"; };

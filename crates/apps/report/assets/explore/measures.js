@@ -10,7 +10,7 @@
     const plain = named(answer, measure.name);
     return named(answer, measure.physical) ?? (measure.is_curvature ? radius(plain, measure) : plain);
   };
-  // Other dimensionless units are hidden: their symbols are explained only in theory.md.
+  // Dimensionless units other than t are hidden, because the page does not explain their symbols.
   const unitOf = (value) => (/^(N|mm|t$)/.test(value.unit) ? value.unit : "");
 
   const compared = (value, measure) => {
@@ -24,7 +24,7 @@
     const value = shown(live.answer, measure), pressed = live.chosen === measure.name;
     const mode = measure.mode ? named(live.answer, measure.mode)?.text : null, words = mode ? `first failure: ${mode}` : measure.words;
     const choose = () => { live.chosen = measure.name; live.show(); document.querySelector('#live .card[aria-pressed="true"]').focus(); };
-    // The arrows of the sliders improve measures with a goal only, so other cards are no buttons.
+    // The arrows of the sliders only improve measures with a goal, so other cards are not buttons.
     const [tag, choice] = measure.has_goal ? ["button", { type: "button", "aria-pressed": String(pressed), onclick: choose }] : ["div", {}];
     return element(tag, { class: "card", "data-measure": measure.name, title: value?.meaning ?? measure.label, ...choice },
     element("span", { class: "name" }, measure.label), element("span", { class: "value" }, value ? live.digits(value.value) : "–", element("small", {}, ` ${value ? unitOf(value) : ""}`)),

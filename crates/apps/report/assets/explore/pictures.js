@@ -5,7 +5,7 @@
   const radians = (degrees) => (degrees * Math.PI) / 180;
   let grabbed = null;
 
-  /** Computes half-base, gap, shift of the top, and pitch, over the thickness. */
+  /** Computes half-base, gap, tissue depth, shift of the top, pitch and curvature in units of t. */
   const form = (values) => {
     const half = live.value("length_over_t", values) / (live.data.base === "2L" ? 1 : 2), gap = live.value("gap_over_t", values);
     const tissue = live.control("tissue_thickness_over_t") ? live.value("tissue_thickness_over_t", values) : null;
@@ -17,7 +17,7 @@
     const angle = arc * curvature, [cos, sin] = [Math.cos(angle), Math.sin(angle)];
     return { x: curvature ? sin / curvature : arc, y: curvature ? (cos - 1) / curvature : 0, cos, sin };
   };
-  // Scales farther round the body face away from the load and are not solved.
+  // Arc length up to which scales are solved: there, the normal of the body is 80° from the load.
   const farthest = ({ curvature }) => radians(80) / Math.abs(curvature);
 
   const place = (view, [x, y]) => [view.left + view.scale * x, view.base - view.scale * y];
@@ -59,7 +59,7 @@
     const [cx, cy] = place(view, [x, y]);
     return svg("circle", { cx, cy, r: 4, class: slips ? "contact slips" : "contact" });
   });
-  /** Lists the scales within a drawing of this width; those not in `moved` are at rest. */
+  /** Lists the scales within a drawing of this width; scales that are not in `moved` are at rest. */
   const poses = (own, view, width, moved = new Map()) => {
     const ends = [-view.left / view.scale - own.half - own.shift, (width - view.left) / view.scale + own.half];
     // An arc is at most 1.5 times as long as its chord.
@@ -80,15 +80,15 @@
 
   /** Lists the handles: position, and a function from a dragged position to parameters. */
   const handles = (own, scale) => {
-    // Far enough from the first handle for touch input.
+    // The scale with the handle of the gap is far enough from the first handle for touch input.
     const far = Math.max(1, Math.ceil(130 / (scale * own.pitch))), { curvature } = own;
     const [corner] = outline(own, [0, 0, 0], frame(curvature, far * own.pitch));
     // Arc lengths from the node of a scale to its corner, and from the punctured scale to a point.
     const toCorner = (half) => (curvature ? Math.atan(curvature * half) / curvature : half);
     const toPoint = ([x, y]) => (curvature ? Math.atan2(curvature * x, 1 + curvature * y) / curvature : x);
     return [
-      // The drawn base stays and the corner follows the pointer. It moves the thickness; without a
-      // thickness in mm, the lengths over the thickness.
+      // The drawn base stays, and the corner follows the pointer. The height of the corner changes
+      // the thickness or, without a thickness in mm, the length divided by the thickness.
       { id: "slant", key: "slant_deg", spot: [own.half + own.shift, 1], above: true,
         drag: ([x, y], _, { half, values }) => {
           const control = live.control("thickness_mm"), length = live.value("length_over_t", values);

@@ -1,4 +1,4 @@
-// A requirement as a sentence, and the nearest design that meets it.
+// Requirements as a sentence, and the search for the nearest design that meets them.
 
 (() => {
   const { at, live } = squama;
@@ -8,9 +8,9 @@
   const MOST = 160, SPREAD = 40;
   // Number of sliders that a search moves.
   const VARIED = 4;
-  // Bisections towards the present design: steps below the resolution of a slider.
+  // Number of bisections towards the present design. The last step is finer than a slider.
   const HALVINGS = 7;
-  // Shortfall of a value that does not exist, larger than any other.
+  // Shortfall of a missing value, larger than any other shortfall.
   const MISSING = 100;
 
   const force = () => live.data.measures[1].physical;
@@ -44,7 +44,7 @@
     return { known: meanings.filter(Boolean), unknown: parts.filter((_, k) => !meanings[k]) };
   };
 
-  // The values that a message is about.
+  // The parameters to which the message on the page applies.
   let about = "";
   const say = (text) => {
     at("live-found").textContent = text;
@@ -66,7 +66,7 @@
     return MISSING * (requirements.length - known.length) + Math.max(...known.map(({ margin }) => -margin), -1);
   };
 
-  /** Number `k` of a sequence that fills the interval from 0 to 1 evenly. */
+  /** Returns number `k` of the Halton sequence with this base, which fills 0 to 1 evenly. */
   const halton = (k, base) => (k === 0 ? 0 : ((k % base) + halton(Math.floor(k / base), base)) / base);
   const distance = (one, other) => Math.hypot(...one.map((own, j) => own - other[j]));
   const between = (one, other, share) => one.map((own, j) => own + share * (other[j] - own));
@@ -146,9 +146,9 @@
       const { present, best, count, settings } = await search();
       if (best !== present) live.set(settings);
       else live.solve();
-      if (present.miss <= 0) say("The present design meets it.");
-      else if (best.miss <= 0) say(`This design meets it. It is the nearest one found, of ${count} solved.`);
-      else say(`None of ${count} solved designs meets it. The nearest one is shown: ${missed(best.answer)}. The command squama optimise searches longer.`);
+      if (present.miss <= 0) say("The present design meets the requirements.");
+      else if (best.miss <= 0) say(`This design meets the requirements. It is the nearest of ${count} solved designs.`);
+      else say(`None of ${count} solved designs meets the requirements. The nearest one is shown: ${missed(best.answer)}. The command squama optimise searches longer.`);
     } catch (stopped) {
       if (!(stopped instanceof Error)) say("Search stopped.");
       else throw stopped;

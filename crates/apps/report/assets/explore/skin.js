@@ -3,7 +3,7 @@
 squama.live = (() => {
   const data = JSON.parse(squama.at("live-data").textContent);
   const controls = new Map(data.controls.map((control) => [control.key, control]));
-  // Lengths in mm are also found by their key over the thickness.
+  // Controls of lengths in mm are also found by the key of the length divided by the thickness.
   const over = new Map(data.controls.map((control) => [control.over_t, control]));
   const listeners = { moved: [], answered: [] };
   const live = { data, answer: null, pinned: null, drawn: [1, 1], chosen: data.measures[1].name, said: "", times: [] };
@@ -21,7 +21,7 @@ squama.live = (() => {
   live.controls = () => [...controls.values()].filter(({ only }) => !only || live.guided() === (only === "guided"));
   live.control = (key) => controls.get(key) ?? over.get(key);
   live.values = () => Object.fromEntries([...controls.values()].map(({ key, value }) => [key, value]));
-  /** Returns a value under its key in the definition, or a length over the thickness. */
+  /** Returns a value under its key in the definition, or a length divided by the thickness. */
   live.value = (key, values = live.values()) => {
     const control = live.control(key);
     return values[control.key] / (key === control.key ? 1 : values.thickness_mm ?? data.thickness);
@@ -30,7 +30,7 @@ squama.live = (() => {
   live.current = ({ value, max }) => value ?? live.answer?.puncture?.load_position ?? max;
 
   live.digits = (number, count = 4) => (number === null || number === undefined ? "–" : String(Number(number.toPrecision(count))));
-  /** Returns the thickness in mm, the unit of lengths over t, if it is known. */
+  /** Returns the thickness in mm, or null if it is unknown. */
   live.millimetres = () => controls.get("thickness_mm")?.value ?? data.thickness;
   /** Returns the display factor and unit of a control. */
   live.shownAs = ({ unit }) => {
@@ -50,7 +50,7 @@ squama.live = (() => {
   live.wanted = [];
   const columnOf = (requirement) => requirement.match(/^\w+/)[0];
   const others = () => data.requirements.filter((own) => !live.wanted.some((wanted) => columnOf(wanted) === columnOf(own)));
-  /** Returns the requirements: of the page of a run, otherwise of the definition and the sentence. */
+  /** Returns the requirements of the page of a run, otherwise of the definition and the sentence. */
   live.required = () => squama.required?.().filter(({ sign }) => sign !== "~").map(squama.ranking.written) ?? [...others(), ...live.wanted];
 
   // The control of a radius holds a curvature, because its range contains a flat body.
@@ -73,7 +73,7 @@ squama.live = (() => {
   };
 
   const setting = (control, value) => (control.is_radius && value === 0 ? ["curvature_times_t", 0] : [control.key, outside(control, value)]);
-  // An absent parameter is not set.
+  // A value of null or a sharp needle means that a parameter is absent, so it is not set.
   const isSet = (control, value) => value !== null && (control.is_radius || !control.zero || value !== 0);
   /** Returns a request to solve the design with these values. */
   live.request = (values = live.values()) => {
@@ -82,7 +82,7 @@ squama.live = (() => {
   };
   live.solve = () => squama.solver.solve(live.request());
 
-  // Rounded to six digits, as in the address.
+  // Limits a value to the range of its control, and rounds it to six digits, as in the address.
   const clamped = (control, value) => {
     const { words, min, max } = control;
     if (value === null) return null;
@@ -146,7 +146,7 @@ squama.live = (() => {
     if (question) live.times.push(performance.now() - question.at);
     if (answer.follow) return walk(answer.follow);
     live.error = answer.error ?? null;
-    // Fast answers have no derivatives: the last ones are shown until the next complete answer.
+    // A fast answer has no derivatives: the page keeps the previous ones until a complete answer.
     if (!answer.error) live.answer = answer.fine ? answer : { ...answer, slopes: live.answer?.slopes ?? [] };
     tell("answered");
   };

@@ -21,7 +21,7 @@ self.onmessage = async ({ data }) => {
   try {
     self.postMessage(answer(data));
   } catch (error) {
-    // A trapped module cannot be used again; the page starts another.
+    // A module that has trapped cannot be used again, so the page starts another worker.
     self.postMessage({ id: data.id, error: `The solver stopped (${error.message}) and was started again`, trapped: true });
   }
 };

@@ -1,4 +1,4 @@
-// The state in the address: `#require=coverage >= 0.6&weights=40,30,20,10&design=0123`.
+// The address contains the state of the page: `#require=coverage >= 0.6&weights=40,30,20,10`.
 // Initial values are omitted.
 
 (() => {
@@ -62,17 +62,17 @@
     Object.assign(state, next);
   };
 
-  /** Notifies all listeners of a new state. */
+  /** Shows a new state: selects a design if none is selected, ranks, and notifies all listeners. */
   squama.showAll = () => {
     if (state.design === null && squama.count > 0) state.design = squama.ranking.order(squama.contestNow(), squama.weights(), 1)[0]?.row ?? 0;
     squama.refresh();
     ["view", "design", "pinned"].forEach(squama.tell);
   };
 
-  // Delayed, because sliders change often and browsers limit the rate.
+  // The address is written after a delay, because sliders change often and browsers limit the rate.
   let timer = null, own = null, known = location.hash;
   const write = () => {
-    // An address changed from outside takes precedence.
+    // An address that the user has changed has priority.
     if (location.hash !== known && location.hash.includes("=")) return;
     own = `#${squama.written()}`;
     try { history.replaceState(null, "", own); } catch { /* The page works without an address. */ }

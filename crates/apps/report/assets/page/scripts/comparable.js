@@ -31,7 +31,7 @@ squama.comparable = (() => {
     return [...found.values()];
   };
 
-  /** Lists these parameters with their values in the current ranking. */
+  /** Lists the parameters that limit the current ranking to one of their values, with this value. */
   const now = () => differing(squama.meeting, state.criteria).map((one) => ({ ...one, value: held(one) }));
 
   // A change of the shown values changes the ranking.

@@ -37,12 +37,12 @@
   const control = squama.element("label", {}, log, " Logarithmic force and moment");
   squama.at("compare-curves").append(control, drawing, words);
 
-  /** Shows the curves of both designs if the program has drawn them, the pinned one dashed. */
+  /** Shows the curves of both designs if the page has them. The curve of the pinned design is dashed. */
   const curves = async () => {
     log.checked = state.log;
     const rows = pair(), missing = rows.filter((row) => !squama.solved(row)?.curves);
     control.hidden = drawing.hidden = missing.length === rows.length;
-    words.replaceChildren(squama.element("p", { class: "note" }, `${missing.length > 0 ? `The page has the curves of only ${squama.drawings.length} designs, first of the best for some weights. ` : "Dashed: the pinned design. "}This command draws both with contacts, folds and energies:`),
+    words.replaceChildren(squama.element("p", { class: "note" }, `${missing.length > 0 ? `The page has the curves of only ${squama.drawings.length} designs: those that are best for some weights come first. ` : "Dashed: the pinned design. "}This command draws both with contacts, folds and energies:`),
       squama.command(`squama plot curves ${squama.folder}/run.toml --design ${[...new Set(rows.map(squama.number))].join(",")}`));
     const figure = squama.figures.find(({ kind, choice }) => kind === "curves" && (choice === "log") === state.log);
     if (!figure) return;
@@ -51,7 +51,7 @@
     drawing.querySelectorAll(".panel").forEach(fit(rows));
   };
 
-  /** Shows the curves of some designs in a panel, scaled to the axes that they need. */
+  /** Shows the curves of some designs in a panel, with the smallest axes that contain them. */
   const fit = (rows) => (panel) => {
     const shown = [...panel.querySelectorAll(".curve")].filter((curve) => rows.includes(squama.rowOf(curve.dataset.design)));
     const high = Object.fromEntries(["x", "y"].map((axis) => {

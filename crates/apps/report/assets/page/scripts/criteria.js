@@ -21,7 +21,7 @@
     squama.refresh();
   };
 
-  /** Names a criterion; penetration resistance differs from penetration. */
+  /** Names a criterion. Only the default criteria have names, such as penetration resistance. */
   squama.criterionName = ({ column, goal }) => {
     if (isUsual()) return squama.criteria.find((one) => one.column === column)?.name ?? squama.label(column);
     return `${goal === "max" ? "large " : "small "}${squama.label(column)}`;
@@ -110,7 +110,7 @@
       ...(other ? ["Best design without a fold: ", squama.element("button", { type: "button", onclick: () => squama.choose(other.row) }, squama.title(other.row)), `, fitness ${other.fitness.toFixed(4)}.`] : []));
   };
 
-  /** States which designs are ranked, if not all are comparable. */
+  /** States which designs are ranked, if not all of them can be compared. */
   const showIncomparable = () => {
     const found = squama.comparable.now();
     const note = squama.at("incomparable");

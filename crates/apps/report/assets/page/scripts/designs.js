@@ -71,7 +71,7 @@ squama.different = (() => {
 /** Axes of the grid with several values. */
 squama.varied = squama.axes.filter((name) => squama.different(name).length > 1);
 
-/** Returns true if the surface folds before the puncture of a design ends. */
+/** Returns true if the surface folds during the puncture of a design. */
 squama.folded = (row) => squama.cell(row, squama.fold) !== null;
 squama.foldedRows = squama.has(squama.fold) ? squama.rows.filter(squama.folded) : [];
 
@@ -101,7 +101,7 @@ squama.physical = (name) => (squama.unitOf(name)?.[0] ?? "deg") !== "deg";
 // Labels of parameters with symbols.
 const SYMBOLS = { gap_over_t: "gap d/t", length_over_t: "length L/t", width_over_t: "width b/t", slant_deg: "slant α" };
 
-// Two depths that are easily confused: the needle goes deeper than the bases of the scales.
+// Labels of two depths that are easily confused: the needle moves deeper than the bases of scales.
 const DEPTHS = { penetration: "penetration of the bases", critical_displacement: "needle depth" };
 
 /** Returns the label of a column. */
@@ -112,7 +112,7 @@ squama.label = (name) => {
   return (DEPTHS[plain] ?? plain).replaceAll("_over_t", "/t").replaceAll("_", " ") + (unit ? ` (${unit[1]})` : "");
 };
 
-/** Returns the unit of a column; empty for lengths over t, and if the label contains it. */
+/** Returns the unit of a column; empty for lengths divided by t, and if the label contains it. */
 squama.unit = (name, unit) => {
   if (unit === "-" || unit === "deg" || name.endsWith("_over_t") || squama.physical(name)) return [];
   const pretty = unit.replaceAll("nu", "ν").replaceAll("^2", "²").replaceAll("-", "−");

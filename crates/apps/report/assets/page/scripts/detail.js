@@ -17,7 +17,7 @@
   };
   squama.at("large").addEventListener("click", (event) => event.currentTarget.close());
 
-  /** Creates a button with the drawing of a solved design, which enlarges it; null without one. */
+  /** Creates a button that shows the drawing of a solved design and enlarges it; empty without one. */
   squama.solvedDrawing = (row) => {
     const number = squama.number(row), solved = squama.solved(row);
     if (!solved?.svg) return [];
@@ -43,7 +43,7 @@
     return doubts;
   };
 
-  // In a narrow window the design is at the lower edge, collapsed until one is selected.
+  // In a narrow window, this section is at the lower edge; a selected design opens it.
   squama.setFolded = (folded) => {
     aside.classList.toggle("closed", folded);
     fold.setAttribute("aria-expanded", String(!folded));

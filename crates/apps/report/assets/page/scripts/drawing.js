@@ -1,6 +1,6 @@
 // The row of a design at rest, to scale, with the coverage line.
 
-/** Draws a row; `span` is the width of the drawing in units of `t`. */
+/** Draws the row of a design. `span` returns the width of its drawing in units of `t`. */
 squama.drawing = (() => {
   const WIDE = 350;
 
@@ -27,7 +27,7 @@ squama.drawing = (() => {
     });
   };
 
-  /** Draws the line across the thickness, with thick parts inside scales. */
+  /** Draws the coverage line across the thickness, with thick parts inside scales. */
   const cover = ({ half, shift, pitch }, scale) => {
     if (shift <= 1e-9) return [];
     const x = (scale * (2 * half + shift + 0.15)).toFixed(2), y = (level) => (scale * (1.25 - level)).toFixed(2);

@@ -1,4 +1,4 @@
-// Elements of the page.
+// Functions that create and find elements of the page.
 
 /** Sets attributes; functions named `on…` become listeners; null and false are skipped. */
 squama.attributes = (element, attributes) => {
@@ -26,7 +26,7 @@ squama.svg = (name, attributes = {}, ...children) => {
 /** Returns the element with an id. */
 squama.at = (id) => document.getElementById(id);
 
-/** Decodes the content of an element: seven bits per character, padded. */
+/** Returns the decompressed content of an element, which holds seven bits per character. */
 squama.unpacked = (id, format = "deflate-raw") => {
   const text = squama.at(id).textContent, packed = new Uint8Array(Math.floor((text.length * 7) / 8));
   for (let held = 0, count = 0, at = 0, k = 0; at < packed.length; k++) {

@@ -1,5 +1,5 @@
-// The figures drawn by the program: visible ones are unpacked; marks are selected, and hidden by
-// requirements. Nothing is drawn here.
+// The figures, which the program has drawn. This script unpacks and shows them, hides designs that
+// do not meet the requirements, and selects designs.
 
 squama.charts = [];
 
@@ -56,7 +56,7 @@ squama.charts = [];
     restyle(chart);
   };
 
-  // Draws visible charts only, one per time slice, so that the page stays responsive.
+  // Only visible charts are drawn, one per time slice, so that the page stays responsive.
   const seen = new IntersectionObserver((entries) => {
     for (const { target, isIntersecting } of entries) squama.charts.find(({ area }) => area === target).seen = isIntersecting;
     later();
@@ -72,7 +72,7 @@ squama.charts = [];
   const later = () => {
     if (waiting === null) waiting = requestAnimationFrame(() => { waiting = setTimeout(drawNext); });
   };
-  // Unpacks one by one, visible figures first; finally all, for printing.
+  // Figures are unpacked one by one: visible ones first, then all others, which printing needs.
   const unpackNext = async () => {
     const next = squama.charts.filter(({ seen: own }) => own).map(wanted).find((figure) => figure && figure.text === undefined) ?? squama.figures.find(({ text }) => text === undefined);
     if (!next) return;
@@ -120,7 +120,7 @@ squama.charts = [];
     tip.style.top = `${event.clientY + 16 + tip.offsetHeight > innerHeight ? event.clientY - tip.offsetHeight - 8 : event.clientY + 16}px`;
   };
 
-  /** Selects by click; further clicks cycle through overlapping marks. Designs of a front open in the explorer. */
+  /** Selects the clicked design; more clicks cycle through overlapping marks. A design of a front opens in the explorer. */
   const click = (chart, event) => {
     const marks = near(chart, event), rows = marks.map(({ row }) => row).filter((row) => row !== null);
     if (rows.length > 0) squama.choose(rows[(rows.indexOf(state.design) + 1) % rows.length]);
@@ -148,7 +148,7 @@ squama.charts = [];
     const chooser = squama.dropdown({ id, "aria-label": "Column", onchange: (event) => { state[id] = event.target.value; squama.tell("view"); } }, choices.map((name) => [name, squama.label(name)]), choices[0]);
     squama.listen("view", () => { if (choices.length > 0) chooser.value = choice(); });
     const chart = { id, title, description, columns: () => [...columns(), ...choices.filter((name) => name === choice())], passes, choices, choice, ...more, marks: [], rows: [], stale: true, seen: false, caption: squama.element("figcaption") };
-    // Reserves the height of the figure, so that the layout does not shift when it is drawn.
+    // The height of the figure is reserved, so that the layout does not shift when it is drawn.
     chart.paper = squama.element("div", { style: `aspect-ratio: ${own[0].size.split(" ").slice(2).join("/")}` });
     chart.area = squama.element("div", { class: "chart drawn", id: `chart-${id}`, tabindex: 0, role: "img", "aria-label": `${title}. ${description} The arrow keys go from design to design.` }, chart.paper);
     (more.into ?? squama.at("figure-list")).append(squama.element("figure", { id: `figure-${id}` }, squama.element("h3", {}, title, ...(choices.length > 1 ? [" ", chooser] : [])), chart.area, chart.caption));

@@ -1,8 +1,9 @@
 // Sensitivity to the gap, for designs solved again with a gap 10 % smaller and larger.
 
 squama.gap = (() => {
-  // A design is sensitive if a measure changes by this factor with the gap.
+  // A design is sensitive if a measure changes by at least this factor.
   const CLIFF = 1.5;
+  // Larger changes are shown as factors, smaller changes in percent.
   const LARGE = 2;
 
   /** Returns the changes of a row: `{ column, factors }` for the smaller and the larger gap. */

@@ -10,7 +10,7 @@
   const isDark = () => root.dataset.theme === "dark";
   button.addEventListener("click", () => setTheme(!isDark()));
 
-  // Prints with the light theme and all charts.
+  // A print has the light theme and all charts.
   let before = null;
   addEventListener("beforeprint", () => {
     before = isDark();

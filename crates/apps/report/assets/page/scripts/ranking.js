@@ -54,7 +54,7 @@ squama.ranking = (() => {
   /** Returns the default direction of a column. */
   const plainGoal = (table, column) => table.goal(column) ?? "max";
 
-  /** Converts a value so that larger is better (R1); NaN without an inverse or logarithm. */
+  /** Converts a value so that larger is better (R1); NaN if it has no inverse or logarithm. */
   const worth = (scale, goal, value) => {
     if (scale === "linear" || (scale === "paper" && goal === "max")) return goal === "max" ? value : -value;
     if (!(value > 0)) return NaN;
@@ -83,28 +83,28 @@ squama.ranking = (() => {
     return own;
   };
 
-  /** Rescales numbers from 0 (worst) to 1 (best) (R2); 1 if all are equal, without effect. */
+  /** Rescales numbers from 0 (worst) to 1 (best) (R2). Equal numbers are all 1, without effect. */
   const rescaled = (numbers, isTie) => {
     const [low, high] = ends(numbers);
     return numbers.map((value) => (isTie || !(high > low) ? 1 : (value - low) / (high - low)));
   };
 
   /**
-   * Returns the ranked designs: the `rows` with every criterion, and with coverage if it counts.
-   * `worths` and `terms` are lists by criterion.
+   * Returns the ranked designs: the `rows` with a value of every criterion, and with positive
+   * coverage if it is a criterion. `worths` and `terms` hold one list for each criterion.
    */
   const contest = (table, rows, criteria, scale) => {
     const all = criteria.map(({ column, goal }) => table.numbers(column).map((value) => worth(scale, goal, value)));
     const covered = criteria.some(({ column }) => column === COVERAGE) ? table.numbers(COVERAGE) : null;
     const ranked = rows.filter((row) => !(covered && covered[row] <= 0) && all.every((values) => !Number.isNaN(values[row])));
     const worths = all.map((values) => picked(values, ranked));
-    // Compares values, because a logarithm may be near 0.
+    // Values are compared, and not their worths, because a logarithm may be near 0.
     const isTie = criteria.map(({ column }) => same(...ends(picked(table.numbers(column), ranked))));
     const terms = worths.map((values, c) => rescaled(values, isTie[c])).map((values) => (scale === "paper" ? values.map(Math.log) : values));
     return { rows: ranked, worths, terms, scale };
   };
 
-  /** Computes the scores of ranked designs. A weight of 0 skips its criterion, even at −∞. */
+  /** Computes the scores of ranked designs. A weight of 0 skips its criterion, even a term of −∞. */
   const scores = ({ rows, terms }, weights) => {
     const sums = new Float64Array(rows.length);
     terms.forEach((values, c) => {
@@ -117,7 +117,7 @@ squama.ranking = (() => {
   /** Returns true if a score equals the best one up to round-off. */
   const isAsGood = (score, best) => score >= best - ROUND_OFF;
 
-  /** Sorts places by score, the best first; ties up to round-off are in the order of the table. */
+  /** Sorts indices by score, the best first; ties up to round-off are in the order of the table. */
   const inOrder = (places, sums) => {
     const sorted = places.sort((a, b) => (sums[a] === sums[b] ? a - b : sums[b] - sums[a])), groups = [];
     for (const place of sorted) {
@@ -165,16 +165,17 @@ squama.ranking = (() => {
     for (const i of sorted) {
       const by = kept.findIndex((other) => beats(worths, other, i));
       if (by < 0) kept.push(i);
-      // A design that dominates one is likely to dominate the next, so it is tested first.
+      // A design that dominates one design is likely to dominate the next, so it is tested first.
       else [kept[0], kept[by]] = [kept[by], kept[0]];
     }
     return new Set(kept.map((i) => rows[i]));
   };
 
   /**
-   * Explains requirements that no row meets: the nearest row, and the binding requirements.
-   * The nearest row has the smallest largest shortfall, relative to the limit, then the smallest
-   * sum. Without any single binding requirement some rows would meet all others.
+   * Explains requirements that no row meets, by the nearest row and the binding requirements. A
+   * shortfall is relative to its limit. The nearest row is the row with the smallest value of its
+   * largest shortfall, then of the sum of its shortfalls. A requirement is binding if some rows meet
+   * all other requirements.
    */
   const unmet = (table, rows, requirements) => {
     const bounds = requirements.filter(({ sign }) => sign !== "~");

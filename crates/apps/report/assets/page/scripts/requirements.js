@@ -23,7 +23,7 @@
       squama.element("input", { type: "text", inputmode: isText ? null : "decimal", value: one.limit, "aria-label": `Limit of ${label}`, oninput: (event) => {
         const limit = isText ? event.target.value : ranking.number(event.target.value), isRead = isText || Number.isFinite(limit);
         event.target.setAttribute("aria-invalid", String(!isRead));
-        // Invalid input sets no requirement, so that only visible limits act.
+        // Invalid input sets no limit, so that no limit acts that the page does not show.
         change(k, { limit: isRead ? limit : null });
       } }),
       squama.element("small", {}, isText ? "" : range(one.column)),
@@ -44,7 +44,7 @@
     });
   };
 
-  /** Shows the nearest design if none meets the requirements, and the obstacle. */
+  /** Returns a text on the nearest design and the binding requirements, if no design meets all. */
   const nearest = () => {
     const rows = squama.rows.filter((one) => !state.sound || !squama.folded(one));
     const { nearest: own, binding } = ranking.unmet(squama, rows, squama.required());
@@ -71,7 +71,7 @@
   adder.addEventListener("click", () => {
     const column = first.find((name) => !state.requirements.some((one) => one.column === name)) ?? first[0];
     const sign = ranking.plainGoal(squama, column) === "min" ? "<=" : ">=";
-    // The median of the column.
+    // The initial limit is the median of the column.
     const numbers = squama.numbers(column).filter((value) => !Number.isNaN(value)).sort();
     squama.require([...state.requirements, { column, sign, limit: Number((numbers[Math.floor(numbers.length / 2)] ?? 0).toPrecision(2)) }]);
     list.querySelector("li:last-child input")?.focus();

@@ -1,8 +1,8 @@
-// State of the page, its listeners, and its form in the address.
+// State of the page, and functions that change it and notify listeners.
 
 squama.listeners = new Map();
 
-/** Registers `tell` for changes of `topics`: selection, weights, view, design, pinned, theme. */
+/** Calls `tell` at changes of any of the `topics`: selection, weights, view, design, pinned. */
 squama.listen = (topics, tell) => topics.split(" ").forEach((topic) => {
   squama.listeners.set(topic, [...(squama.listeners.get(topic) ?? []), tell]);
 });
@@ -12,8 +12,8 @@ squama.tell = (topic) => {
   squama.writeAddress?.();
 };
 
-// Rounds `weights` to integers of sum 100 (`whole`) in the same proportion. The largest remainders
-// are rounded up.
+// Returns integers with the sum `whole` in the proportions of `weights`. The largest remainders are
+// rounded up.
 squama.hundredths = (weights, whole = 100) => {
   const sum = weights.reduce((a, b) => a + b, 0);
   const ideal = weights.map((weight) => (sum > 0 ? (whole * weight) / sum : whole / weights.length));
@@ -23,7 +23,7 @@ squama.hundredths = (weights, whole = 100) => {
   return parts;
 };
 
-/** Returns integers of sum 100 that are as equal as possible. */
+/** Returns `count` integers with the sum 100 that are as equal as possible. */
 squama.equalWeights = (count) => squama.hundredths(Array(count).fill(1));
 
 squama.initial = () => {
@@ -37,7 +37,7 @@ squama.initial = () => {
 
 squama.state = squama.initial();
 
-/** Returns the weights of the criteria, of sum 1. */
+/** Returns the weights of the criteria, with the sum 1. */
 squama.weights = () => squama.state.weights.map((hundredth) => hundredth / 100);
 
 /** Returns the requirements with valid limits. */
@@ -72,7 +72,7 @@ squama.choose = (row) => {
   squama.tell("design");
 };
 
-/** Selects the next design of `rows`. */
+/** Selects the design that is `step` rows after the selected design in `rows`. */
 squama.step = (step, rows) => {
   if (rows.length === 0) return;
   const here = rows.indexOf(squama.state.design);

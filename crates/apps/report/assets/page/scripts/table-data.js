@@ -1,7 +1,7 @@
 // The cells of the table, packed in the page.
 
-// Unpacks the cells. Each numeric column holds all first bytes, then all second bytes, and so on;
-// text columns are JSON.
+// Unpacks the cells. Each numeric column holds the first bytes of all numbers, then the second
+// bytes, and so on. Text columns are JSON.
 squama.unpack = async () => {
   const [numbers, texts] = await Promise.all([squama.unpacked("cells").arrayBuffer(), squama.unpacked("texts").json()]);
   const bytes = new Uint8Array(numbers), { count } = squama;

@@ -1,9 +1,9 @@
-// The table of designs. Its headers sort it and its second line filters it. Long tables have
-// elements for the visible rows only.
+// The table of designs. Its headers sort it, and its second line filters it. In long tables, only
+// visible rows have elements.
 
 (() => {
   const { state, filters } = squama;
-  // Taller for touch input.
+  // Rows are taller for touch input.
   const coarse = matchMedia("(pointer: coarse), (max-width: 40rem)");
   const height = () => (coarse.matches ? 44 : 27);
   const AROUND = 12;
@@ -41,7 +41,7 @@
   const filter = (name) => squama.element("input", { type: "text", "aria-label": `filter ${squama.label(name)}`, "data-column": name, oninput: (event) => {
     const requirements = filters.read(name, event.target.value.trim());
     event.target.setAttribute("aria-invalid", String(requirements === null));
-    // Invalid input sets no requirement, so that only visible limits act.
+    // Invalid input sets no requirement, so that no limit acts that the page does not show.
     filters.set(name, requirements ?? []);
   } });
 
@@ -56,14 +56,14 @@
     for (const part of [above, below]) part.replaceChildren(squama.element("tr", {}, squama.element("td", { colspan: columns.length, class: "spacer" })));
   };
 
-  /** Compares two rows by numbers; missing ones come last in both directions. */
+  /** Compares two rows by numbers; missing numbers are last in both directions. */
   const byNumbers = (numbers, sign) => (p, q) => {
     const [a, b] = [numbers[p], numbers[q]];
     if (a !== a || b !== b) return (a !== a) - (b !== b) || p - q;
     return sign * (a - b) || p - q;
   };
 
-  /** Compares two rows by texts, in the same way. */
+  /** Compares two rows by texts; missing texts are last in both directions. */
   const byTexts = (cells, sign) => (p, q) => {
     const [a, b] = [cells[p] ?? null, cells[q] ?? null];
     if (a === null || b === null) return (a === null) - (b === null) || p - q;

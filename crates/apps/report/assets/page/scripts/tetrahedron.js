@@ -3,7 +3,7 @@
 
 (() => {
   const LISTED = 10;
-  // Regions of one slant differ in shade.
+  // Regions of designs with the same slant differ in shade.
   const SHADES = [0, 0.5, -0.4, 0.25, -0.2, 0.75];
   const { state, ranking } = squama;
   const [area, legend] = [squama.at("tetrahedron"), squama.at("tetrahedron-legend")];

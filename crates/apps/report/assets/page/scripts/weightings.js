@@ -1,9 +1,9 @@
 // All weightings of four criteria, and the best design for each.
 
 squama.weightings = (() => {
-  // Steps from corner to corner, as in `squama rank`.
+  // Number of steps along an edge of the tetrahedron, as in `squama rank`.
   const RESOLUTION = 20;
-  // Volume of the region nearest to a weighting, by the number of zero weights.
+  // Relative volume of the region nearest to a weighting with 0, 1, 2 or 3 zero weights.
   const CELLS = [72, 36, 14, 3];
 
   const nodes = [];
@@ -16,12 +16,12 @@ squama.weightings = (() => {
     }
   }
 
-  /** Finds the index of the largest weighted sum of terms; the first of ties up to round-off. */
+  /** Returns the index of the largest weighted sum of terms, the first index of ties up to round-off. */
   const best = ([a, b, c, d], [m, n, k, l], sums) => {
     let most = -Infinity;
     for (let i = 0; i < a.length; i++) {
-      // The same order as in other sums of the fitness, and without zero weights, so that
-      // round-off agrees.
+      // The order of the terms, without zero weights, is the order in `scores`, so that round-off
+      // agrees.
       let sum = 0;
       if (m > 0) sum += m * a[i];
       if (n > 0) sum += n * b[i];
@@ -34,7 +34,7 @@ squama.weightings = (() => {
     return sums.findIndex((sum) => sum >= bound);
   };
 
-  /** Returns the best row at each node, and the share of weightings of each best row, sorted. */
+  /** Returns the best row at each node, and for each such row its fraction of the weightings, sorted. */
   const winners = ({ rows, terms }) => {
     const sums = new Float64Array(rows.length);
     const dots = nodes.map(({ weights, cell }) => ({ weights, cell, row: rows[best(terms, weights, sums)] }));
