@@ -218,10 +218,9 @@ impl<'a> Problem<'a> {
         };
         let common = *common;
         let problem = Self { rows, design, stiffness, endless, law, common, parameters };
-        let radius = parameters.needle_radius;
-        let is_in_reach = radius.is_none() || problem.reach().is_some();
-        let expected = "at most 62 pitches of the row";
-        OutOfRange::unless(is_in_reach, TIP_REACH, radius.unwrap_or(0.0), expected)?;
+        let radius_over_pitch = parameters.needle_radius.map(|radius| radius / problem.pitch());
+        let is_in_reach = radius_over_pitch.is_none() || problem.reach().is_some();
+        OutOfRange::unless(is_in_reach, TIP_REACH, radius_over_pitch.unwrap_or(0.0), "at most 62")?;
         Ok(problem)
     }
 

@@ -263,12 +263,17 @@ fn a_large_tip_touches_several_scales() {
 fn a_radius_is_rejected_for_a_free_needle_or_if_it_covers_too_many_scales() {
     let known = Calibrations::default();
     let design = design(0.1, 1.0, 45.0, Base::L);
-    let refusals = [(Needle::Free, 0.5, "needle radius"), (SMOOTH, 100.0, puncture::TIP_REACH)];
-    for (needle, radius, quantity) in refusals {
+    let pitch = design.row().expect("a row").pitch();
+    let refusals = [
+        (Needle::Free, 0.5, "needle radius", 0.5),
+        (SMOOTH, 100.0, puncture::TIP_REACH, 100.0 / pitch),
+    ];
+    for (needle, radius, quantity, value) in refusals {
         let parameters = PunctureParameters { needle, ..parameters(Some(radius)) };
         let springs = springs(&design, &parameters, &known);
         let refused = puncture::solve(&design, &springs, &Common::default(), &parameters);
-        assert_eq!(refused.unwrap_err().quantity, quantity);
+        let refused = refused.unwrap_err();
+        assert_eq!((refused.quantity, refused.value), (quantity, value));
     }
 }
 
