@@ -72,8 +72,8 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
 
     /// Returns how often the solved part is repeated in the whole row or strip.
     ///
-    /// In a strip of equal gaps one gap is solved, and this is the number of gaps; otherwise it is
-    /// 1.
+    /// In a strip of equal gaps one gap is solved, and the result is the number of gaps. Otherwise
+    /// the result is 1.
     fn repeats(&self) -> f64 {
         1.0
     }
