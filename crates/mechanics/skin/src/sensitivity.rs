@@ -22,7 +22,7 @@ pub(crate) use measured_points::{end, first_contact, is_held, rest, summit, turn
 /// Derivative of a measure with respect to a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivative {
-    /// Name of the measure, as in the tables.
+    /// Name of the measure: its column in the tables of results.
     pub measure: &'static str,
     /// Index of the parameter among the variations.
     pub parameter: usize,

@@ -91,7 +91,7 @@ impl Contacts {
 
     /// Computes the dissipation `−∫ T ds` of a contact with a needle tip at its corner.
     ///
-    /// Zero for other contacts.
+    /// Zero if no needle tip is at the corner of the contact.
     fn work_at_tip(
         &self,
         contact: usize,

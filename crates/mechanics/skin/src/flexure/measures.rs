@@ -37,7 +37,9 @@ pub struct FlexureMeasures {
     pub error: Option<f64>,
     /// Number of gaps `n` of the strip, an integer in a chain.
     pub gaps: f64,
-    /// Frictional dissipation of the whole strip from rest to the end of the path, over `E_m t³`.
+    /// Frictional dissipation of the whole strip from rest to the end of the path.
+    ///
+    /// In units of `E_m t³`; `None` without friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
     /// Curvature `κ*` beyond which friction locks the strip.

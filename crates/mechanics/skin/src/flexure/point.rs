@@ -17,13 +17,13 @@ pub struct FlexurePoint {
     pub stiffness: f64,
     /// Rotation of each end, degrees.
     pub end_rotation_deg: f64,
-    /// Bending energy of the membrane, over `E_m t³`.
+    /// Bending energy of the membrane, in units of `E_m t³`.
     pub bending_energy: f64,
-    /// Axial energy of the membrane, over `E_m t³`.
+    /// Axial energy of the membrane, in units of `E_m t³`.
     pub axial_energy: f64,
-    /// Elastic energy of the contacts, over `E_m t³`.
+    /// Elastic energy of the contacts, in units of `E_m t³`.
     pub contact_energy: f64,
-    /// Frictional dissipation from rest to this point, over `E_m t³`.
+    /// Frictional dissipation from rest to this point, in units of `E_m t³`.
     ///
     /// `None` without friction.
     pub friction_work: Option<f64>,

@@ -130,7 +130,7 @@ impl<'a> FlexureProblem<'a> {
         2.0 * self.parameters.max_end_rotation_deg.to_radians()
     }
 
-    /// Returns the bending stiffness `E_m I_m` of the membrane, over `E_m t⁴`.
+    /// Returns the bending stiffness `E_m I_m` of the membrane, in units of `E_m t⁴`.
     pub(super) fn bending_stiffness(&self) -> f64 {
         self.section.bending_stiffness()
     }

@@ -26,7 +26,7 @@ pub struct FlexureInput {
     pub design: Design,
     /// Contact law and solver settings.
     pub common: Common,
-    /// The other parameters.
+    /// The parameters of bending.
     pub parameters: FlexureParameters,
 }
 

@@ -104,7 +104,7 @@ pub(crate) struct Strip {
     pub(super) repeats: f64,
     /// Mean pitch `p` of the scales.
     pitch: f64,
-    /// Bending stiffness `E_m I_m` of the membrane, over `E_m t⁴`.
+    /// Bending stiffness `E_m I_m` of the membrane, in units of `E_m t⁴`.
     bending_stiffness: f64,
     controls: [Control; 3],
     farthest: f64,
@@ -165,7 +165,7 @@ impl Strip {
         z[self.controls[0].index]
     }
 
-    /// Returns the moment `M`, over `E_m t³`.
+    /// Returns the moment `M`, in units of `E_m t³`.
     pub(crate) fn moment(&self, z: &[f64]) -> f64 {
         z[self.layout.moment()]
     }
