@@ -76,19 +76,19 @@ impl SlantPalette {
 /// Each variant states its slant in a sweep of multiples of 15°.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// At 0°.
+    /// Circle, for a slant of 0°.
     Circle,
-    /// At 15°.
+    /// Square, for 15°.
     Square,
-    /// At 30°.
+    /// Diamond, for 30°.
     Diamond,
-    /// At 45°.
+    /// Triangle that points up, for 45°.
     Up,
-    /// At 60°.
+    /// Triangle that points down, for 60°.
     Down,
-    /// At 75°.
+    /// Star, for 75°.
     Star,
-    /// At 90°.
+    /// Hexagon, for 90°.
     Hexagon,
 }
 

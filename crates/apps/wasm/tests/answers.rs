@@ -183,7 +183,7 @@ fn bare_answers_have_the_same_measures_and_margins() {
 }
 
 #[test]
-fn following_a_parameter_stops_at_the_first_limit() {
+fn following_a_parameter_stops_at_the_first_violated_requirement() {
     let follow = |to: f64, require: &[&str]| {
         let follow = json!({ "key": "gap_over_t", "to": to, "measure": "compliance" });
         ask(&json!({ "definition": DEFINITION, "require": require, "follow": follow }))["follow"]

@@ -51,7 +51,7 @@ impl CornerContact {
         response
     }
 
-    /// Evaluates the conditions of the forces that do not act in this state.
+    /// Evaluates the condition under which each force that does not act begins to act.
     ///
     /// `None` for a force that acts, or that cannot begin to act.
     pub fn resting_conditions(self, corners: &Corners) -> [Option<Equation>; FORCES] {

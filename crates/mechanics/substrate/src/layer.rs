@@ -167,7 +167,7 @@ impl Layer {
         Self { poisson_ratio, nodes: nodes.collect() }
     }
 
-    /// Returns the displacements of unit loads at the offset `(x, z)`, minus the half-space.
+    /// Returns the displacements by unit loads at the offset `(x, z)`, without the half-space part.
     ///
     /// The layer has the given `thickness`; `x` is the offset along the row.
     pub fn beside_half_space(&self, thickness: f64, x: f64, z: f64) -> Displacements {
@@ -188,7 +188,8 @@ impl Layer {
         let steps = rho * PER_UNIT as f64;
         let k = steps as usize;
         let Some(next) = self.nodes.get(k + 1) else {
-            // The layer is at rest at this distance. ∫ J₀, ∫ J₁ and ∫ J₂ over x are all 1/ρ.
+            // The layer does not move at this distance, so only the subtracted half-space remains.
+            // The integrals of J₀(ξρ), J₁(ξρ) and J₂(ξρ) over ξ from 0 to ∞ are all 1/ρ.
             return half_space(self.poisson_ratio).map(|part| -part / rho);
         };
         let t = steps - k as f64;

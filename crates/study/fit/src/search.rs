@@ -137,7 +137,9 @@ impl<'a> Residuals<'a> {
         unknowns.map(|(unknown, &scaled)| unknown.value(scaled)).collect()
     }
 
-    /// Computes the model curves at scaled unknowns, or returns the last ones for equal unknowns.
+    /// Returns the model curves at scaled unknowns.
+    ///
+    /// They are computed unless the last call had the same unknowns.
     pub(crate) fn solved(&self, scaled: &[f64]) -> Result<Solved, FitError> {
         if let Some((at, solved)) = &*self.last.borrow()
             && at == scaled

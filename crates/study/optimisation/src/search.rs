@@ -261,7 +261,9 @@ impl Limits<'_> {
         Ok(best)
     }
 
-    /// Searches nominal designs again with the limits of `goal`, from the designs in `history`.
+    /// Judges the designs in `history` by the limits of `goal`, and continues the search from them.
+    ///
+    /// The search is about nominal designs.
     fn nominal_again(
         &self,
         goal: &DesignGoal,

@@ -124,8 +124,8 @@ fn divide(candidates: &mut [Point], best: &mut PrefixMaxima) {
 fn conquer(earlier: &[Point], later: &mut [Point], best: &mut PrefixMaxima) {
     let mut above = 0;
     for candidate in later {
-        // Include ties in the second coordinate: an earlier point is at least as good in the first
-        // coordinate, and differs from `candidate`, because equal points form one candidate.
+        // Include ties in the second coordinate. No coordinate of such an earlier point is smaller,
+        // and one is larger, because equal points form one candidate.
         while above < earlier.len() && earlier[above].second >= candidate.second {
             best.raise(earlier[above].third, earlier[above].fourth);
             above += 1;

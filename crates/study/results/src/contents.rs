@@ -64,7 +64,9 @@ impl JournalExtent {
 }
 
 impl Contents {
-    /// Writes the contents to `folder`, after all other files have been written.
+    /// Writes `contents.toml` to `folder`.
+    ///
+    /// Call this after all other files have been written.
     ///
     /// # Errors
     ///

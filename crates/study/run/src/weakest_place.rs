@@ -29,7 +29,7 @@ pub struct WeakestPlace {
     ///
     /// 0 is the left corner of the top, 1 the right corner.
     pub place: f64,
-    /// Status of the path at that position.
+    /// Status of the path at the load position `place`.
     pub outcome: Outcome,
     /// Name of the first failure at the weakest position, if `column` is a failure force.
     pub failure: Option<String>,

@@ -122,7 +122,7 @@ fn select_from_front(
     Ok(selected)
 }
 
-/// Returns the definition of one design of a goal.
+/// Returns the sweep definition of one design of a goal.
 ///
 /// Other designs of the goal are selected by settings that change the values in this definition.
 fn nominal(goal: &DesignGoal) -> String {

@@ -208,7 +208,7 @@ fn forged_evaluations_are_rejected() {
     assert!(message.starts_with(&format!("error: {journal}: ")), "{message}");
     assert!(message.contains("differs from history.csv"), "{message}");
     fs::write(place.path(journal), &sound).expect("writable");
-    // A changed value in another column has no effect, because the best design is solved again.
+    // A changed value in another column has no effect: `--resume` solves the best design again.
     reseal(&place, journal, "optimisation", |line: &mut serde_json::Value| {
         line["solved"]["result"]["flexure"]["measures"]["initial_compliance"] = 0.5.into();
     });

@@ -297,7 +297,7 @@ fn a_search_does_not_write_to_the_folder_of_a_run() {
 
 /// The best design is checked even if tissue of finite thickness makes it slow to solve.
 #[test]
-fn a_design_on_finite_tissue_is_checked() {
+fn the_best_design_on_finite_tissue_is_checked_with_full_coupling() {
     let goal = "name = 'firm'\nmeasures = ['coverage', 'puncture']\n[variables]\n\
         length_over_t = { from = 0.3, to = 1 }\n[designs]\ngap_over_t = 0.3\nslant_deg = 60\n[substrate]\n\
         tissue_thickness_over_t = 10\n[goal]\nminimize = 'length_over_t'\nrequire = 'critical_force >= 0.3'\n\

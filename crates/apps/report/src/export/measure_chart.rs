@@ -127,7 +127,7 @@ impl MeasureChart {
         let mut values: Vec<&str> = self.runs.iter().map(|(_, value)| value.as_str()).collect();
         values.sort_unstable();
         values.dedup();
-        // A series is one range of cells, so a gap with several runs of rows cannot be a series.
+        // A series is one range of cells, so the rows of a value must be contiguous.
         let stand_together = values.len() == self.runs.len() && self.runs.len() <= SERIES;
         if !stand_together || axis.name == APART {
             return vec![("all designs".to_owned(), 1, rows)];

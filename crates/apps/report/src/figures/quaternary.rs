@@ -65,7 +65,7 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>, paper
     sheet(full, if is_narrow { last } else { bottom + 16.0 }, &title, inside)
 }
 
-/// Returns colour and letter of the region of each listed winner.
+/// Returns colour and letter of the regions of the first `listed` winners.
 ///
 /// The slant of the winner determines the colour. Further winners of the same slant are lighter or
 /// darker.

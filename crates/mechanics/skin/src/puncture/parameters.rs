@@ -69,7 +69,7 @@ pub struct Strengths {
     pub bond: Option<f64>,
 }
 
-/// Parameters of a puncture other than design and substrate.
+/// Parameters of a puncture besides the design and the stiffness of the substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PunctureParameters {
     /// Poisson's ratio `ν` of the substrate.

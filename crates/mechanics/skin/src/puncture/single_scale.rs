@@ -16,7 +16,7 @@ pub struct PerturbedScale {
 }
 
 impl PerturbedScale {
-    /// Returns the scales of a `layout`, taken from an endless `row` with this perturbed scale.
+    /// Returns the scales of `layout` as in `row`, with the deviations of this perturbed scale.
     ///
     /// # Errors
     /// If the scale would overlap its neighbours.

@@ -120,7 +120,8 @@ pub(crate) fn is_held<S: Skin>(system: &S, point: &AnchoredPoint<S::Mode>) -> bo
     match point.anchor {
         PathAnchor::Still => false,
         PathAnchor::Target | PathAnchor::Marker(_) | PathAnchor::Stationary(_) => true,
-        // A guard that is not zero at the point only defines a section across the path.
+        // A guard that is not zero at the point does not fix the position of the point. It only
+        // defines a section through the path.
         PathAnchor::Guard(constraint) => {
             Newton::guards(system, &point.state)[constraint].abs() < VANISHED
         }

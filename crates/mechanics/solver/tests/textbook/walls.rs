@@ -30,7 +30,8 @@ impl Walls {
         Self { gaps, shielded: None, constraints, controls, tangents: Arc::default() }
     }
 
-    /// Creates walls of which the wall `wall` is shielded by the wall `by`.
+    /// Creates walls in which twice the force of the wall `by` is added to the gap of the wall
+    /// `wall`.
     pub fn shielded(gaps: Vec<fn(f64) -> [f64; 2]>, wall: usize, by: usize) -> Self {
         Self { shielded: Some((wall, by)), ..Self::new(gaps) }
     }

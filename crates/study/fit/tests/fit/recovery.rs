@@ -554,7 +554,8 @@ fn a_parameter_may_differ_from_specimen_to_specimen() {
         let file = ["a.csv", "b.csv", "c.csv", "d.csv"][k as usize];
         let curve = SyntheticCurve { file, points: 20, noise: 0.01, seed: k, ..PUNCTURE };
         place.make(&skin, &curve);
-        writeln!(curves, "[[curve]]\nfile = '{file}'\nkind = 'puncture'").expect("a text");
+        writeln!(curves, "[[curve]]\nfile = '{file}'\nkind = 'puncture'")
+            .expect("writing to a string succeeds");
     }
     let sought = format!(
         "per_specimen = ['substrate_modulus_MPa']\n{shared}[variables]\n\

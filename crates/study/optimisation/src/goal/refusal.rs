@@ -1,4 +1,4 @@
-//! Creates errors in a goal, with their position in the file.
+//! Creates the errors for invalid entries of a goal file, with the position of the entry.
 
 use std::fmt::Display;
 

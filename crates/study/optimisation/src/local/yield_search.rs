@@ -311,8 +311,8 @@ mod tests {
         for sample in 10..13 {
             model.samples[sample][1] = f64::INFINITY;
         }
-        // Three discards are needed for samples without a value. The other two cannot remove all
-        // five samples that require `y ≤ 0.4`.
+        // Three of the five discards are needed for samples without a value. The other two cannot
+        // remove all five samples that require `y ≤ 0.4`.
         let step = model.step(&[0.5, 0.5], 0.2, 0.5).expect("a step");
         assert!(distance(&step.to, &[0.399, 0.399]) < 1e-6, "{:?}", step.to);
         model.discards = 2;

@@ -190,7 +190,7 @@ fn gap_changes_do_not_depend_on_the_start_of_the_puncture() {
 
 /// Derivatives with respect to selected parameters do not depend on the other parameters.
 #[test]
-fn selected_derivatives_equal_the_derivatives_among_all() {
+fn derivatives_of_selected_parameters_equal_those_among_all_parameters() {
     let keys = ["gap_over_t", "slant_deg", "c1", "needle_friction"];
     let chosen: Vec<&Parameter> = keys.into_iter().filter_map(Parameter::named).collect();
     let mut compared = 0;
