@@ -144,10 +144,10 @@ impl<'a> Evaluations<'a> {
     /// If the goal requests several positions, the weakest one is a corner of the top as long as
     /// the critical tilt is small. A search then compares designs by both corners.
     pub fn compared_positions(&self, point: &SpacePoint) -> Positions {
-        let puncture = self.space.case(point).punctured();
-        let is_at_corner = puncture.places.is_some_and(|places| places > CORNERS)
-            && puncture.critical_tilt_deg <= MOST_TILT
-            && self.has_ends(point);
+        let case = self.space.case(point);
+        let is_at_corner = case.puncture.places.is_some_and(|places| places > CORNERS)
+            && case.punctured().critical_tilt_deg <= MOST_TILT
+            && self.plain.has_ends(&case);
         if is_at_corner { Positions::Corners } else { Positions::All }
     }
 
