@@ -193,8 +193,8 @@ impl Command {
     /// Runs the command and returns its exit code.
     pub fn run(self, interrupt: &Interrupt) -> anyhow::Result<u8> {
         match self {
-            // The first signal ends a command without the argument `interrupt`, which has no work to
-            // save.
+            // The first signal ends a command without the argument `interrupt`, because it has no
+            // work to save.
             Self::Init(arguments) => init::init(&arguments),
             Self::Run(arguments) => run::run(&arguments, interrupt),
             Self::Rerun(arguments) => rerun::rerun(&arguments, interrupt),

@@ -59,8 +59,8 @@ pub enum NoPatch {
 
 /// A solid between two parallel faces.
 ///
-/// The outline lies in the x–z plane and is extruded along `y`. Of its `n` corners, `k` and
-/// `n − 1 − k` are the ends of rung `k`. Two neighbouring rungs bound a convex quadrilateral.
+/// The outline lies in the x–z plane and is extruded along `y`. It has `n` corners. Rung `k` joins
+/// the corners `k` and `n − 1 − k`. Two neighbouring rungs bound a convex quadrilateral.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prism {
     /// Corners of the outline, `[x, z]`, mm, counter-clockwise seen along `y`.

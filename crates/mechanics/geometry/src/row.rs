@@ -60,7 +60,7 @@ impl Row {
     ///
     /// A line runs from the top right corner of a scale, opposite to the normal of this scale, down
     /// to the surface of the body. The coverage is the fraction of the line that lies inside the
-    /// neighbours on the right, each of which is aligned with its own normal.
+    /// neighbours on the right. Each neighbour is aligned with its own normal.
     pub fn coverage_on(&self, body: Body) -> f64 {
         let corner = self.scale.corner(Corner::TopRight);
         let line = [corner, Vec2::new(corner.x, body.height(corner.x))];

@@ -41,7 +41,7 @@ pub struct Iteration {
     pub angle_deg: f64,
 }
 
-/// A punctured row or a bent strip of scales, the path of which is recorded.
+/// A punctured row or a bent strip of scales with a recorded path.
 pub(crate) trait Skin: System<Mode = SkinMode> {
     /// Values recorded for each equilibrium.
     type PathPoint: Copy;

@@ -267,7 +267,7 @@ impl<S: Skin> Linearised<'_, S> {
 
 /// Lists the quantities at `spots` for all parameters with unknown derivatives.
 ///
-/// They depend on a stick position, the dependence of which on the parameters is unknown.
+/// These quantities depend on a stick position, and its derivatives are unknown.
 pub(crate) fn missing<S: Skin>(
     skin: &S,
     spots: &[MeasuredPoint<S>],

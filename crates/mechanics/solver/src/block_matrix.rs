@@ -21,8 +21,8 @@ const LEFT_OUT: usize = usize::MAX;
 /// block 0 ── block 1 ── … ── root ── … ── last block
 /// ```
 ///
-/// Unknowns are coupled within their block and with neighbouring blocks. Of two neighbours, the
-/// *inner* block is nearer to the root, the *outer* block farther from it. The *link* of a block
+/// Unknowns are coupled within their block and with neighbouring blocks. The *inner* one of two
+/// neighbours is nearer to the root, the *outer* one farther from it. The *link* of a block
 /// consists of [`LINK`] successive unknowns. Unknowns of an outer block may be coupled only with
 /// the link of an inner block, not with the other unknowns of the inner block.
 ///
@@ -99,7 +99,7 @@ impl BlockMatrix {
     /// `left_out` is true for each unknown that is left out.
     pub fn reshape(&mut self, blocks: &Blocks, left_out: &[bool]) {
         self.root = blocks.root;
-        // Only two values are used, for both of which the elimination is compiled.
+        // Only two values are used, because the elimination is compiled for each of them.
         self.reach = if blocks.reach > 1 { FARTHEST_LINK } else { 1 };
         debug_assert!(blocks.reach <= FARTHEST_LINK);
         debug_assert!(blocks.reach <= 1 || blocks.root + 1 == blocks.starts.len());
@@ -255,8 +255,8 @@ impl Tangent for BlockMatrix {
 
     /// Adds `values` along the diagonal that starts at (`row`, `column`).
     ///
-    /// The rows must be successive unknowns of one block of which none is left out, and so must the
-    /// columns.
+    /// The rows must be successive unknowns of one block, and none of them may be left out. The same
+    /// applies to the columns.
     #[inline(always)]
     fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
         let (row, column) = (self.positions[row], self.positions[column]);
@@ -272,8 +272,8 @@ impl Tangent for BlockMatrix {
 
     /// Adds a block of `values` with its first entry at (`row`, `column`).
     ///
-    /// The rows must be successive unknowns of one block of which none is left out, and so must the
-    /// columns.
+    /// The rows must be successive unknowns of one block, and none of them may be left out. The same
+    /// applies to the columns.
     #[inline(always)]
     fn add_block<const R: usize, const C: usize>(
         &mut self,

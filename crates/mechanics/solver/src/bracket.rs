@@ -1,6 +1,6 @@
 //! Root search in a bracket by the method of false position.
 
-/// Interval at the ends of which a function has values of opposite sign.
+/// Interval with values of opposite sign at its ends.
 ///
 /// The next estimate of the root is the zero of the secant. The estimate replaces one end, and the
 /// value at the other end is halved, so that the next estimate moves towards the other end

@@ -96,8 +96,8 @@ impl<M> Peak<M> {
 
     /// Updates the maximum by the `value` of the function at the current point of `path`.
     ///
-    /// Use this only for continuous functions that do not depend on the path direction. Of the
-    /// segments next to kinks, only those at the best point will be searched.
+    /// Use this only for continuous functions that do not depend on the path direction. Segments
+    /// next to kinks are searched only at the best point.
     pub fn visit_value<S>(
         &mut self,
         path: &Continuation<S>,

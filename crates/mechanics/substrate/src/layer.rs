@@ -39,7 +39,9 @@ const PER_UNIT: usize = 48;
 /// negative displacements of the half-space.
 const FARTHEST: usize = 16;
 
-/// Number of intervals of the quadrature over `x`, at the end of which integrands are 1e-12.
+/// Number of intervals of the quadrature over `x`.
+///
+/// The integrands are about 1e-12 at the end of the last interval.
 ///
 /// An interval has the width 1/8, a third of a wave of `J(xρ)` at the largest `ρ`.
 const INTERVALS: u32 = 128;

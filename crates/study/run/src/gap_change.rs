@@ -94,8 +94,8 @@ impl GapChange {
 
     /// Solves design `number` of `sweep` with the smaller and the larger gap only.
     ///
-    /// `end` is the path end of the nominal puncture. The punctures with changed gaps start there if
-    /// possible. With `None` they are followed from rest.
+    /// `end` is the path end of the nominal puncture. The punctures with changed gaps start there
+    /// if possible. With `None` they are followed from rest.
     ///
     /// `measured` holds columns and values of the nominal design, for example from a table. Returns
     /// `None` under the same conditions as [`Self::solve`].

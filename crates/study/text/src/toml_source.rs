@@ -152,7 +152,9 @@ impl<'a> Document<'a> {
         SyntaxMistake { place, line, message: one_line(error.message()) }
     }
 
-    /// Returns the first 60 characters of the line at the byte `offset`, without control characters.
+    /// Returns the first 60 characters of the line at the byte `offset`.
+    ///
+    /// Control characters are omitted.
     fn line(&self, offset: usize) -> String {
         let start = self.text.get(..offset).and_then(|before| before.rfind('\n'));
         let line = self.text[start.map_or(0, |newline| newline + 1)..].lines().next();

@@ -50,8 +50,8 @@ impl<'a> DesignAnswer<'a> {
 
     /// Returns table rows of values that explain the required ones.
     ///
-    /// These are the depth of the load, if a force is required, and the pressure of a needle on bare
-    /// tissue, if a pressure on the tissue is required.
+    /// If a force is required, the row is the depth of the load. If a pressure on the tissue is
+    /// required, it is the pressure of a needle on bare tissue.
     pub fn further_rows(&self) -> Vec<Vec<String>> {
         let bare = self.bare_needle().map(|bare| {
             let unit = format!("kPa; the skin lowers it by a factor of {}", digits(bare.reduction));
@@ -87,7 +87,7 @@ impl<'a> DesignAnswer<'a> {
 
     /// Returns every warning about the design as a sentence.
     ///
-    /// `change` contains the measures of the design with smaller and larger gaps, if they are known.
+    /// `change` contains the measures of the design with smaller and larger gaps, if known.
     pub fn warnings(&self, change: Option<&GapChange>) -> Vec<String> {
         let radius = self.requirements.iter().find(|r| {
             r.column == "bend_radius_mm" && matches!(r.relation, Relation::AtMost | Relation::Below)

@@ -66,7 +66,7 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     ];
     let tissue = arguments.tissue_thickness.iter();
     let tissue = tissue.map(|h| ("--tissue-thickness", "substrate.tissue_thickness_over_t", h));
-    // Parse a sweep of one design, because the keys of a sweep check their bounds and report errors.
+    // Parse a sweep of one design: the keys of a sweep check their bounds and report errors.
     let settings: Vec<_> = options
         .into_iter()
         .chain(tissue)

@@ -35,8 +35,8 @@ pub struct FigureOutput {
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub width: Option<f64>,
 
-    /// Size of the smallest letters on paper in pt, e.g. 7; each figure becomes as wide as this size
-    /// requires
+    /// Size of the smallest letters on paper in pt, e.g. 7; each figure becomes as wide as this
+    /// size requires
     #[arg(long, value_name = "PT", allow_hyphen_values = true, value_parser = decimal, conflicts_with = "width")]
     pub font_size: Option<f64>,
 

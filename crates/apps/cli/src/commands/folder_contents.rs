@@ -33,7 +33,7 @@ impl FolderContents {
 
     /// Returns the name of the sweep as a title.
     ///
-    /// If the run is incomplete or its table is thinned out, the title states the number of designs.
+    /// The title states the number of designs if the run is incomplete or the table thinned out.
     pub fn title(&self) -> String {
         let name = self.sweep.name();
         let held = self.verified().shortfall();

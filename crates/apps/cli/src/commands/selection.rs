@@ -139,7 +139,7 @@ fn by_numbers(
     let name = file.display().to_string();
     let sweep = Sweep::parse(text, &name, settings)?;
     let grid = sweep.grid();
-    // If settings change the number of designs, the original design with this number is another one.
+    // If settings change the number of designs, this number belongs to another original design.
     let original =
         Sweep::parse(text, &name, &[]).ok().filter(|other| other.grid().len() == grid.len());
     Ok(ranges(grid, numbers, file)?

@@ -52,7 +52,9 @@ impl<'t> Number<'t> {
         10_f64.powi(self.exponent.unwrap_or(0) - self.decimals as i32)
     }
 
-    /// Returns true if two numbers are equal, up to one unit in the last digit if both are computed.
+    /// Returns true if two numbers are equal.
+    ///
+    /// Two computed numbers may differ by one unit in the last digit.
     fn agrees(&self, other: &Self) -> bool {
         if !(self.computed() && other.computed()) {
             return self.text == other.text;

@@ -183,7 +183,7 @@ fn output_of_commands(place: &Place, blocks: &[&str]) -> String {
     printed
 }
 
-/// Compares the 20 skins with the largest critical force with the 20 with the largest failure force.
+/// Compares the 20 skins of largest critical force with the 20 skins of largest failure force.
 fn assert_strongest_skins(place: &Place, page: &str) {
     let table = place.read("results/first-failure/designs.csv");
     let modes = cells(&table, "first_failure");

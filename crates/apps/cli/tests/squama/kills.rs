@@ -40,7 +40,8 @@ impl Campaign {
     /// Runs a command that writes to `folder`, kills it up to `times` times, then completes it.
     ///
     /// A process is killed up to 10 ms after its journal has a random number of lines, at most
-    /// `most`. A random time after the start of the process would depend on the load of the machine.
+    /// `most`. A random time after the start of the process would depend on the speed of the
+    /// machine.
     fn survive(&mut self, arguments: &str, folder: &str, times: usize, most: usize) {
         let before = self.kills.all;
         let journal = format!("{folder}/journal.jsonl");

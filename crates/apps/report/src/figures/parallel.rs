@@ -17,7 +17,7 @@ const TOP: f64 = 112.0;
 const BOTTOM: f64 = 36.0;
 /// Colours of designs that miss a requirement, and of feasible designs.
 const COLORS: [&str; 2] = ["#d8d8d8", "#7f9fbf"];
-/// Maximum number of drawn designs. Of more designs, the last ones are drawn.
+/// Maximum number of drawn designs. If there are more, only the last ones are drawn.
 const MOST: usize = 1500;
 
 /// The designs of a search in parallel coordinates.

@@ -233,8 +233,8 @@ impl Contacts {
                 (FrictionState::Slip { sign: -1.0, start: here }, SLIP_DISTANCE)
             }
             (FrictionState::Slip { sign, .. }, SLIP_DISTANCE, false) => {
-                // After forward slip the multiplier is at its lower limit, zero. After backward slip
-                // it is at its upper limit. The outgoing branch must not violate the limit reached.
+                // After forward slip the multiplier is at its lower limit, zero. After backward
+                // slip it is at its upper limit. The outgoing branch must not violate this limit.
                 (
                     FrictionState::Stick { anchor: here },
                     if sign > 0.0 { STICK_MULTIPLIER } else { SLIP_DISTANCE },

@@ -30,7 +30,7 @@ pub struct FlexureInput {
     pub parameters: FlexureParameters,
 }
 
-/// Functions, in addition to the stiffness, of which the maximum on the path is a measure.
+/// Functions with a maximum on the path that is a measure, except the stiffness.
 pub(super) const FOLLOWED: [PathFunction<Strip>; 2] = [
     |strip, state, _| strip.normalised_moment(&state.z),
     |strip, state, _| strip.largest_strain(state),

@@ -1,4 +1,4 @@
-//! Tests of the neo-Hookean substrate, the surface of which cannot fold over.
+//! Tests of the neo-Hookean substrate. Its surface cannot fold over.
 
 use approx::assert_relative_eq;
 use skin::puncture::{self, Puncture, PunctureParameters, RowLength};

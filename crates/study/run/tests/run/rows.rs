@@ -146,7 +146,7 @@ fn a_column_solved_alone_equals_the_column_of_a_whole_row() {
             assert_eq!(found, expected, "{} of {skin}", column.name);
             let of_column = |row: &DesignRow| {
                 let mut derivatives = row.result.sensitivity.clone();
-                // Derivatives of 0 are dropped: they are missing if a part of the design is not solved.
+                // Drop derivatives of 0: they are missing if a part of the design is not solved.
                 derivatives.retain(|d| d.measure == column.name && d.left != Some(0.0));
                 derivatives
             };

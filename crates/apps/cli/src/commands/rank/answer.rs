@@ -44,8 +44,8 @@ impl<'a> RankedAnswer<'a> {
 
     /// Formats values, limits, margins and warnings of the best design.
     ///
-    /// `change` contains its measures with smaller and larger gaps, and `coupling` its measures with
-    /// full substrate coupling, if they are known.
+    /// `change` contains its measures with smaller and larger gaps, `coupling` its measures with
+    /// full substrate coupling. Both are `None` if unknown.
     pub fn text(&self, change: Option<&GapChange>, coupling: Option<&CouplingChange>) -> String {
         let mut rows = vec![HEADERS.map(str::to_owned).to_vec()];
         rows.extend(self.rows(change, coupling));
