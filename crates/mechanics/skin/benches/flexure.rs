@@ -22,7 +22,7 @@ fn reference_study(c: &mut Criterion) {
     group.bench_function("unit cell", |b| {
         b.iter(|| {
             designs.par_iter().for_each(|design| {
-                black_box(solve(design, &Common::default(), &parameters)).expect("a design");
+                black_box(solve(design, &Common::default(), &parameters)).expect("a valid design");
             });
         });
     });
@@ -32,7 +32,7 @@ fn reference_study(c: &mut Criterion) {
 fn chain_length(c: &mut Criterion) {
     // The scales of this design touch early on the path, and their contacts then slide.
     let design = samples::design(0.1, 0.1, 75.0, Base::L);
-    let pitch = design.row().expect("a row").pitch();
+    let pitch = design.row().expect("a valid design").pitch();
     let mut group = c.benchmark_group("chain");
     group.sample_size(10);
     for gaps in [100_u32, 200, 400, 800] {
@@ -44,7 +44,7 @@ fn chain_length(c: &mut Criterion) {
         group.throughput(Throughput::Elements(u64::from(gaps)));
         group.bench_function(BenchmarkId::from_parameter(gaps), |b| {
             b.iter(|| {
-                black_box(solve(&design, &Common::default(), &parameters)).expect("a design")
+                black_box(solve(&design, &Common::default(), &parameters)).expect("a valid design")
             });
         });
     }

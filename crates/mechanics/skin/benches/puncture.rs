@@ -25,9 +25,9 @@ fn reference_study(c: &mut Criterion) {
     {
         group.bench_function(name, |b| {
             b.iter(|| {
-                let known = Calibrations::default();
+                let calibrations = Calibrations::default();
                 designs.par_iter().for_each(|design| {
-                    black_box(samples::solve_with(&known, design, &parameters));
+                    black_box(samples::solve_with(&calibrations, design, &parameters));
                 });
             });
         });

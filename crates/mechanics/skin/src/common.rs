@@ -36,7 +36,7 @@ pub enum PathDetail {
 }
 
 impl Default for Common {
-    /// Returns settings without friction, with the contact law printed by Shafiei et al. (2021).
+    /// Returns settings without friction, with the contact law as printed in Shafiei et al. (2021).
     fn default() -> Self {
         Self {
             law: Law::PRINTED,
@@ -47,9 +47,9 @@ impl Default for Common {
     }
 }
 
-/// Returns true if a group of measures has its default value.
+/// Returns true if a group of measures has its default value, i.e. no values.
 ///
-/// Groups without values are left out of files.
-pub(crate) fn is_default<T: Default + PartialEq>(part: &T) -> bool {
-    *part == T::default()
+/// Serialisation omits such groups.
+pub(crate) fn is_default<T: Default + PartialEq>(group: &T) -> bool {
+    *group == T::default()
 }

@@ -19,7 +19,7 @@ pub(crate) use dissipation::{Dissipation, product_integral};
 pub(crate) use friction::TipFriction;
 use friction::{FrictionState, SLIP_DISTANCE};
 pub(crate) use mode::SkinMode;
-pub(crate) use needle_mode::{NeedleMode, OutlinePart, SHARP_SLOTS, TipState, Touch};
+pub(crate) use needle_mode::{NeedleMode, OutlinePart, SHARP_SLOTS, TipContact, TipState};
 pub(crate) use touching::{PairCoordinate, TouchingEdge};
 
 use contact::{
@@ -38,15 +38,15 @@ pub(crate) fn pair_constraints(law: &ContactLaw) -> usize {
     LEVELS.len() * slots(law)
 }
 
-/// Counts the constraints of one contact: three normal forces, and two for friction if any.
+/// Counts the constraints of one contact: three normal forces, and two for friction if it acts.
 fn slots(law: &ContactLaw) -> usize {
     if law.friction() > 0.0 { FORCES + 2 } else { FORCES }
 }
 
-/// Value of a condition that does not exist, or that cannot become active in the current state.
+/// Value for a constraint that has no condition in the current state.
 ///
-/// Any positive value works: the condition then counts as satisfied, and no event is sought for it.
-pub(crate) const HOLDS: f64 = 1.0;
+/// Any positive value is suitable: the constraint then counts as satisfied and causes no event.
+pub(crate) const SATISFIED: f64 = 1.0;
 
 /// State of a row or a strip: unknowns, active set and mode.
 pub(crate) type SkinState = solver::State<SkinMode>;
@@ -69,7 +69,7 @@ pub(crate) struct Contacts {
     pub(crate) arrangement: Arrangement,
     /// Body under the row. Displacements of a scale are in the tangent frame at its node.
     pub(crate) body: Body,
-    /// Undeformed pairs: one for each pair, or one for each distance if all scales are equal.
+    /// Undeformed shape of each pair, or for each distance of a pair if all scales are equal.
     ///
     /// Each entry also holds the tangent frame of the right scale, relative to the frame of the
     /// left scale.
@@ -83,17 +83,17 @@ pub(crate) struct Contacts {
     pub(crate) scales: Vec<Option<usize>>,
     /// True if the displacement of each scale is relative to its left neighbour.
     ///
-    /// Rotations are relative to the first scale in both cases.
+    /// Rotations are relative to the first scale in either case.
     relative: bool,
     /// Number of constraints of one contact.
     slots: usize,
     /// Index of the unknown of each constraint.
     pub(crate) forces: Vec<usize>,
-    /// Constraint numbers of the slip distances, which are unknowns that only grow.
+    /// Constraint numbers of the slip distances, which are unknowns that cannot decrease.
     pub(crate) slip_distances: Vec<usize>,
-    /// Contacts with an anchor other than the one in the mode, and the difference.
+    /// Contacts with shifted anchors or ratios, each with its shift from the value in the mode.
     ///
-    /// Used only in rows with a perturbed parameter, for derivatives.
+    /// Only a row with a perturbed parameter has such shifts, for derivatives.
     anchor_shifts: Vec<(usize, f64)>,
 }
 
@@ -148,7 +148,7 @@ impl Contacts {
     /// Returns the range of constraints that may change at the same event as `constraint`.
     ///
     /// With friction these are all constraints of its pair, because both contacts of the pair may
-    /// begin to slip there.
+    /// begin to slip at this event.
     pub(crate) fn coupled(&self, constraint: usize) -> std::ops::Range<usize> {
         if !self.has_friction() {
             return constraint..constraint + 1;
@@ -188,7 +188,9 @@ impl Contacts {
     /// On a curved body all poses are in the tangent frame of the first scale.
     pub(crate) fn poses(&self, z: &[f64]) -> Vec<Pose> {
         let scales = 0..self.scales.len();
-        scales.map(|scale| self.seen(self.pose(z, scale), || self.frame_at(scale))).collect()
+        scales
+            .map(|scale| self.in_outer_frame(self.pose(z, scale), || self.frame_at(scale)))
+            .collect()
     }
 
     /// Returns the tangent frame of a scale, relative to the frame of the first scale.
@@ -199,7 +201,7 @@ impl Contacts {
     /// Transforms a pose from the tangent frame `frame` to the frame to which `frame` is relative.
     ///
     /// Does nothing on a flat body.
-    fn seen(&self, pose: Pose, frame: impl FnOnce() -> Frame) -> Pose {
+    fn in_outer_frame(&self, pose: Pose, frame: impl FnOnce() -> Frame) -> Pose {
         if self.body.is_flat() {
             return pose;
         }
@@ -208,9 +210,9 @@ impl Contacts {
         Pose::new(displacement.x, displacement.y, pose.rotation - frame.angle)
     }
 
-    /// Returns the unknown rotation of the frame in which the pose of a scale is expressed.
+    /// Returns the index of the rotation of the frame in which the pose of a scale is expressed.
     ///
-    /// This is the rotation of its left neighbour; `None` if the frame is fixed.
+    /// This is the unknown rotation of its left neighbour; `None` if the frame is fixed.
     fn frame(&self, scale: usize) -> Option<usize> {
         let neighbour = scale.checked_sub(1).filter(|_| self.relative)?;
         Some(self.scales[neighbour]? + 2)
@@ -254,27 +256,27 @@ impl Contacts {
 
     /// Replaces `values` by the values of the conditions of all inactive constraints.
     ///
-    /// A constraint without a condition gets [`HOLDS`].
+    /// A constraint without a condition gets [`SATISFIED`].
     pub(crate) fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         values.clear();
-        values.resize(self.forces.len(), HOLDS);
+        values.resize(self.forces.len(), SATISFIED);
         self.for_each(state, |contact, corners| {
             let values = &mut values[self.slots * contact..][..FORCES];
             match state.mode.contacts[contact] {
                 CornerContact::Open => {
                     // Fast path without derivatives: most contacts are open and need only the gap.
-                    values[0] = corners.facing().map_or(HOLDS, |(_, gap)| gap);
+                    values[0] = corners.facing().map_or(SATISFIED, |(_, gap)| gap);
                 }
                 closed => {
                     for (value, condition) in
                         values.iter_mut().zip(closed.resting_conditions(corners))
                     {
-                        *value = condition.map_or(HOLDS, |condition| condition.value);
+                        *value = condition.map_or(SATISFIED, |condition| condition.value);
                     }
                 }
             }
         });
-        self.friction_conditions(state, &state.z, HOLDS, values);
+        self.friction_conditions(state, &state.z, SATISFIED, values);
     }
 
     /// Replaces `values` like [`Self::conditions`], and `slopes` by derivatives along `direction`.
@@ -286,7 +288,7 @@ impl Contacts {
         slopes: &mut Vec<f64>,
     ) {
         values.clear();
-        values.resize(self.forces.len(), HOLDS);
+        values.resize(self.forces.len(), SATISFIED);
         slopes.clear();
         slopes.resize(self.forces.len(), 0.0);
         self.for_each(state, |contact, corners| {
@@ -298,25 +300,25 @@ impl Contacts {
                 }
             }
         });
-        self.friction_conditions(state, &state.z, HOLDS, values);
+        self.friction_conditions(state, &state.z, SATISFIED, values);
         self.friction_conditions(state, direction, 0.0, slopes);
     }
 
-    /// Evaluates the condition of an inactive constraint; [`HOLDS`] if it has none.
+    /// Evaluates the condition of an inactive constraint; [`SATISFIED`] without a condition.
     pub(crate) fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
         let (contact, slot) = self.contact_of(constraint);
         if slot >= FORCES {
             let value = self.slot_condition(state, &state.z, contact, slot);
-            return value.unwrap_or(HOLDS);
+            return value.unwrap_or(SATISFIED);
         }
         // A pair with its right scale beyond the end of the row has unknowns but no contact.
         if !self.is_whole(Self::pair_of(contact)) {
-            return HOLDS;
+            return SATISFIED;
         }
         let poses = self.pair_poses(&state.z, contact);
         let conditions =
             state.mode.contacts[contact].resting_conditions(&self.corners(contact, &poses));
-        conditions[slot].map_or(HOLDS, |condition| condition.value)
+        conditions[slot].map_or(SATISFIED, |condition| condition.value)
     }
 
     /// Evaluates the derivative of the condition of a constraint along `direction`.
@@ -345,7 +347,7 @@ impl Contacts {
         by_parts + unknowns.map(|(unknown, slope)| slope * direction[unknown]).sum::<f64>()
     }
 
-    /// Moves a contact to its next state after one of its constraints changed sides.
+    /// Moves a contact to its next state after one of its constraints became active or inactive.
     ///
     /// Returns the constraint with the condition that the outgoing branch must satisfy, or `None`
     /// if the contact has no such transition.
@@ -488,6 +490,6 @@ impl Contacts {
         };
         let of_right = self.pose(z, right);
         *turned = Some((right, of_right));
-        [of_left, self.seen(of_right, || self.pair_and_frame(pair).1)]
+        [of_left, self.in_outer_frame(of_right, || self.pair_and_frame(pair).1)]
     }
 }

@@ -59,7 +59,7 @@ impl Design {
 
     /// Returns the undeformed row; its scales may also lean to the left.
     ///
-    /// The slant is negative if a derivative perturbs an upright design.
+    /// The slant is negative if difference quotients decrease the slant of an upright design.
     ///
     /// # Errors
     /// If a length is not positive or the slant is outside `(−90°, 90°)`.

@@ -53,8 +53,8 @@ impl Imperfection {
     ///
     /// A sample depends only on the seed, the number and the geometry of the design, not on the
     /// machine, the thread or the order in which samples are drawn. The normal deviates do not
-    /// depend on the amount of scatter: another `cv` or `sd` scales the same deviates, except where
-    /// (I3) rejects them.
+    /// depend on the amount of scatter: another `cv` or `sd` multiplies the same deviates, except
+    /// after draws that (I3) rejects.
     ///
     /// # Errors
     /// If `cv` or `sd` is negative or not finite, or the geometry of the design is invalid.
@@ -132,7 +132,7 @@ enum Stream {
 }
 
 impl Sample {
-    /// Builds the row with `left` scales to the left of its central scale and `right` to the right.
+    /// Builds the row with `left` scales on the left and `right` scales on the right of its centre.
     ///
     /// Longer rows of a sample contain the same scales around the centre.
     ///
@@ -186,8 +186,8 @@ impl Sample {
         stream: Stream,
         last: &Parallelogram,
     ) -> Option<(Parallelogram, f64)> {
-        // Draw both numbers before any check, so that rejected and accepted draws consume equally
-        // many random numbers.
+        // Draw the numbers for gap and slant before any check, so that rejected and accepted draws
+        // consume equally many random numbers.
         let (for_gap, for_slant) = (normal(random), normal(random));
         let gap = self.gap(for_gap);
         let scale = self.slanted(for_slant)?;

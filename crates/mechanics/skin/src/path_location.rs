@@ -4,7 +4,7 @@ use solver::{Bracket, Continuation, Equilibrium, State, System};
 
 /// Largest accepted difference between a quantity and its required value.
 ///
-/// It is relative to one plus the magnitude of the required value.
+/// The difference is divided by one plus the magnitude of the required value.
 const CLOSE: f64 = 1e-12;
 
 /// Maximum number of evaluations of the root search; a bracket then has the resolution of `f64`.
@@ -29,7 +29,8 @@ impl<S: System> PathLocation<S> {
 
     /// Solves for the equilibrium between two neighbouring points where the quantity is `value`.
     ///
-    /// Returns `None` if the quantity does not pass the value there, or if the solver fails.
+    /// Returns `None` if the quantity does not pass the value between both points, or if the solver
+    /// fails.
     pub(crate) fn between(
         &self,
         path: &mut Continuation<S>,
@@ -38,7 +39,7 @@ impl<S: System> PathLocation<S> {
     ) -> Option<Equilibrium<S::Mode>> {
         let low = (0.0, self.off(path.system(), &from.state));
         let high = (1.0, self.off(path.system(), &to.state));
-        // Check the end point before comparing signs: if the quantity has its value there,
+        // Check `to` before comparing signs: if the quantity has the required value at this point,
         // round-off may give the difference either sign.
         if self.is_at(path.system(), &to.state) {
             return Some(to.clone());
@@ -76,7 +77,8 @@ impl<S: System> PointLocator<S> {
     ) -> Self {
         let locations: Vec<_> = locations.into_iter().collect();
         let start = path.point();
-        // A location at the start of the path, such as zero load, has no segment before it.
+        // No segment precedes a location at the start of the path, such as zero load, so check the
+        // start here.
         let points = locations
             .iter()
             .map(|location| location.is_at(path.system(), &start.state).then(|| start.clone()))
@@ -91,10 +93,10 @@ impl<S: System> PointLocator<S> {
         from: &Equilibrium<S::Mode>,
         to: &Equilibrium<S::Mode>,
     ) {
-        for (location, found) in self.locations.iter().zip(&mut self.points) {
-            // A path that turns back passes a value again: keep the first point.
-            if found.is_none() {
-                *found = location.between(path, from, to);
+        for (location, point) in self.locations.iter().zip(&mut self.points) {
+            // A path that reverses passes a value again: keep the first point.
+            if point.is_none() {
+                *point = location.between(path, from, to);
             }
         }
     }

@@ -55,10 +55,10 @@ pub use stability::Instability;
 pub use surface_fold::{Fold, GapStretch};
 pub use tilt_measures::TiltMeasures;
 
-/// Quantity named by the error that a round tip reaches over too many scales.
-pub const TIP_REACH: &str = "radius of the needle over the pitch of the row";
+/// Name of the quantity in the error for a round tip that reaches over too many scales.
+pub const TIP_REACH: &str = "radius of the needle divided by the pitch of the row";
 
-/// Quantity named by the error that displacements do not decay along a row.
+/// Name of the quantity in the error for displacements that do not decay along a row.
 pub const DIRECT_STIFFNESS: &str = "direct stiffness of the substrate";
 
 /// Largest number of scales of a row with [`RowLength::Auto`].
@@ -157,8 +157,8 @@ pub fn overlaps_at_rest(design: &Design, body: Body) -> Result<bool, OutOfRange>
 
 /// Computes the curvature `t/R` of the concave body on which neighbours just touch at rest.
 ///
-/// It is negative, and found by bisection to `1e-9`. `None` if neighbours do not overlap on a body
-/// of radius `t`.
+/// The curvature is negative. Bisection determines it to `1e-9`. `None` if neighbours do not
+/// overlap even on a concave body of radius `t`.
 ///
 /// # Errors
 /// If a length of the design is not positive, or its slant is out of range.

@@ -33,7 +33,7 @@ pub struct Iteration {
     pub step: usize,
     /// Number of the iteration within the step, from 0.
     pub iteration: usize,
-    /// Largest residual divided by the size of its equation (N2).
+    /// Largest of the residuals, each divided by the size of its equation (N2).
     pub residual: f64,
     /// Control parameter at the path point, degrees.
     ///
@@ -62,7 +62,7 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
 
     /// Computes the frictional dissipation at the needle tip between two points.
     ///
-    /// Its arguments have the same meaning as in [`Contacts::friction_work`].
+    /// The arguments have the same meaning as in [`Contacts::friction_work`].
     fn tip_work(&self, _from: &SkinPoint, _to: &SkinPoint, _spans: [f64; 2]) -> Dissipation {
         Dissipation::default()
     }
@@ -111,7 +111,7 @@ pub(crate) struct Work {
 ///
 /// The rules are cubics and the trapezoidal rule. The difference is relative to the dissipation
 /// since rest. With this limit the error of `loop_work` is below 0.2 % for 4400 random designs.
-const BEND: f64 = 0.005;
+const RULE_DIFFERENCE: f64 = 0.005;
 
 /// Maximum number of successive bisections of a segment.
 const BISECTIONS: usize = 8;
@@ -131,7 +131,7 @@ impl Work {
 
     /// Adds the dissipation of the segment between two points.
     ///
-    /// Bisects the segment if the two integration rules differ by more than [`BEND`].
+    /// Bisects the segment if the two integration rules differ by more than [`RULE_DIFFERENCE`].
     fn add_segment<S: Skin>(
         &mut self,
         path: &mut Continuation<S>,
@@ -143,7 +143,7 @@ impl Work {
         let spans = path.spans(from, to);
         let between_scales = skin.contacts().friction_work(from, to, spans);
         let at_tip = skin.tip_work(from, to, spans);
-        let allowed = BEND * (self.total() + between_scales.value + at_tip.value).abs();
+        let allowed = RULE_DIFFERENCE * (self.total() + between_scales.value + at_tip.value).abs();
         let is_smooth = [between_scales, at_tip]
             .iter()
             .all(|part| (part.value - part.trapezoid).abs() <= allowed);
@@ -188,7 +188,7 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) stiffness: Peak<SkinMode>,
     /// Cached result of the search for the largest stiffness at and between the recorded points.
     stiffness_summit: OnceCell<Option<Summit<SkinMode>>>,
-    /// Further functions, each with its tracked maximum.
+    /// Functions other than the stiffness, each with its largest value at the recorded points.
     followed: Vec<(PathFunction<S>, Peak<SkinMode>)>,
     /// Equilibrium at which the first contact closes.
     pub(crate) touching: Option<SkinPoint>,
@@ -244,7 +244,7 @@ impl<S: Skin> Record<S> {
                 |&change: &Change| Self::event(skin, [&from.state, &point.state], here, change);
             let events: Vec<_> = changes.iter().filter_map(event).collect();
             // Count closed contacts instead of looking for a closing event: with friction, two
-            // corners that meet may stick without one.
+            // corners that touch may stick without a closing event.
             if self.touching.is_none() && Contacts::closed(&point.state) > 0 {
                 // Derivatives at first contact need the whole equilibrium.
                 self.touching = Some(point.clone());
@@ -267,7 +267,7 @@ impl<S: Skin> Record<S> {
 
     /// Replaces the points stored for maxima by points of a longer row.
     ///
-    /// `new` converts a point of the shorter row.
+    /// `new` converts a point of the shorter row to the longer row.
     pub(crate) fn replace_points(&mut self, new: impl Fn(&SkinPoint) -> SkinPoint) {
         for (_, peak) in &mut self.followed {
             peak.replace_points(&new);
@@ -288,7 +288,7 @@ impl<S: Skin> Record<S> {
     ) -> Option<ContactEvent<S::PathPoint>> {
         let contacts = skin.contacts();
         if change.constraint >= contacts.forces.len() {
-            // Constraints behind the contact forces belong to the needle.
+            // Needle constraints follow the contact constraints.
             return None;
         }
         // If the contact opened, only the state before the event has its corner and edge.
@@ -312,15 +312,15 @@ impl<S: Skin> Record<S> {
 
     /// Returns the largest stiffness on the path and its point.
     pub(crate) fn stiffness_summit(&self, path: &mut Continuation<S>) -> Option<&Summit<S::Mode>> {
-        // The search solves for equilibria. Cache its result, which the measure and its derivatives
-        // share.
+        // The search is slow, because it solves for equilibria. Cache its result for the measure
+        // and its derivatives.
         self.stiffness_summit.get_or_init(|| self.stiffness.summit(path, S::stiffness)).as_ref()
     }
 
     /// Returns the largest value of a tracked function at the recorded points, and its point.
     ///
-    /// `followed` is the index of the function. This suffices for the load, because its extrema
-    /// are recorded points.
+    /// `followed` is the index of the function. Searching only the recorded points suffices for the
+    /// load, because the extrema of the load are recorded points.
     pub(crate) fn highest_point(&self, followed: usize) -> Option<Summit<S::Mode>> {
         self.followed.get(followed)?.1.at_points()
     }

@@ -101,9 +101,10 @@ impl<S: Skin> MeasuredPoint<S> {
 /// Relative difference of the one-sided derivatives below which a measure counts as smooth.
 const SMOOTH: f64 = 1e-9;
 
-/// Relative distance to the extreme value within which another scale may attain it.
+/// Relative difference from the extreme value up to which a scale is a candidate for this value.
 ///
-/// Scales at a larger distance cannot attain it within a difference step of a few millionths.
+/// Scales with a larger difference cannot attain the extreme value within a difference step of a
+/// few millionths.
 const NEAR: f64 = 1e-3;
 
 /// Relative round-off of a measure.
@@ -118,13 +119,13 @@ const MOST_CHANGES: usize = 8;
 /// a singular tangent, get no entry.
 pub(crate) fn derivatives<S: Skin>(
     system: &S,
-    spots: Vec<MeasuredPoint<S>>,
+    points: Vec<MeasuredPoint<S>>,
     variations: &[Neighbours<S>],
     settings: &Settings,
 ) -> Vec<Derivative> {
     let mut derivatives = Vec::new();
     // One factorisation serves all quantities at a point.
-    for MeasuredPoint { point, quantities } in merged(spots) {
+    for MeasuredPoint { point, quantities } in merged(points) {
         let here = point.and_then(|point| Linearisation::new(system, point).ok());
         // A singular tangent does not determine the direction of the path, so no derivative exists.
         let Some(here) = here else { continue };
@@ -149,18 +150,18 @@ pub(crate) fn derivatives<S: Skin>(
 }
 
 /// Merges measured points with equal state and anchor, so that they share one factorisation.
-fn merged<S: Skin>(spots: Vec<MeasuredPoint<S>>) -> Vec<MeasuredPoint<S>> {
+fn merged<S: Skin>(points: Vec<MeasuredPoint<S>>) -> Vec<MeasuredPoint<S>> {
     let mut merged: Vec<MeasuredPoint<S>> = Vec::new();
-    for spot in spots {
+    for measured in points {
         match merged.iter_mut().find(|other| {
-            match (&other.point, &spot.point) {
-                // A point moves differently with another anchor, so both must agree.
+            match (&other.point, &measured.point) {
+                // The motion of a point depends on its anchor, so state and anchor must agree.
                 (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
                 _ => false,
             }
         }) {
-            Some(there) => there.quantities.extend(spot.quantities),
-            None => merged.push(spot),
+            Some(there) => there.quantities.extend(measured.quantities),
+            None => merged.push(measured),
         }
     }
     merged
@@ -182,7 +183,7 @@ struct Sides<M> {
 }
 
 impl<M> Sides<M> {
-    /// Returns the name of the contact change on the right, otherwise on the left side, if any.
+    /// Returns the name of the contact change on the right side, or else on the left side, if any.
     fn change(&self) -> Option<&str> {
         let right = self.right.as_ref().and_then(|right| right.change.as_deref());
         right.or(self.left.change.as_deref())
@@ -265,16 +266,16 @@ impl<S: Skin> Linearised<'_, S> {
     }
 }
 
-/// Lists the quantities at `spots` for all parameters with unknown derivatives.
+/// Returns entries with unknown derivatives for all quantities at `points` and all parameters.
 ///
-/// These quantities depend on a stick position, and its derivatives are unknown.
+/// These quantities depend on a stick position with unknown derivatives.
 pub(crate) fn missing<S: Skin>(
     skin: &S,
-    spots: &[MeasuredPoint<S>],
+    points: &[MeasuredPoint<S>],
     parameters: usize,
 ) -> Vec<Derivative> {
     let mut derivatives = Vec::new();
-    for MeasuredPoint { point, quantities } in spots {
+    for MeasuredPoint { point, quantities } in points {
         for (quantity, point) in quantities.iter().zip(std::iter::repeat(point)) {
             let value = point.as_ref().map_or(0.0, |point| quantity.at(skin, point));
             let kink = "no derivative: a stick position depends on another event";

@@ -8,13 +8,13 @@ use crate::record::Skin;
 /// Outcome of the path of a puncture or of bending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The path reached its target, and the state there passed the audit.
+    /// The path reached its target, and its end state passed the audit.
     ///
-    /// In a puncture the row was also long enough.
+    /// In a puncture the row was also long enough for the spread of contact.
     Complete,
     /// The path stopped before its target, for the given reason.
     Stopped(Termination),
-    /// The path was lost while load, depth and tilt were all below their maxima.
+    /// The solver stopped while load, depth and tilt were all below their maxima.
     ///
     /// In bending of several equal gaps: the path reached the largest moment.
     LimitPoint,
@@ -36,7 +36,7 @@ pub enum Status {
     Locked,
     /// A contact lies beyond an end of its edge, which the contact model does not cover.
     ///
-    /// Also: a corner met a guided needle from the side.
+    /// This status is also used if a corner of a scale reached a guided needle from the side.
     OffEdge,
 }
 

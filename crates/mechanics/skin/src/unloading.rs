@@ -24,10 +24,10 @@ pub struct Unloading<P> {
     pub loop_work: Option<f64>,
 }
 
-/// Residual state after unloading; `None` if the unloading path is incomplete.
+/// Residual state after unloading; all values are `None` if the unloading path is incomplete.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Remains {
-    /// Area of the load loop.
+    /// Area of the load loop, in the unit of [`Unloading::loop_work`].
     pub loop_work: Option<f64>,
     /// Residual displacement `u*` of the loaded point, or residual curvature `κ*`.
     pub displacement: Option<f64>,
@@ -42,7 +42,8 @@ impl<P> Unloading<P> {
         mut work: Work,
     ) -> Self {
         if path.point().state.z[path.system().load()] == 0.0 {
-            // A needle that fits between two scales is through at rest, without a load.
+            // A needle that fits between two scales reaches the soft surface at rest, without a
+            // load.
             let point = Self::noted(path.system(), path.point(), &work);
             let loop_work = path.system().repeats() * work.total();
             return Self {
@@ -86,8 +87,8 @@ impl<P> Unloading<P> {
 
 /// Follows the unloading path from the equilibrium `turn`, and evaluates a curve at `locations`.
 ///
-/// The result has one entry for each location, without derivatives with respect to parameters;
-/// `None` if the unloading path does not reach the location.
+/// The result has one entry for each location, without derivatives with respect to parameters. An
+/// entry is `None` if the unloading path does not reach its location, or if `turn` is `None`.
 pub(crate) fn unloaded<S: Skin + Clone>(
     path: &mut Continuation<S>,
     turn: Option<SkinPoint>,

@@ -202,8 +202,8 @@ fn an_imperfect_strip_first_touches_at_the_closed_form_curvature() {
     for (gap_cv, slant_sd_deg) in [(0.2, 0.0), (0.2, 0.5)] {
         for number in 1..=2 {
             let measures = bent(&sample(gap_cv, slant_sd_deg, 3, number)).measures;
-            let [known, found] = [measures.contact_curvature, measures.first_contact_curvature];
-            assert_relative_eq!(known.unwrap(), found.unwrap(), max_relative = 1e-9);
+            let [exact, solved] = [measures.contact_curvature, measures.first_contact_curvature];
+            assert_relative_eq!(exact.unwrap(), solved.unwrap(), max_relative = 1e-9);
         }
     }
 }

@@ -10,7 +10,9 @@ use super::{Contacts, SkinPoint, SkinState};
 /// It covers the round-off in the computation of overlaps.
 const AUDIT_TOLERANCE: f64 = 1e-8;
 
-/// Fraction of an edge by which a contact may lie beyond its end, because of round-off.
+/// Distance by which a contact may lie beyond an end of its edge, divided by the edge length.
+///
+/// The distance permits round-off.
 const OFF_EDGE: f64 = 1e-6;
 
 /// Multiples of the path direction at which states beyond the end of a path are checked.
@@ -121,7 +123,7 @@ impl Contacts {
     /// `None` if no scales beyond the reach overlap. Also `None` if a contact is so soft that a
     /// scale is pushed half through its neighbour, because overlaps of scales farther away are then
     /// not meaningful.
-    pub(crate) fn meeting_beyond(&self, state: &SkinState) -> Option<usize> {
+    pub(crate) fn overlapping_beyond_reach(&self, state: &SkinState) -> Option<usize> {
         let scale = self.arrangement.scale(0);
         let half_breadth = scale.half_base() * scale.slant().cos();
         let mut contacts = 0..state.mode.contacts.len();
@@ -131,20 +133,21 @@ impl Contacts {
         overlapping.max().filter(|&pitches| pitches > self.reach && !is_soft)
     }
 
-    /// Lists the distances, in pitches, of all pairs of scales that overlap too much.
+    /// Lists the distances, in pitches, of all pairs of scales with an inadmissible overlap.
     ///
-    /// The depth of the overlap exceeds the approach of their contacts plus `slack(pair)`.
+    /// An overlap is inadmissible if it is deeper than the approach of the contacts of the pair
+    /// plus `slack(pair)`.
     pub(crate) fn overlapping(
         &self,
         state: &SkinState,
         slack: impl Fn(usize) -> f64,
     ) -> Vec<usize> {
-        let found = overlaps(
+        let overlaps = overlaps(
             |i| (self.arrangement.scale(i), self.frame_at(i).origin),
             &self.poses(&state.z),
         );
         let mut distances = Vec::new();
-        for Overlap { left, right, depth } in found {
+        for Overlap { left, right, depth } in overlaps {
             let pitches = right - left;
             // Number of the pair; this inverts `ends`.
             let pair = self.reach * left + pitches - 1;
@@ -163,7 +166,7 @@ impl Contacts {
 
     /// Returns true if two neighbours overlap by more than the approach of their contacts.
     ///
-    /// Checks pairs only, because a strip bent to a ring may overlap its other end.
+    /// Checks neighbours only, because the two ends of a strip bent to a ring may overlap.
     pub(crate) fn neighbours_interpenetrate(&self, state: &SkinState) -> bool {
         self.pairs(&state.z).any(|(pair, poses)| {
             let allowed = self.pair_approach(state, pair) + AUDIT_TOLERANCE;

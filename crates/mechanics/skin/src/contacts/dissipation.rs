@@ -80,8 +80,8 @@ impl Contacts {
             both.map(|contact| self.own_and_flush_force(z, contact)).sum::<f64>()
         });
         let slip = self.unknown(contact, SLIP_DISTANCE);
-        // If the contact stops slipping at the second point, its slip distance is reset there, so
-        // compute the slip from the poses.
+        // The slip distance is reset if the contact stops slipping at the second point, so compute
+        // the slip from the poses.
         let end = sign * (self.slip_coordinate(&to.state, edge, contact) - start);
         let slip_distances = [from.state.z[slip], end];
         let rates = [spans[0] * from.leaving[slip], spans[1] * to.arriving[slip]];

@@ -11,9 +11,9 @@
 //!
 //! Sticking is an equality constraint. Its unknown is the *stick multiplier* `a = T + μ Λ`. The
 //! contact starts to slip forward where `a` vanishes, and backward where `2 μ Λ − a` vanishes. The
-//! unknown of a slipping contact is its slip distance `σ (s − s₀)` in the direction `σ` = ±1, which
-//! only grows: where it would decrease, the contact sticks (Q2). Friction thus adds two constraints
-//! to each contact:
+//! unknown of a slipping contact is its slip distance `σ (s − s₀)` in the direction `σ` = ±1. The
+//! slip distance cannot decrease: where it would decrease, the contact sticks (Q2). Friction thus
+//! adds two constraints to each contact:
 //!
 //! ```text
 //! 0 ≤ a   while sticking          0 ≤ σ (s − s₀)  ⟂  2 μ Λ − a ≥ 0
@@ -24,8 +24,9 @@
 //! - If the sides of a pair lie on each other, both contacts of the pair slide along one line, and
 //!   only the sum of their friction matters. One contact, the *carrier*, carries the friction of
 //!   both; the other contact is *shared*.
-//! - Coinciding corners are *locked*: they keep the ratio `T/Λ` with which they met. It is also the
-//!   ratio with which the contact would continue to slide along the next edge.
+//! - Coinciding corners are *locked*: they keep the ratio `T/Λ` that the contact had when they came
+//!   together. If the contact was sliding, this ratio is also the ratio of sliding along the next
+//!   edge.
 //! - A corner at the position of a needle tip moves with the tip. While the tip slides, the corner
 //!   is locked with the ratio `T/Λ` of sliding in this direction. While the tip sticks, only the
 //!   sum of both friction forces matters, and tip and corner take equal fractions of their limits
@@ -86,7 +87,7 @@ impl FrictionState {
         self != Self::None
     }
 
-    /// Returns true if both states are of the same kind, and slip in the same direction if any.
+    /// Returns true if both states are of the same kind and, if they slip, in the same direction.
     pub(super) fn is_same_form(self, other: Self) -> bool {
         match (self, other) {
             (Self::Slip { sign, .. }, Self::Slip { sign: of_other, .. }) => sign == of_other,
@@ -172,14 +173,14 @@ impl Contacts {
     pub(crate) fn anchors(state: &SkinState) -> impl Iterator<Item = (usize, f64)> {
         let friction_states = state.mode.friction_states.iter().enumerate();
         friction_states.filter_map(|(contact, friction_state)| match friction_state {
-            FrictionState::Stick { anchor: kept } | FrictionState::Locked { ratio: kept } => {
-                Some((contact, *kept))
+            FrictionState::Stick { anchor: value } | FrictionState::Locked { ratio: value } => {
+                Some((contact, *value))
             }
             FrictionState::None | FrictionState::Slip { .. } | FrictionState::WithTip => None,
         })
     }
 
-    /// Evaluates the anchor or ratio in `state` that a contact has from state `to` on.
+    /// Computes from `state` the anchor or ratio that a contact gets in the state `to`.
     ///
     /// Used to differentiate anchors at the event at which they are set.
     pub(crate) fn anchor_value(
@@ -196,7 +197,7 @@ impl Contacts {
 
     /// Shifts the anchor or ratio of a contact.
     ///
-    /// Used in rows with a perturbed parameter, in which contacts begin to stick elsewhere.
+    /// Used in rows with a perturbed parameter, in which a contact sticks at another position.
     pub(crate) fn shift_anchor(&mut self, contact: usize, by: f64) {
         self.anchor_shifts.push((contact, by));
     }
@@ -371,7 +372,7 @@ impl Contacts {
                 FrictionState::WithTip => {
                     pair.add_column(matrix, multiplier, &along.map(|slope| -slope));
                 }
-                // No active constraint, hence no equation.
+                // These states have no active friction constraint, hence no equation.
                 FrictionState::None | FrictionState::Locked { .. } => {}
             }
         }
@@ -429,7 +430,8 @@ impl Contacts {
 
     /// Writes the conditions of [`Self::slot_condition`] of all contacts into `values`.
     ///
-    /// If `z` is a direction, these are derivatives. Contacts without a condition get `otherwise`.
+    /// If `z` is a direction, the values are derivatives along it. Contacts without a condition get
+    /// `otherwise`.
     pub(super) fn friction_conditions(
         &self,
         state: &SkinState,
@@ -450,7 +452,7 @@ impl Contacts {
             && mode.friction_states[Self::other_contact(contact)].carries_friction()
     }
 
-    /// Returns the contact that carries the friction of `contact`: itself, or the other one.
+    /// Returns the contact that carries the friction of `contact`: itself or the other of its pair.
     fn carrier_of(mode: &SkinMode, contact: usize) -> usize {
         if Self::is_shared(mode, contact) { Self::other_contact(contact) } else { contact }
     }
@@ -467,7 +469,7 @@ impl Contacts {
         std::iter::once(carrier).chain(shared)
     }
 
-    /// Computes the friction force on the left scale; `normal_force` is the force of the contact.
+    /// Computes the friction force on the left scale from the `normal_force` on this scale.
     pub(super) fn traction_on_left(
         &self,
         state: &SkinState,
@@ -514,7 +516,7 @@ impl Contacts {
         }
     }
 
-    /// Returns the corner and edge of a contact that slides along an edge.
+    /// Returns the corner and edge of a contact that can slide along its edge.
     ///
     /// `None` for open contacts and coinciding corners.
     pub(super) fn edge_of(mode: &SkinMode, contact: usize) -> Option<CornerEdge> {

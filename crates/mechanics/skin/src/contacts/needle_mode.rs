@@ -22,7 +22,7 @@ impl OutlinePart {
 
     /// Returns the next part along the outline, forward or backward; `None` at a foot.
     pub(crate) fn next(self, forward: bool) -> Option<Self> {
-        let here = Self::ALL.iter().position(|place| *place == self)?;
+        let here = Self::ALL.iter().position(|part| *part == self)?;
         let next = if forward { here + 1 } else { here.checked_sub(1)? };
         Self::ALL.get(next).copied()
     }
@@ -52,24 +52,24 @@ pub(crate) enum TipState {
 
 /// Contact of the needle with a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Touch {
+pub(crate) struct TipContact {
     /// Number of the scale: 0 for the punctured scale, increasing to the right.
     pub(crate) scale: i64,
-    pub(crate) place: OutlinePart,
+    pub(crate) part: OutlinePart,
     pub(crate) tip_state: TipState,
 }
 
-impl Touch {
+impl TipContact {
     pub(crate) fn is_locked(&self) -> bool {
         matches!(self.tip_state, TipState::Locked { .. })
     }
 
-    /// Returns the touch with its outline part replaced by [`OutlinePart::Top`].
+    /// Returns the tip contact with its outline part replaced by [`OutlinePart::Top`].
     ///
-    /// Used to compare touches of a round tip regardless of their outline part, because `ξ` and `T`
-    /// of a round tip are continuous between parts.
-    pub(crate) fn anywhere(&self) -> Self {
-        Self { place: OutlinePart::Top, ..*self }
+    /// Used to compare contacts of a round tip regardless of their outline part, because `ξ` and
+    /// `T` of a round tip are continuous between parts.
+    pub(crate) fn without_part(&self) -> Self {
+        Self { part: OutlinePart::Top, ..*self }
     }
 
     /// Returns true if the position `ξ` of the tip is fixed and the tangential force is unknown.
@@ -83,34 +83,34 @@ impl Touch {
     }
 }
 
-/// Number of slots of a sharp tip, which touches at most two neighbouring scales.
+/// Number of slots for contacts of a sharp tip, which touches at most two neighbouring scales.
 pub(crate) const SHARP_SLOTS: usize = 2;
 
 /// Discrete state of a guided needle, including its history; empty for a free needle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct NeedleMode {
-    /// One entry for each slot; `None` if the needle does not touch a scale there.
+    /// One entry for each slot, which holds at most one tip contact.
     ///
     /// A sharp tip has two slots, a round tip one slot for each scale in reach.
-    pub(crate) touches: Vec<Option<Touch>>,
+    pub(crate) tip_contacts: Vec<Option<TipContact>>,
 }
 
 impl NeedleMode {
     /// Returns true for a round tip, which always has more than two slots.
     pub(crate) fn is_round(&self) -> bool {
-        self.touches.len() > SHARP_SLOTS
+        self.tip_contacts.len() > SHARP_SLOTS
     }
 
     /// Returns the part of a scale that the tip touches; `None` if the tip does not touch it.
     ///
-    /// Scales are numbered as in [`Touch::scale`].
-    pub(crate) fn place(&self, scale: i64) -> Option<OutlinePart> {
-        self.all().find(|(_, touch)| touch.scale == scale).map(|(_, touch)| touch.place)
+    /// Scales are numbered as in [`TipContact::scale`].
+    pub(crate) fn part(&self, scale: i64) -> Option<OutlinePart> {
+        self.all().find(|(_, touch)| touch.scale == scale).map(|(_, touch)| touch.part)
     }
 
-    /// Iterates over all touches, each with the number of its slot.
-    pub(crate) fn all(&self) -> impl Iterator<Item = (usize, &Touch)> {
-        let slots = self.touches.iter().enumerate();
+    /// Iterates over all tip contacts, each with the number of its slot.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (usize, &TipContact)> {
+        let slots = self.tip_contacts.iter().enumerate();
         slots.filter_map(|(slot, touch)| Some((slot, touch.as_ref()?)))
     }
 }

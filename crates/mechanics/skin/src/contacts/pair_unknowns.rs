@@ -67,7 +67,7 @@ impl Contacts {
     }
 }
 
-/// Converts derivatives with respect to the coordinates of a pair to a curved body.
+/// Transforms derivatives with respect to the coordinates of a pair on a curved body.
 ///
 /// Rotates the derivatives with respect to the displacement of the right scale from the frame of
 /// the left scale to the frame of the right scale.
@@ -76,7 +76,7 @@ pub(super) fn local(&[lx, ly, turn, x, y, right_turn]: &OfEach, frame: &Frame) -
     [lx, ly, turn, right.x, right.y, right_turn]
 }
 
-/// Converts second derivatives like [`local`].
+/// Transforms second derivatives like [`local`] transforms first derivatives.
 pub(super) fn local_square(square: &[OfEach; COORDINATES], frame: &Frame) -> [OfEach; COORDINATES] {
     let by_local = square.map(|row| local(&row, frame));
     let columns: [OfEach; COORDINATES] = array::from_fn(|l| array::from_fn(|k| by_local[k][l]));

@@ -30,7 +30,7 @@ pub(super) struct AdaptiveRowPath<'a> {
     longest: usize,
     /// False if the row would have to grow beyond `longest`.
     pub(super) is_long_enough: bool,
-    /// How close the deformation at the last returned point came to each end.
+    /// Extent of contact towards each end at the last returned point.
     reach: [Reach; 2],
     /// All previous rows, the shortest first.
     shorter: Vec<Chain>,
@@ -47,7 +47,7 @@ pub(super) struct Segment {
     /// The point `from` as solved before any extension of the row.
     ///
     /// If the row was extended at this point, `from` is the new solution on the longer row.
-    pub(super) left: Arc<SkinPoint>,
+    pub(super) unextended: Arc<SkinPoint>,
 }
 
 impl<'a> AdaptiveRowPath<'a> {
@@ -65,8 +65,8 @@ impl<'a> AdaptiveRowPath<'a> {
     /// # Errors
     /// If the scales of a longer row cannot be built.
     pub(super) fn next(&mut self) -> Result<Option<Segment>, OutOfRange> {
-        // Extend before the step if the last step came near an end, so that fewer steps have to be
-        // repeated.
+        // Extend the row before the step if contact came near an end in the last step, so that
+        // fewer steps have to be repeated.
         let reach = std::mem::replace(&mut self.reach, [Reach::Short; 2]);
         self.lengthen(&self.path.point_shared(), reach)?;
         while self.is_long_enough {
@@ -75,8 +75,8 @@ impl<'a> AdaptiveRowPath<'a> {
             let reach = self.path.system().reach(&to.state);
             if !reach.contains(&Reach::Beyond) {
                 self.reach = reach;
-                let left = self.arrived.take().map_or_else(|| Arc::clone(&from), Arc::new);
-                return Ok(Some(Segment { from, to, left }));
+                let unextended = self.arrived.take().map_or_else(|| Arc::clone(&from), Arc::new);
+                return Ok(Some(Segment { from, to, unextended }));
             }
             // Scales beyond the end may have touched within the step, so repeat it.
             self.lengthen(&from, reach)?;
@@ -98,8 +98,8 @@ impl<'a> AdaptiveRowPath<'a> {
             let chain = self.problem.part(longer)?;
             let from = chain.extended(self.path.system(), from);
             // If the row grows twice at one point, keep the solution before the first extension.
-            let left = self.arrived.take().map(|left| chain.extended(self.path.system(), &left));
-            self.arrived = left.or_else(|| Some(from.clone()));
+            let first = self.arrived.take().map(|first| chain.extended(self.path.system(), &first));
+            self.arrived = first.or_else(|| Some(from.clone()));
             self.shorter.push(self.path.continue_with(chain, from));
         }
         Ok(())
@@ -121,13 +121,13 @@ impl<'a> AdaptiveRowPath<'a> {
     }
 }
 
-/// Initial number of scales on each side of the punctured one, for an endless row.
+/// Smallest number of scales on each side of the punctured one in an initial row.
 const FIRST_SCALES: usize = 4;
 
 /// Constant part of the number of scales that an extension adds to a side.
 const GROWTH: usize = 4;
 
-/// Number of scales of the row for each further scale that an extension adds to a side.
+/// Divisor of the row length in the variable part of the number of scales that an extension adds.
 const GROWTH_PART: usize = 8;
 
 /// Fraction to which displacements decay over the additional scales of an initial row.
@@ -167,7 +167,7 @@ impl RowLayout {
         Self { left: self.left + left.min(room - right), right: self.right + right, ..self }
     }
 
-    /// Returns the scales that this row and the `other` row share.
+    /// Returns the layout of the scales that belong to this row and to the `other` row.
     pub(super) fn within(self, other: Self) -> Self {
         Self { left: self.left.min(other.left), right: self.right.min(other.right), ..self }
     }

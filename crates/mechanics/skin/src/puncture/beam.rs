@@ -28,7 +28,7 @@ pub(super) struct Load {
     pub(super) force: Vec2,
 }
 
-/// Tractions between the base of a scale and the substrate, by linear distribution (B3).
+/// Tractions between the base of a scale and the substrate, assumed linear along the base (B3).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct BaseTractions {
     /// Largest tensile traction of the bond: mean traction plus the bending part.
@@ -41,7 +41,7 @@ pub(super) struct BaseTractions {
     pub(super) pressure: f64,
 }
 
-/// Motion of the tip of a scale relative to its base, by bending (B2).
+/// Motion of the tip of a scale relative to its base, caused by bending (B2).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct TipMotion {
     /// Deflection perpendicular to the axis, by bending and shear, in units of `t`.
@@ -203,7 +203,7 @@ mod tests {
         let beam = beam(0.2, 0.0, 1.0);
         for off in [0.0, 1e-15, -1e-15] {
             let pair = [[0.8 + off, 0.1], [0.8, -0.1]];
-            let stress = beam.stress(&pair.map(|place| load(&beam, place, [-1.0, 0.0])));
+            let stress = beam.stress(&pair.map(|position| load(&beam, position, [-1.0, 0.0])));
             assert_relative_eq!(stress, 2.0 / beam.depth, max_relative = 1e-12);
         }
     }

@@ -37,7 +37,7 @@ const SPREAD: f64 = 0.25;
 /// Largest relative difference between the end of a complete path and the critical tilt.
 const AT_THE_TILT: f64 = 1e-9;
 
-/// Displacement of the beam at one load `k`, by all loads of its scale.
+/// Displacement of the beam at one load `k`, caused by all loads of its scale.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     /// Displacement `Σ C_kl Λ_l` in the direction of load `k`.
@@ -324,8 +324,9 @@ impl Chain {
             let coupling = scale.coupling();
             coupling.add_balance(residual, matrix);
             for (k, load) in scale.loads.iter().enumerate() {
-                // The displacement at the needle enters the equation of the depth, at the moment
-                // the equation of the total tilt, and at a contact its own equation.
+                // The displacement at the needle enters the equation of the depth, the rotation at
+                // the tip moment enters the equation of the total tilt, and the displacement at a
+                // contact enters the equation of this contact.
                 let condition = match load.unknown {
                     Some(row) if row == self.layout.load() => (depth, -1.0),
                     Some(row) => (row, 1.0),
@@ -402,7 +403,7 @@ impl Chain {
 
     /// Computes the part of a gap that is due to bending, or its rate along a `direction`.
     ///
-    /// The `constraint` is the normal force of the contact; 0 for other constraints.
+    /// The `constraint` is the normal force of the contact. Returns 0 for other constraints.
     pub(super) fn opening_of(
         &self,
         state: &SkinState,
@@ -438,9 +439,9 @@ impl Chain {
 
     /// Returns the derivatives of depth and total tilt.
     ///
-    /// Each entry holds the derivatives with respect to motions and contact forces, by unknown, and
-    /// the derivative with respect to the conjugate load. The conjugate load of the depth is the
-    /// needle force, of the tilt a moment at the tip.
+    /// Each entry lists unknowns (motions and contact forces) with the derivatives with respect to
+    /// them, and holds the derivative with respect to the conjugate load. The conjugate load of the
+    /// depth is the needle force; the conjugate load of the tilt is a moment at the tip.
     pub(super) fn bending_loads(&self, state: &SkinState) -> [(Vec<(usize, f64)>, f64); 2] {
         let Some(rows) = self.bending_unknowns() else { return Default::default() };
         let mut entries: [Vec<(usize, f64)>; 2] = Default::default();

@@ -2,28 +2,28 @@
 //!
 //! The criteria that end a path are elsewhere. The path of a free needle ends at the critical tilt,
 //! the target of the solver in `system.rs`. The path of a guided needle ends at a constraint
-//! (`GuidedNeedle::ends` in `needle/touches.rs`). If the critical tilt follows from friction,
+//! (`GuidedNeedle::ends` in `needle/tip_contacts.rs`). If the critical tilt follows from friction,
 //! `Case::punctured` in `study/sweep` computes it.
 
 use super::PuncturePoint;
 use crate::Status;
 
-/// Replaces a numerical stop after the path has turned back by [`Status::LimitPoint`].
+/// Changes a numerical stop to [`Status::LimitPoint`] if the path reversed before it stopped.
 ///
-/// If load, depth and tilt all decrease along a path, the row snaps, whichever of them the needle
-/// prescribes. It snaps to the point where one of the three exceeds its previous maximum; load
-/// drops of up to nine tenths recover in this way. If the path stops numerically before such a
-/// point, for example because sides become flush, the row has no known state to snap to, and the
-/// path ends at a limit point.
+/// If load, depth and tilt all decrease along a path, the row snaps, whichever of these quantities
+/// the needle prescribes. It snaps to the point where one of the three quantities exceeds its
+/// previous maximum; load drops of up to nine tenths recover in this way. If the path stops
+/// numerically before such a point, for example because sides become flush, the row has no known
+/// state to snap to, and the path ends at a limit point.
 pub(super) fn classify(status: Status, path: &[PuncturePoint]) -> Status {
     match status {
-        Status::Stopped(stop) if stop.is_numerical() && has_turned_back(path) => Status::LimitPoint,
+        Status::Stopped(stop) if stop.is_numerical() && has_reversed(path) => Status::LimitPoint,
         other => other,
     }
 }
 
 /// Returns true if load, depth and tilt at the end are all below their maxima on the path.
-fn has_turned_back(path: &[PuncturePoint]) -> bool {
+fn has_reversed(path: &[PuncturePoint]) -> bool {
     let values: [fn(&PuncturePoint) -> f64; 3] =
         [|point| point.force, |point| point.displacement, |point| point.tilt_deg.abs()];
     // A quantity that ends at its maximum has recovered, or never decreased.
@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_stopped_after_turning_back_has_a_limit_point() {
+    fn a_path_that_reverses_and_stops_numerically_ends_at_a_limit_point() {
         let stopped = Status::Stopped(Termination::Singular);
         let back = path(&[[0.0, 0.0, 0.0], [2.0, 1.0, 5.0], [1.0, 0.9, 4.0]]);
         assert_eq!(classify(stopped, &back), Status::LimitPoint);

@@ -6,13 +6,13 @@ use super::row_exterior::{ExteriorSide, mirrored};
 use super::system::Chain;
 use crate::contacts::SkinState;
 
-/// Largest difference between the forces of a neo-Hookean bar and of a linear spring.
+/// Largest accepted difference between the forces of a neo-Hookean bar and of a linear spring.
 ///
-/// Beyond the solved part, bars are treated as springs, which this limit permits. The difference is
-/// divided by the stiffness `a α_x` of a scale, so it is a displacement in units of `t`.
+/// Beyond the solved part, linear springs replace the bars. The difference is divided by the
+/// stiffness `a α_x` of a scale, so it is a displacement in units of `t`.
 const AS_SPRINGS: f64 = 1e-9;
 
-/// Fraction of a clearance beyond an end that may be closed before the row is extended.
+/// Fraction of a clearance beyond an end that may close before the row is extended.
 ///
 /// From 1 on, scales may touch, and the step is repeated on the longer row.
 const EARLY: f64 = 0.5;
@@ -29,25 +29,30 @@ pub(crate) enum Reach {
 }
 
 impl Chain {
-    /// Counts the scales in the row; in a row without ends, counts the solved scales.
+    /// Counts the scales of a finite row, or the solved scales of a row without ends.
     pub(super) fn row_length(&self) -> usize {
         let [left, right] = self.exterior.scales_to_ends();
         left + self.layout.scales() + right
     }
 
-    /// Returns a function of the displacements of solved scales, counted from one end.
+    /// Returns a function that gives the displacement of solved scale `k`, counted from an end.
     ///
-    /// `side` 0 is the left end. Its displacements are mirrored, as if it were a right end.
-    fn at_end<'a>(&'a self, z: &'a [f64], side: usize) -> impl Fn(usize) -> [f64; 3] + 'a {
+    /// `side` 0 is the left end, 1 the right end. Displacements at the left end are mirrored, so
+    /// that they have the signs of a right end.
+    fn displacement_from_end<'a>(
+        &'a self,
+        z: &'a [f64],
+        side: usize,
+    ) -> impl Fn(usize) -> [f64; 3] + 'a {
         let last = self.layout.scales() - 1;
         move |k| mirrored(self.displacement(z, if side == 0 { k } else { last - k }), side)
     }
 
     /// Computes the displacements of the end scale and of the checked scales beyond it.
     ///
-    /// Displacements at the left end (`number` 0) are mirrored, as if it were a right end.
+    /// Displacements at the left end (`number` 0) are mirrored to the signs of a right end.
     fn displacements_beyond(&self, z: &[f64], number: usize, side: &ExteriorSide) -> Vec<[f64; 3]> {
-        let end = self.at_end(z, number);
+        let end = self.displacement_from_end(z, number);
         let mut displacements = vec![end(0)];
         displacements.extend(side.beyond.far.displacements(end, side.gaps.len()));
         displacements
@@ -62,9 +67,10 @@ impl Chain {
         let number = usize::from(scale > 0);
         match (&self.exterior.sides[number], scale.abs_diff(nearest)) {
             (_, 0) => self.displacement(z, nearest.cast_unsigned()),
-            (Some(side), distance) => {
-                mirrored(side.beyond.far.displacement(self.at_end(z, number), distance), number)
-            }
+            (Some(side), distance) => mirrored(
+                side.beyond.far.displacement(self.displacement_from_end(z, number), distance),
+                number,
+            ),
             // A row that is solved as a whole has no scales beyond its ends.
             (None, _) => [0.0; 3],
         }
@@ -146,7 +152,10 @@ impl Chain {
             stretches.push(last.map_or(1.0, |(scales, &width)| {
                 let [near, far] = [scales - 1, scales].map(|distance| match distance {
                     0 => displacements[0],
-                    _ => side.beyond.far.displacement(self.at_end(z, number), distance),
+                    _ => side
+                        .beyond
+                        .far
+                        .displacement(self.displacement_from_end(z, number), distance),
                 });
                 SurfaceStrip { width, half_base: self.half_base }.stretch(near, far)
             }));

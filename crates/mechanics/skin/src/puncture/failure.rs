@@ -15,7 +15,7 @@ use super::system::{Chain, FIRST_LIMIT_MARK};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::PathFunction;
 
-/// Rotation of the tip of a scale relative to its base from which a scale fails by bending.
+/// Rotation of the tip of a scale relative to its base at which the scale fails by bending.
 ///
 /// Linear beam theory is accurate up to about this angle.
 const LARGEST_BEND_DEG: f64 = 5.0;
@@ -153,7 +153,7 @@ pub(super) const TISSUE_PRESSURE: usize = 3;
 /// It is the accuracy of an equilibrium.
 const BEND_TOLERANCE: f64 = 1e-10;
 
-/// Largest relative error of the point at which another limit is located.
+/// Largest relative error of the point at which a limit other than linear bending is reached.
 const LIMIT_TOLERANCE: f64 = 2e-12;
 
 /// Number of evaluations after which a bracket is as narrow as an `f64` allows.
@@ -177,7 +177,7 @@ pub(super) fn bent_within(
     Some(SkinPoint { event: None, ..point.unwrap_or_else(|| SkinPoint::clone(to)) })
 }
 
-/// Computes the largest utilisation of a limit by any scale, minus 1.
+/// Computes the largest utilisation (value divided by limit) of any scale, minus 1.
 fn excess(path: &Continuation<Chain>, point: &SkinPoint, limit: usize) -> f64 {
     path.system().fractions(&point.state)[limit] - 1.0
 }
@@ -253,29 +253,30 @@ impl FailureObserver {
     pub(super) fn follow(
         &mut self,
         path: &mut Continuation<Chain>,
-        Segment { from, to, left }: &Segment,
+        Segment { from, to, unextended }: &Segment,
         fold: Option<&SkinPoint>,
     ) {
         let before = self.fractions;
-        self.visit(path, Some(left));
+        self.visit(path, Some(unextended));
         if self.first.is_some() {
             return;
         }
         let fold = fold.map(|fold| (FailureMode::Fold, fold.clone()));
-        let mut found: Vec<_> = fold.into_iter().collect();
+        let mut failures: Vec<_> = fold.into_iter().collect();
         for &limit in &self.judged {
             if before[limit] < 1.0 && self.fractions[limit] >= 1.0 {
-                // If the segment ends at the limit, as at the end of linear bending, use its end.
+                // If the segment ends at the limit, as at the limit of linear bending, use the end
+                // of the segment.
                 let point = if self.fractions[limit] <= 1.0 + BEND_TOLERANCE {
                     Some(SkinPoint::clone(to))
                 } else {
                     limit_within(path, [from, to], limit, LIMIT_TOLERANCE)
                 };
-                found.extend(point.map(|point| (LIMITS[limit], point)));
+                failures.extend(point.map(|point| (LIMITS[limit], point)));
             }
         }
         // Keep the first of several failures within one segment.
-        self.first = found
+        self.first = failures
             .into_iter()
             .min_by(|(_, a), (_, b)| path.spans(from, a)[0].total_cmp(&path.spans(from, b)[0]));
     }
@@ -302,15 +303,15 @@ impl FailureObserver {
         }
     }
 
-    /// Returns the largest value of each function in [`MAXIMA`] on the path, and its location.
+    /// Returns the largest value of each function in [`MAXIMA`] on the path, and its point.
     pub(super) fn summits(
         &self,
         path: &mut Continuation<Chain>,
     ) -> [Option<Summit<SkinMode>>; MAXIMA.len()] {
         std::array::from_fn(|k| {
             let visited = self.maxima[k].at_points()?;
-            // Most functions are largest at the end of the path and still rise there. A search for
-            // a maximum within the last segment is then not necessary.
+            // Most functions are largest at the end of the path and still increase at this end. A
+            // search for a maximum within the last segment is then not necessary.
             let is_end = visited.point.state.z == path.point().state.z;
             if is_end && rises(path.system(), &visited.point, MAXIMA[k]) {
                 return Some(visited);

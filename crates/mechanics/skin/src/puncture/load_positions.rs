@@ -1,4 +1,4 @@
-//! Punctures at several load positions, and the weakest of them.
+//! Punctures at several load positions, and the position with the smallest force.
 //!
 //! The positions span the top from its left to its right corner; for a round tip also the region
 //! between two scales.
@@ -48,9 +48,9 @@ pub struct LoadPosition {
     pub largest_force: Option<f64>,
 }
 
-/// Smallest force over several load positions.
+/// Smallest force of several load positions.
 ///
-/// Empty if there are no positions, or if the force at one of them is unknown and may be smaller.
+/// Empty if there are no positions, or if the force at a position is unknown and may be smaller.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Weakest {
     /// `F*` at the weakest position.
@@ -73,7 +73,7 @@ impl Weakest {
             place.force.is_none()
                 && place.largest_force.is_some_and(|largest_force| largest_force < force)
         }) {
-            Some(open) => Err(open.status),
+            Some(unknown) => Err(unknown.status),
             None => Ok(Self {
                 force: Some(force),
                 place: places.iter().find(|place| is_tied(place, force)).map(|p| p.position),
@@ -90,8 +90,8 @@ fn is_tied(place: &LoadPosition, force: f64) -> bool {
 impl PunctureParameters {
     /// Returns `count` equally spaced load positions: 0 is the left corner of the top, 1 the right.
     pub fn positions(&self, count: usize, design: &Design) -> Vec<f64> {
-        // The positions of a round tip span one pitch. Its end is equivalent to its start, on the
-        // next scale, so omit the end.
+        // The positions of a round tip span one pitch. The end of this pitch is equivalent to its
+        // start on the next scale, so omit the end.
         let pitch = 1.0 + design.gap / (2.0 * design.half_base());
         // The top is as wide as the base.
         let (last, width) = match self.needle_radius {
@@ -171,8 +171,9 @@ impl Problem<'_> {
     /// Solves the puncture at each requested load position.
     ///
     /// `own` is the path of the puncture itself, which is used at its own load position. If `near`,
-    /// the end of a similar design, is given, each position starts from the end of this design at
-    /// the same position. Positions at which this design is much stronger are then omitted.
+    /// the end of a similar design, is given, each position starts from the end of the similar
+    /// design at the same position. Positions at which the similar design is much stronger than at
+    /// its weakest position are then omitted.
     pub(super) fn load_positions(
         &self,
         own: Option<OwnPath>,
@@ -181,7 +182,7 @@ impl Problem<'_> {
         let positions = self.parameters.positions(self.parameters.places.unwrap_or(0), self.design);
         let keeps_ends = near.is_none() && self.common.detail == PathDetail::Critical;
         // All positions together may use the work of one path.
-        let mut left = self.common.solver.max_work;
+        let mut remaining_work = self.common.solver.max_work;
         let (mut places, mut ends) = (Vec::new(), Vec::new());
         for position in positions {
             if near.is_some_and(|near| !near.may_be_weakest(position)) {
@@ -193,10 +194,10 @@ impl Problem<'_> {
             } else {
                 let parameters = self.parameters.at_position(position);
                 let mut problem = self.with(&parameters);
-                problem.common.solver.max_work = left;
+                problem.common.solver.max_work = remaining_work;
                 let start = near.and_then(|near| near.at_place(position));
                 let followed = problem.follow_from(start)?;
-                left = left.saturating_sub(followed.path.work());
+                remaining_work = remaining_work.saturating_sub(followed.path.work());
                 let end = keeps_ends.then(|| PunctureEnd::new(&problem, &followed)).flatten();
                 (LoadPosition::new(position, &followed), end)
             };

@@ -124,8 +124,8 @@ impl PunctureMeasures {
     ///
     /// `along` is the critical force at the weakest load position along the row. `across` and
     /// `along` are `None` if the path in this direction did not reach its end. `largest` is the
-    /// largest force on the path across. If `largest` is at least `along`, the row fails along
-    /// first, even if the path across ended early.
+    /// largest force on the path across. If `largest` is at least `along`, the skin fails along the
+    /// row first, even if the path across ended early.
     #[must_use]
     pub fn with_across(
         mut self,
@@ -151,7 +151,7 @@ impl PunctureMeasures {
         self
     }
 
-    /// Computes the measures at the end of a path, and along it.
+    /// Computes the measures at the end of a path and along the path.
     pub(crate) fn new(
         record: &Record<Chain>,
         folds: &[Fold],
@@ -216,7 +216,8 @@ impl PunctureMeasures {
             fold_force: self.fold_force,
             fold_displacement: self.fold_displacement,
             fold_tilt_deg: self.fold_tilt_deg,
-            // These two are evaluated before the end of the path, so they remain valid.
+            // The force at a depth and the pressure at a force belong to points before the end of
+            // the path, so they remain valid.
             force_at_depth: self.force_at_depth,
             tissue_pressure_at_force: self.tissue_pressure_at_force,
             unique: self.unique,

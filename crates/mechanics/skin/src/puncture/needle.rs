@@ -4,14 +4,14 @@
 //! friction along a face of a scale. At the end of the face it passes over the corner, or stops in
 //! the notch between the corner and the left face of the next scale.
 //!
-//! A tip contact is the contact of the tip with one scale (`Touch`). The touched parts of the
+//! A tip contact is the contact of the tip with one scale (`TipContact`). The touched parts of the
 //! outlines and the friction states belong to the discrete state of the skin
 //! (`contacts/needle_mode.rs`).
 //!
 //! | File | Content |
 //! |---|---|
 //! | `outline.rs` | kinematics of the tip at a face: gap, coordinate along the face, their derivatives |
-//! | `touches.rs` | tip contacts at rest and along the path, and constraints that end the path |
+//! | `tip_contacts.rs` | tip contacts at rest and along the path, constraints that end the path |
 //! | `round.rs` | conditions and transitions of a tip with a radius |
 //! | `forces.rs` | equations and tangent of a tip, conditions under which its state is valid |
 //! | `transition.rs` | next state when a condition is violated |
@@ -23,7 +23,7 @@ mod history;
 mod outline;
 mod passage;
 mod round;
-mod touches;
+mod tip_contacts;
 mod transition;
 
 use std::ops::Range;
@@ -32,7 +32,7 @@ use geometry::Vec2;
 
 use super::parameters::PunctureParameters;
 use super::row_layout::RowLayout;
-use crate::contacts::{SHARP_SLOTS, Touch};
+use crate::contacts::{SHARP_SLOTS, TipContact};
 
 pub(super) use history::{HistoryObserver, HistoryVariable, anchors, event_before, history, with};
 pub(super) use passage::PassageObserver;
@@ -46,9 +46,9 @@ pub(super) const FARTHEST: usize = 8;
 /// Largest number of scales on each side of the punctured one that a round tip may touch.
 const FARTHEST_TOUCH: usize = 64;
 
-/// Number of scales in reach on each side in addition to those below the tip at rest.
+/// Number of scales in reach on each side in addition to the scales below the tip at rest.
 ///
-/// The row may move sideways below the tip.
+/// The tip may reach these scales when the row moves sideways below it.
 const PUSHED_ALONG: usize = 2;
 
 /// Number of unknowns of a contact of a sharp tip with a scale.
@@ -60,18 +60,18 @@ const UNKNOWNS_PER_TOUCH: usize = 6;
 /// Number of constraints of a contact of a sharp tip with a scale.
 const CONSTRAINTS_PER_TOUCH: usize = 5;
 
-/// Constraint of the normal force, the first of a tip contact.
+/// Index of the constraint of the normal force within a tip contact.
 const NORMAL: usize = 0;
-/// Constraint of the forward slip distance of a tip contact.
+/// Index of the constraint of the forward slip distance within a tip contact.
 const FORWARD: usize = 1;
-/// Constraint of the backward slip distance of a tip contact.
+/// Index of the constraint of the backward slip distance within a tip contact.
 const BACKWARD: usize = 2;
-/// Constraint of a sharp tip at the start of its outline part.
+/// Index of the constraint of a sharp tip at the start of its outline part.
 ///
 /// It is violated when a sliding tip reaches the start of its face, or when the force at a corner
 /// reaches the slip limit on the face before the corner.
 const FACE_START: usize = 3;
-/// Constraint of a sharp tip at the end of its outline part, like [`FACE_START`].
+/// Index of the constraint of a sharp tip at the end of its outline part, like [`FACE_START`].
 const FACE_END: usize = 4;
 
 /// Number of conditions that end the path: a critical tilt, and passing through.
@@ -86,7 +86,7 @@ pub(super) const NEEDLE_UNKNOWNS: usize = 1 + SHARP_SLOTS * UNKNOWNS_PER_TOUCH +
 
 /// Returns the number of scales on each side of the punctured one that a round tip may touch.
 ///
-/// `None` if this number is too large.
+/// `None` if this number exceeds [`FARTHEST_TOUCH`].
 pub(super) fn reach(radius: f64, pitch: f64) -> Option<usize> {
     let reach = (radius / pitch).ceil() as usize + PUSHED_ALONG;
     (reach <= FARTHEST_TOUCH).then_some(reach)
@@ -112,7 +112,7 @@ pub(crate) struct GuidedNeedle {
     friction: f64,
     /// Radius of the tip, in units of `t`; 0 for a sharp tip.
     radius: f64,
-    /// Tip or centre of a round tip at rest, relative to the node of the punctured scale.
+    /// Sharp tip, or centre of a round tip, at rest, relative to the node of the punctured scale.
     pub(super) tip: Vec2,
     /// Tilt of a touched scale at which the path ends, radians.
     critical_tilt: f64,
@@ -128,12 +128,12 @@ pub(crate) struct GuidedNeedle {
     unknowns_per_touch: usize,
     /// Number of unknowns of each tip contact that are constraints.
     ///
-    /// The last constraint of a round tip states that it stays on its outline part.
+    /// For a round tip, the last constraint requires that the tip stays on its outline part.
     constraints_per_touch: usize,
-    /// Changes of anchors relative to the discrete state, for derivatives.
+    /// Tip contacts with shifted anchors or ratios, each with its shift from the discrete state.
     ///
-    /// Only a row with a perturbed parameter has such changes.
-    anchor_shifts: Vec<(Touch, f64)>,
+    /// Only a row with a perturbed parameter has such shifts, for derivatives.
+    anchor_shifts: Vec<(TipContact, f64)>,
 }
 
 impl GuidedNeedle {
@@ -201,7 +201,7 @@ impl GuidedNeedle {
 
     /// Lists the indices of the unknowns that are needle constraints, in order.
     pub(super) fn constraints(&self) -> Vec<usize> {
-        let behind = self.normal_force(self.slots);
+        let first_ending = self.normal_force(self.slots);
         // A tangential force, if present, is an unknown in every state and no constraint.
         let tangential_force = |first: usize| {
             (self.constraints_per_touch < self.unknowns_per_touch).then_some(first + 1)
@@ -212,7 +212,7 @@ impl GuidedNeedle {
                 (first..first + self.unknowns_per_touch)
                     .filter(move |unknown| Some(*unknown) != tangential_force(first))
             })
-            .chain(behind..behind + ENDINGS)
+            .chain(first_ending..first_ending + ENDINGS)
             .collect()
     }
 

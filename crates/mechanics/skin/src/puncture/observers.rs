@@ -16,7 +16,7 @@ use crate::record::{PathFunction, Record};
 pub(super) struct PathObservers {
     pub(super) record: Record<Chain>,
     /// Stability and snaps.
-    pub(super) needle: SnapObserver,
+    pub(super) snaps: SnapObserver,
     pub(super) folds: FoldObserver,
     /// First failure; `None` unless failure is requested.
     pub(super) failure: Option<FailureObserver>,
@@ -44,7 +44,7 @@ impl PathObservers {
         let force = parameters.force.map(|force| At::Force(force).location());
         Self {
             record: Record::new(path, functions),
-            needle: SnapObserver::default(),
+            snaps: SnapObserver::default(),
             folds: FoldObserver::default(),
             failure: FailureObserver::new(path, parameters),
             history: HistoryObserver::default(),
@@ -58,31 +58,31 @@ impl PathObservers {
 
     /// Passes a segment to all observers.
     pub(super) fn follow(&mut self, path: &mut Continuation<Chain>, segment: &Segment) {
-        let Segment { from, to, left } = segment;
+        let Segment { from, to, unextended } = segment;
         self.history.follow(segment);
         self.passage.follow(path.system(), segment);
         // Count the events now, because the record adds the events of this segment below.
         let events_before = self.record.events.len();
         if !path.system().is_critical_only() {
-            self.needle.follow(path, [from, to], events_before);
+            self.snaps.follow(path, [from, to], events_before);
         }
         self.tilts.follow(path, from, to);
         self.depth.follow(path, from, to);
         self.force.follow(path, from, to);
         self.requested.follow(path, from, to);
-        let is_open = self.folds.first.is_none();
+        let is_unfolded = self.folds.first.is_none();
         self.folds.follow(path, [from, to], events_before);
         if let Some(failure) = &mut self.failure {
-            failure.follow(path, segment, self.folds.first.as_ref().filter(|_| is_open));
+            failure.follow(path, segment, self.folds.first.as_ref().filter(|_| is_unfolded));
         }
-        self.record.visit(path, left, to);
+        self.record.visit(path, unextended, to);
     }
 
     /// Converts all recorded points to the unknowns of the final row.
     pub(super) fn lengthen(&mut self, path: &AdaptiveRowPath) {
-        // List every observer that stores points here. Otherwise its points would keep the unknowns
-        // of a shorter row.
-        let SnapObserver { load_limit, depth_limit, .. } = &mut self.needle;
+        // This function must list every observer that stores points. Otherwise the points of an
+        // observer would keep the unknowns of a shorter row.
+        let SnapObserver { load_limit, depth_limit, .. } = &mut self.snaps;
         let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
         let located = [&mut self.tilts, &mut self.depth, &mut self.force, &mut self.requested];
         let located = located.into_iter().flat_map(|located| &mut located.points);

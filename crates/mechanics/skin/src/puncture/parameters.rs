@@ -5,7 +5,7 @@ use substrate::SubstrateLaw;
 
 use super::number_list::NumberList;
 
-/// Constraint on the needle.
+/// Free or guided motion of the needle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Needle {
     /// A dead load at a fixed point of the scale; it moves sideways with this point.
@@ -32,7 +32,7 @@ impl Needle {
     }
 }
 
-/// Response of the scales to the forces on them.
+/// Rigid scales, or elastic scales that bend under the forces on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Bending {
     /// Scales are rigid, as in the paper.
@@ -74,9 +74,9 @@ pub struct Strengths {
 pub struct PunctureParameters {
     /// Poisson's ratio `ν` of the substrate.
     pub poisson_ratio: f64,
-    /// `E_ct / E_s`.
+    /// Contact modulus of the scales divided by the modulus of the substrate, `E_ct/E_s`.
     pub contact_modulus_over_substrate: f64,
-    /// Row length.
+    /// Number of scales in the row.
     pub scales: RowLength,
     /// Load position on the top of the punctured scale: 0 the left, 1 the right corner.
     ///
@@ -90,7 +90,7 @@ pub struct PunctureParameters {
     ///
     /// If given, measures at `critical_tilt_deg` follow in the same list.
     pub tilts_before_deg: Option<NumberList>,
-    /// Constraint on the needle.
+    /// Free or guided motion of the needle.
     pub needle: Needle,
     /// Tip radius of a guided needle, in units of `t`; `None` for a sharp one.
     pub needle_radius: Option<f64>,

@@ -22,7 +22,7 @@ use crate::{Design, PathDetail, Status};
 /// If a gap almost folds and opens again, it may fold on the path of a similar design.
 const LEAST_STRETCH: f64 = 0.05;
 
-/// Smallest magnitude of [`Problem::lever`] of a puncture with a usable end.
+/// Smallest magnitude of the lever ([`Problem::lever`]) of a puncture with a usable end.
 ///
 /// A load close to the middle of the base hardly tilts the scale at first. Only the path then shows
 /// the direction in which the scale tilts.
@@ -31,11 +31,11 @@ const LEAST_LEVER: f64 = 0.1;
 /// Number of steps from a similar design to the requested one, if one step fails.
 const STEPS: u8 = 8;
 
-/// Largest force, relative to the weakest load position, of a position that has to be solved.
+/// Largest force of a load position that is solved, relative to the force at the weakest position.
 ///
-/// The force is known for a similar design. A position with a larger force cannot be the weakest
-/// one. In 3,000 random pairs of designs with differences of up to 15 % and 6°, both designs had
-/// the same weakest position.
+/// Both forces belong to a similar design. A position with a larger force is assumed not to be the
+/// weakest one. In 3,000 random pairs of designs with differences of up to 15 % and 6°, both
+/// designs had the same weakest position.
 const COMPARABLE: f64 = 1.1;
 
 /// Largest magnitude of the stretch of a gap at a located fold.
@@ -118,12 +118,12 @@ impl PunctureEnd {
         if !problem.has_end() || *status != Status::Complete {
             return None;
         }
-        let folds_for_good = watch.folds.least_dip >= LEAST_STRETCH;
+        let is_dip_wide = watch.folds.least_dip >= LEAST_STRETCH;
         // If the tilt reverses on this path, a similar design may reach the critical tilt on
         // another branch. Require a monotonic tilt.
         let side = problem.lever().signum();
-        let tilts_on = watch.record.path.is_sorted_by_key(|point| side * point.tilt_deg);
-        if !(folds_for_good && tilts_on) {
+        let is_monotonic = watch.record.path.is_sorted_by_key(|point| side * point.tilt_deg);
+        if !(is_dip_wide && is_monotonic) {
             return None;
         }
         Some(Self::at(problem, path.system().layout, TargetPoint::of_path(path)?))
@@ -203,8 +203,8 @@ impl Problem<'_> {
     /// Finds the end of the path from the `end` of a similar design; `None` if this fails.
     pub(super) fn end_near(&self, end: &PunctureEnd) -> Result<Option<Followed>, OutOfRange> {
         // Rows on curved bodies may differ in their numbers of scales, because pitches differ.
-        let tilts_the_same_way = self.lever() * end.lever > 0.0;
-        if !self.has_end() || self.whole() != end.whole || !tilts_the_same_way {
+        let has_same_tilt = self.lever() * end.lever > 0.0;
+        if !self.has_end() || self.whole() != end.whole || !has_same_tilt {
             return Ok(None);
         }
         let found = match self.point_near(end)? {

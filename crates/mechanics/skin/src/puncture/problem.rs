@@ -34,7 +34,7 @@ const STRAIGHT_DEG: f64 = 1e-6;
 /// Factors of the largest step for the second and third attempt to follow a path.
 const FINER_STEPS: [f64; 2] = [0.25, 0.05];
 
-/// Final depth, relative to the largest one, up to which a path counts as back at rest.
+/// Final depth, divided by the largest depth, up to which a path counts as back at rest.
 const NEAR_REST: f64 = 0.01;
 
 /// Largest distance between scales that may touch each other, in pitches.
@@ -53,7 +53,7 @@ pub(super) struct Followed {
 }
 
 impl Followed {
-    /// Returns true if the path turned around and ended close to the state of rest.
+    /// Returns true if the path reversed and ended close to the state of rest.
     fn is_back_at_rest(&self) -> bool {
         if !matches!(self.status, Status::Stopped(Termination::Unloaded | Termination::Jumps)) {
             return false;
@@ -68,7 +68,7 @@ impl Followed {
     /// If `unload` is true and the path is complete, the unloading path is followed as well.
     pub(super) fn puncture(self, unload: bool) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
-        let PathObservers { record, needle, folds, failure, tilts, depth, force, .. } = watch;
+        let PathObservers { record, snaps, folds, failure, tilts, depth, force, .. } = watch;
         let at_tip = watch.passage;
         let FoldObserver { folds, .. } = folds;
         let path = &mut path;
@@ -82,7 +82,7 @@ impl Followed {
         let (instability, snaps) = if path.system().is_critical_only() {
             (Vec::new(), Vec::new())
         } else {
-            needle.finish(path, &mut measures)
+            snaps.finish(path, &mut measures)
         };
         let mut measures = match status {
             Status::Complete => measures,
@@ -250,7 +250,7 @@ impl<'a> Problem<'a> {
         Ok(Puncture { end: end.map(|end| end.with_places(ends)), places, ..puncture })
     }
 
-    /// Builds the initial system; returns it with the number of scales to which it may grow.
+    /// Builds the initial system; also returns the largest number of scales of the solved part.
     ///
     /// A scale may touch the nearest `contact_reach` scales on its right.
     pub(super) fn start(&self, contact_reach: usize) -> Result<(Chain, usize), OutOfRange> {
@@ -317,10 +317,10 @@ impl<'a> Problem<'a> {
         sides.map(|[left, right]| RowLayout { left, right, needle, contacts })
     }
 
-    /// Follows the path of the puncture, again with smaller steps if it returns to rest.
+    /// Follows the path of the puncture, and repeats this with smaller steps if it returns to rest.
     ///
-    /// Only one branch leaves the state at rest, so a path that returns to rest has turned around
-    /// at an event. Round-off then decided on its direction.
+    /// Only one branch leaves the state at rest, so a path that returns to rest has reversed at an
+    /// event, where round-off decided on its direction.
     pub(super) fn follow(
         &self,
         functions: &[PathFunction<Chain>],
@@ -359,7 +359,7 @@ impl<'a> Problem<'a> {
             let path = &followed.path;
             let beyond = match followed.status {
                 Status::Interpenetration => {
-                    path.system().contacts.meeting_beyond(&path.point().state)
+                    path.system().contacts.overlapping_beyond_reach(&path.point().state)
                 }
                 _ => None,
             };
@@ -384,7 +384,7 @@ impl<'a> Problem<'a> {
 
     /// Follows the path of a row until it ends.
     ///
-    /// The solved part may grow up to `longest`.
+    /// The solved part may grow up to `longest` scales.
     pub(super) fn follow_row(
         &self,
         chain: Chain,

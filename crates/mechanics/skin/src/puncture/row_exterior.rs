@@ -13,7 +13,7 @@ use super::rows::Rows;
 /// Gaps farther away hardly change.
 const CHECKED_SCALES: usize = 12;
 
-/// Linear motion of the scales beyond one end.
+/// Far field of the scales beyond one end, and their number.
 #[derive(Clone, Debug)]
 pub(super) struct Beyond {
     /// Motion of the scales beyond the end, in closed form.
@@ -27,13 +27,13 @@ pub(super) struct Beyond {
 /// Empty for a row that is solved as a whole.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RowExterior {
-    /// Beyond the left and the right end.
+    /// Far field and gaps beyond the left and the right end.
     pub(super) sides: [Option<ExteriorSide>; 2],
-    /// Reduction of the substrate stiffness by the motion of the scales beyond.
+    /// Reduction of the substrate stiffness by the motion of the scales beyond the ends.
     ///
     /// Each entry holds row and column of a block of the tangent, and its values.
     pub(super) relief: Vec<(usize, usize, [[f64; 3]; 3])>,
-    /// Distance of the farthest corner of a scale from its node.
+    /// Distance of the farthest corner of a scale from its node, in units of `t`.
     pub(super) arm: f64,
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct RowExterior {
 #[derive(Clone, Debug)]
 pub(super) struct ExteriorSide {
     pub(super) beyond: Beyond,
-    /// Widths of the gaps, the nearest first.
+    /// Widths of the checked gaps, the nearest first.
     pub(super) gaps: Vec<f64>,
     /// Clearances between the scales on both sides of these gaps.
     pub(super) clearances: Vec<f64>,
@@ -86,7 +86,7 @@ impl RowExterior {
             })
         });
         let relief = relief(layout, &sides);
-        // Whichever way a scale leans, one of its top corners is the farthest from its node.
+        // The corner farthest from the node is a top corner, whether the scale leans left or right.
         let scale = row.scale(left);
         let arm = [Corner::TopLeft, Corner::TopRight].map(|corner| scale.corner(corner).norm());
         Ok(Self { sides, relief, arm: arm[0].max(arm[1]) })

@@ -12,8 +12,8 @@ use crate::arrangement::Arrangement;
 pub(super) enum Rows<'a> {
     /// Equal scales at equal gaps.
     Even(Row),
-    /// Equal scales at equal gaps, except one.
-    Odd(Row, PerturbedScale),
+    /// Equal scales at equal gaps, except one perturbed scale.
+    Perturbed(Row, PerturbedScale),
     /// Scales with random gaps and slants.
     Sample(&'a Sample),
 }
@@ -23,7 +23,7 @@ impl Rows<'_> {
     pub(super) fn row(self, layout: RowLayout) -> Result<Arrangement, OutOfRange> {
         Ok(match self {
             Self::Even(row) => Arrangement::Even(row),
-            Self::Odd(row, odd) => Arrangement::Uneven(odd.within(&row, layout)?),
+            Self::Perturbed(row, scale) => Arrangement::Uneven(scale.within(&row, layout)?),
             Self::Sample(sample) => Arrangement::Uneven(sample.row(layout.left, layout.right)?),
         })
     }

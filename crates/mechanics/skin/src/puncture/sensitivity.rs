@@ -8,7 +8,7 @@ use super::failure::{MAXIMA, TISSUE_PRESSURE};
 use super::needle::{HistoryVariable, anchors, event_before, history, with};
 use super::observers::PathObservers;
 use super::row_layout::RowLayout;
-use super::snapshot::farther;
+use super::snapshot::raise_tilt;
 use super::surface_fold::{Fold, FoldObserver};
 use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, FORCE_MARK, LOAD_RATE};
 use super::{
@@ -134,7 +134,7 @@ fn with_path<T>(
         let followed = problem.follow(&[], at)?;
         let is_short = followed.watch.requested.points.iter().any(Option::is_none);
         let mut tilt = parameters.critical_tilt_deg;
-        if !farther(&mut tilt, followed.status, is_short) {
+        if !raise_tilt(&mut tilt, followed.status, is_short) {
             return evaluate(&problem, followed);
         }
         parameters.critical_tilt_deg = tilt;
@@ -158,8 +158,8 @@ impl Problem<'_> {
             .requested
             .points
             .iter()
-            .map(|found| {
-                let point = found.as_ref()?;
+            .map(|point| {
+                let point = point.as_ref()?;
                 // Perturbed rows have their own values of the history variables at this point.
                 let varied = with(&anchors, &point.state, &variations);
                 let known = varied.as_deref().unwrap_or_default();
@@ -187,20 +187,20 @@ impl Problem<'_> {
         let layout = path.system().layout;
         let variations = Neighbours::map_all(variations, |input| input.chain(layout))?;
         let anchors = anchors(path, &watch.history.segments, &variations);
-        let mut found = Vec::new();
+        let mut entries = Vec::new();
         // Build the perturbed rows once for all points with the same history variables.
-        for spots in group_by_history(self.measured_points(watch, path, is_bent)) {
-            let state = spots.iter().find_map(|spot| Some(&spot.point.as_ref()?.state));
+        for points in group_by_history(self.measured_points(watch, path, is_bent)) {
+            let state = points.iter().find_map(|point| Some(&point.point.as_ref()?.state));
             // A group without any located point has no derivatives.
             let Some(state) = state else { continue };
             let system = path.system();
             // Perturbed rows have their own values of the history variables at these points.
-            found.extend(match with(&anchors, state, &variations) {
-                Some(varied) => derivatives(system, spots, &varied, &self.common.solver),
-                None => missing(system, &spots, variations.len()),
+            entries.extend(match with(&anchors, state, &variations) {
+                Some(varied) => derivatives(system, points, &varied, &self.common.solver),
+                None => missing(system, &points, variations.len()),
             });
         }
-        Ok(found)
+        Ok(entries)
     }
 
     /// Lists the points of the path to which measures belong.
@@ -257,7 +257,7 @@ impl Problem<'_> {
             MeasuredPoint::new(loaded, [tissue_pressure("tissue_pressure_at_force")]),
         ];
         points.extend(summits.load);
-        points.extend(chain.limits_of_needle(watch));
+        points.extend(chain.stability_limits(watch));
         points.push(MeasuredPoint::new(touching, [depth("first_contact_displacement")]));
         points.extend(chain.point_at_rest(failure.is_some()));
         points.push(summits.stiffness);
@@ -326,11 +326,12 @@ fn first_marked(points: &[Option<SkinPoint>], mark: usize) -> Option<AnchoredPoi
 
 impl Chain {
     /// Lists the points at which stability under load control and depth control is lost.
-    fn limits_of_needle(&self, watch: &PathObservers) -> [MeasuredPoint<Self>; 2] {
-        // A point that is not an event has no guard as an anchor when a parameter changes.
-        let load = watch.needle.load_limit.as_ref().filter(|point| point.event.is_some());
+    fn stability_limits(&self, watch: &PathObservers) -> [MeasuredPoint<Self>; 2] {
+        // A point of instability that is not an event has no guard that could anchor it when a
+        // parameter changes.
+        let load = watch.snaps.load_limit.as_ref().filter(|point| point.event.is_some());
         let load = load.and_then(|point| sensitivity::turn(self, point, LOAD_RATE));
-        let depth = watch.needle.depth_limit.as_ref();
+        let depth = watch.snaps.depth_limit.as_ref();
         let depth = depth.and_then(|point| sensitivity::turn(self, point, DEPTH_RATE));
         [
             at_turn(load, [force("load_stability_force")]),
@@ -338,9 +339,9 @@ impl Chain {
         ]
     }
 
-    /// Returns the state at rest with its measures; `None` if there are none.
+    /// Returns the state at rest with its measures; `None` without measures at rest.
     ///
-    /// `has_failures` includes the clearance.
+    /// The measures include the clearance if `has_failures` is true.
     fn point_at_rest(&self, has_failures: bool) -> Option<MeasuredPoint<Self>> {
         let mut quantities = Vec::new();
         if !self.is_critical_only() {
@@ -363,7 +364,7 @@ impl PunctureInput {
         let Self { design, stiffness, common, parameters, odd } = self;
         // An upright design with a perturbed slant may lean to the left.
         let row = design.leaning_row()?;
-        let rows = odd.map_or(Rows::Even(row), |odd| Rows::Odd(row, odd));
+        let rows = odd.map_or(Rows::Even(row), |scale| Rows::Perturbed(row, scale));
         // At the end of a parameter range, a perturbed value lies outside the range.
         let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;
         problem.part(layout)
@@ -371,13 +372,14 @@ impl PunctureInput {
 }
 
 /// Groups measured points by their history variables.
-fn group_by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<Chain>>> {
+fn group_by_history(points: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<Chain>>> {
     let mut groups: Vec<(Vec<HistoryVariable>, Vec<MeasuredPoint<Chain>>)> = Vec::new();
-    for spot in spots {
-        let kept = spot.point.as_ref().map(|point| history(&point.state)).unwrap_or_default();
-        match groups.iter_mut().find(|(other, _)| *other == kept) {
-            Some((_, group)) => group.push(spot),
-            None => groups.push((kept, vec![spot])),
+    for measured in points {
+        let variables =
+            measured.point.as_ref().map(|point| history(&point.state)).unwrap_or_default();
+        match groups.iter_mut().find(|(other, _)| *other == variables) {
+            Some((_, group)) => group.push(measured),
+            None => groups.push((variables, vec![measured])),
         }
     }
     groups.into_iter().map(|(_, group)| group).collect()
@@ -396,7 +398,7 @@ impl Chain {
         Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark)))
     }
 
-    /// Anchors a point like the end of the path if it is the end; other points keep their anchor.
+    /// Anchors a point at the end of the path like this end; other points keep their anchor.
     fn end_of_target(&self, point: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         if point.anchor == PathAnchor::Target { self.end_of(point) } else { point }
     }
@@ -405,8 +407,8 @@ impl Chain {
     ///
     /// A point that an event or the target fixes keeps its anchor.
     fn extremum(&self, point: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
-        let held = sensitivity::is_held(self, point);
-        let anchor = if held { point.anchor } else { PathAnchor::Stationary(LOAD_RATE) };
+        let is_held = sensitivity::is_held(self, point);
+        let anchor = if is_held { point.anchor } else { PathAnchor::Stationary(LOAD_RATE) };
         AnchoredPoint { anchor, ..point.clone() }
     }
 
@@ -495,10 +497,10 @@ fn largest(measure: &'static str, value: ValueOf<Chain>) -> MeasuredQuantity<Cha
     MeasuredQuantity { extreme: Some(f64::max), ..quantity(measure, value) }
 }
 
-/// Returns the stretch of a gap; the index after the last gap denotes those in closed form.
+/// Returns the stretch of a solved gap, or the extreme stretch of the gaps beyond the solved part.
 ///
-/// Of the gaps in closed form, beyond the solved part, `outer` selects the extreme stretch. NaN if
-/// there are no such gaps.
+/// The index after the last solved gap denotes the gaps beyond the solved part. `outer` selects the
+/// extreme value of their stretches, which follow in closed form. NaN if there are no such gaps.
 fn stretch(chain: &Chain, state: &SkinState, gap: usize, outer: fn(f64, f64) -> f64) -> f64 {
     if gap < chain.layout.scales() - 1 {
         return chain.gap_stretch(state, gap);

@@ -50,7 +50,7 @@ pub(super) struct SnapObserver {
 }
 
 impl SnapObserver {
-    /// Processes a path segment.
+    /// Updates stability and snaps with a path segment.
     ///
     /// `events_before` is the number of contact events before the segment. On a path from a stable
     /// state the load increases while the stiffness has an even number of negative eigenvalues.
@@ -83,7 +83,7 @@ impl SnapObserver {
         }
     }
 
-    /// Computes the instability at a point; if it is singular, returns the previous instability.
+    /// Computes the instability at a point, or returns the last one if the stiffness is singular.
     fn at(&self, chain: &Chain, point: &SkinPoint) -> Instability {
         let SkinPoint { state, leaving, .. } = point;
         if chain.is_nonconservative(state) {
@@ -144,7 +144,8 @@ impl SnapObserver {
             || end.load > 0
             || !path.system().is_nonconservative(&path.point().state);
         measures.stable_under_load = is_known.then_some(end.load == 0);
-        // If the last snap has not returned to the path, the needle never reaches its end.
+        // If the last snap has not returned to the path, the needle never reaches the end of the
+        // path.
         measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
         let limit = self.load_limit.as_ref();
         measures.load_stability_force = limit.map(|point| path.system().force(&point.state));

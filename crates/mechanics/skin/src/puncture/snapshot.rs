@@ -17,17 +17,16 @@ use crate::{Common, Design};
 /// Largest tilt to which a path is extended for a snapshot, degrees.
 const STEEPEST_DEG: f64 = 80.0;
 
-/// Raises the critical tilt if the path does not reach all requested points.
+/// Raises the critical tilt if the path does not reach all requested points (`is_short`).
 ///
-/// The path is `short` in this case. Returns true if the tilt was raised and the path has to be
-/// followed again.
-pub(super) fn farther(tilt_deg: &mut f64, status: Status, short: bool) -> bool {
-    let may_go_on = status == Status::Complete && short && *tilt_deg < STEEPEST_DEG;
-    if may_go_on {
+/// Returns true if the tilt was raised and the path has to be followed again.
+pub(super) fn raise_tilt(tilt_deg: &mut f64, status: Status, is_short: bool) -> bool {
+    let is_raised = status == Status::Complete && is_short && *tilt_deg < STEEPEST_DEG;
+    if is_raised {
         // Each attempt follows the whole path again, so raise the tilt in few large steps.
         *tilt_deg = (2.0 * *tilt_deg).min(STEEPEST_DEG);
     }
-    may_go_on
+    is_raised
 }
 
 /// First point of a path at which a quantity reaches a given value.
@@ -41,8 +40,8 @@ pub enum At {
     Tilt(f64),
     /// A scale reaches its limit of breaking, bending, debonding or perforation.
     ///
-    /// The path is not extended beyond the critical tilt to reach it. Other failure modes have no
-    /// such point.
+    /// The path is not extended beyond the critical tilt to reach this limit. Other failure modes
+    /// have no such point.
     Limit(FailureMode),
 }
 
@@ -129,7 +128,7 @@ pub fn snapshots(
         let solved = snapshots_to_end(design, stiffness.clone(), common, &parameters, at)?;
         let mut found = at.iter().zip(&solved.at);
         let is_short = found.any(|(at, found)| found.is_none() && !matches!(at, At::Limit(_)));
-        if !farther(&mut parameters.critical_tilt_deg, solved.puncture.status, is_short) {
+        if !raise_tilt(&mut parameters.critical_tilt_deg, solved.puncture.status, is_short) {
             return Ok(solved);
         }
     }

@@ -36,18 +36,18 @@ impl Chain {
         if self.is_nonconservative(state) {
             return None;
         }
-        let kept = self.kept(state);
+        let unknowns = self.stiffness_unknowns(state);
         let mut index = vec![LEFT_OUT; self.layout.size()];
-        for (kept_index, &unknown) in kept.iter().enumerate() {
-            index[unknown] = kept_index;
+        for (row, &unknown) in unknowns.iter().enumerate() {
+            index[unknown] = row;
         }
-        let factors = self.stiffness_matrix(state, kept.len(), &index).factorise().ok()?;
-        // All unknowns of the stiffness except these motions are forces.
+        let factors = self.stiffness_matrix(state, unknowns.len(), &index).factorise().ok()?;
+        // All unknowns of the stiffness are forces, except the motions of scales and needle.
         let motions = 3 * self.layout.scales() + usize::from(self.needle.is_some());
-        let forces = kept.len() - motions;
+        let forces = unknowns.len() - motions;
         // Each force unknown is a multiplier, which adds one negative eigenvalue without a motion.
-        let held_together = factors.negative_eigenvalues().checked_sub(forces)?;
-        let load = held_together + self.contacts.ridges(state);
+        let without_ridges = factors.negative_eigenvalues().checked_sub(forces)?;
+        let load = without_ridges + self.contacts.ridges(state);
         let at = self.layout.scale(self.layout.left);
         let arm = self.loaded_arm(&state.z);
         let [mut depth, mut tilt] = match &self.needle {
@@ -59,7 +59,7 @@ impl Chain {
             [(depth, of_beam[0]), (tilt, of_beam[1])] = self.bending_loads(state);
         }
         let [depth, tilt] = [(depth, of_beam[0]), (tilt, of_beam[1])].map(|(loads, of_beam)| {
-            let mut x = vec![0.0; kept.len()];
+            let mut x = vec![0.0; unknowns.len()];
             for &(unknown, load) in &loads {
                 x[index[unknown]] += load;
             }
@@ -74,13 +74,13 @@ impl Chain {
     /// Lists the unknowns of the stiffness: displacements, contact forces, needle forces.
     ///
     /// Forces are not eliminated, because the compliance of a contact may be zero.
-    fn kept(&self, state: &SkinState) -> Vec<usize> {
+    fn stiffness_unknowns(&self, state: &SkinState) -> Vec<usize> {
         let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
-        let mut kept: Vec<usize> = scales.flat_map(|at| at..at + 3).collect();
-        kept.extend(self.contacts.forces_in_stiffness(state));
-        kept.extend(self.needle_in_stiffness(state));
-        kept.sort_unstable();
-        kept
+        let mut unknowns: Vec<usize> = scales.flat_map(|at| at..at + 3).collect();
+        unknowns.extend(self.contacts.forces_in_stiffness(state));
+        unknowns.extend(self.needle_in_stiffness(state));
+        unknowns.sort_unstable();
+        unknowns
     }
 
     /// Assembles the symmetric stiffness; `index` maps each unknown to its row.

@@ -226,7 +226,7 @@ fn bracket(low: (f64, f64), high: (f64, f64)) -> Bracket {
 }
 
 impl FoldCrossing {
-    /// Solves for the equilibrium with zero gap; returns its fraction of the segment, too.
+    /// Solves for the equilibrium with zero gap, and returns it with its fraction of the segment.
     ///
     /// If Newton's method fails, returns the last equilibrium found.
     fn locate(

@@ -25,7 +25,7 @@ const DEPTH: f64 = 0.5;
 /// A needle soon leaves a narrow top, which requires smaller steps.
 const TOPS: f64 = 4.0;
 
-/// Largest depth of a guided needle, in units of `t`; the path ends there at the latest.
+/// Depth of a guided needle at which its path ends at the latest, in units of `t`.
 const DEEPEST: f64 = 2.0;
 
 /// Number of the marker that is zero at the requested depth.
@@ -45,7 +45,7 @@ pub(super) const LOAD_RATE: usize = 0;
 /// Number of the rate that is zero at an extremum of the depth.
 pub(super) const DEPTH_RATE: usize = 1;
 
-/// A row of scales on a substrate under a needle, as [`System`].
+/// A row of scales on a substrate under a needle, as a [`System`] of equations.
 ///
 /// The unknowns are the displacements and rotations of the scales, the contact forces, and the
 /// load `F`. Lengths are in `t`, forces in `E* t²`.
@@ -96,7 +96,7 @@ pub(crate) struct Chain {
     /// Numbers of the constraints with unknowns that cannot decrease: the slip distances.
     monotone: Vec<usize>,
     pub(super) controls: Vec<Control>,
-    /// [`Common::detail`](crate::Common::detail).
+    /// Computed measures and point data, as in [`Common::detail`](crate::Common::detail).
     pub(super) detail: PathDetail,
     /// Block structure of the tangent; `None` if it has entries outside such blocks.
     blocks: Option<Blocks>,
@@ -115,8 +115,8 @@ enum Part<'a> {
 
 /// Returns the control parameters of a path: the tilt and the displacements of the punctured scale.
 ///
-/// For a guided needle, its depth is the first of them. `top` is the length of the top of the
-/// scale, in units of `t`.
+/// For a guided needle the first control parameter is its depth. `top` is the length of the top of
+/// the scale, in units of `t`.
 fn controls(
     parameters: &PunctureParameters,
     layout: RowLayout,
@@ -340,8 +340,8 @@ impl Chain {
                 part(left, right, parts[1]);
             }
         }
-        // The direct springs hold for fixed neighbours. Scales beyond an end move, which reduces
-        // the stiffness at the end.
+        // The direct springs are valid for fixed neighbours. Scales beyond an end move, which
+        // reduces the stiffness at this end.
         for (row, column, values) in &self.exterior.relief {
             part(*row, *column, Part::Block(values));
         }
@@ -400,7 +400,7 @@ impl System for Chain {
         if self.is_elastic && Contacts::closed(state) > 0 {
             return false;
         }
-        state.mode.needle.touches.iter().flatten().all(|touch| touch.scale == 0)
+        state.mode.needle.tip_contacts.iter().flatten().all(|touch| touch.scale == 0)
     }
 
     fn load(&self) -> usize {
@@ -416,7 +416,7 @@ impl System for Chain {
 
     fn ends(&self, state: &SkinState, constraint: usize) -> bool {
         // At the end of an edge two corners share the force. The beam model gives them different
-        // positions, so an elastic scale would jump there.
+        // positions, so an elastic scale would jump at this point.
         if self.is_elastic && self.contacts.contact_of_own_force(constraint).is_none() {
             return true;
         }
@@ -471,7 +471,7 @@ impl System for Chain {
 
     fn mode_at_rest(&self) -> SkinMode {
         let slots = self.needle.as_ref().map_or(0, |needle| needle.slots);
-        SkinMode { needle: NeedleMode { touches: vec![None; slots] }, ..self.contacts.open() }
+        SkinMode { needle: NeedleMode { tip_contacts: vec![None; slots] }, ..self.contacts.open() }
     }
 
     fn constant_tangent(&self, matrix: &mut impl Tangent) {
@@ -489,7 +489,7 @@ impl System for Chain {
             Part::Diagonal(values) => residual.add_products(row, values, &z[column..]),
             Part::Block(values) => residual.add_block_products(row, values, &z[column..]),
         });
-        self.for_bars(z, |places, bar| bar.linearise(places, residual, matrix));
+        self.for_bars(z, |nodes, bar| bar.linearise(nodes, residual, matrix));
         if let Some(needle) = &self.needle {
             self.add_needle(needle, state, residual, matrix);
         } else {

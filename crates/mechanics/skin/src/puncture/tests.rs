@@ -128,7 +128,7 @@ fn tangent_matches_finite_differences_in_every_contact_state() {
     for constants in [Law::PRINTED, Law::EXCHANGED] {
         for design in [LIVELY, FOLDING, SLIDING] {
             // Compare half-way between points. At events some contact forces are zero, and the
-            // contact law has a kink there.
+            // contact law has a kink at zero force.
             for_segments(path(&design, law(&design, constants, HARD), 1.0), |path, from, to| {
                 let state = path.between(from, to, 0.5).unwrap().state;
                 seen.extend(state.mode.contacts.iter().copied().map(name));
@@ -263,7 +263,7 @@ fn work_equals_stored_energy_in_a_coupled_row() {
 }
 
 #[test]
-fn one_neighbour_without_cross_coupling_matches_the_paper() {
+fn coupling_with_one_neighbour_and_no_cross_terms_matches_nearest_coupling() {
     for design in [LIVELY, BLOCKS] {
         let footprint = design.footprint(0.5).unwrap();
         let mut one = RowStiffness::solve(&footprint, 1).unwrap();
@@ -278,8 +278,8 @@ fn one_neighbour_without_cross_coupling_matches_the_paper() {
             let solved = super::solve(&design, stiffness, &Common::default(), &parameters);
             solved.unwrap().measures.critical_force.unwrap()
         });
-        // The stiffness of the first row has the error of the default mesh, up to 2e-4. The
-        // stiffness of the second row comes from the table.
+        // The stiffness for `ours` has the error of the default mesh, up to 2e-4. The stiffness for
+        // `paper` is taken from the table.
         assert_relative_eq!(ours, paper, max_relative = 2e-4);
         assert_ne!(full, paper);
     }
@@ -287,7 +287,7 @@ fn one_neighbour_without_cross_coupling_matches_the_paper() {
 
 /// Compares eight with sixteen coupled neighbours on each side, the truncation (S11).
 #[test]
-fn doubling_the_neighbours_changes_less_than_half_a_percent() {
+fn doubling_the_coupled_neighbours_changes_results_by_less_than_half_a_percent() {
     // The slant does not change the footprint, so one stiffness serves all slants.
     let rows = [substrate::NEIGHBOURS, 2 * substrate::NEIGHBOURS].map(|neighbours| {
         RowStiffness::solve(&BLOCKS.footprint(0.5).unwrap(), neighbours).unwrap()
@@ -340,7 +340,7 @@ fn rows_grow_within_their_limit() {
 }
 
 #[test]
-fn a_row_at_its_limit_has_no_final_values() {
+fn a_row_that_reaches_its_length_limit_has_no_final_measures() {
     let springs = calibrate(&DOMINO.footprint(0.5).unwrap()).unwrap();
     let parameters = &PunctureParameters::default();
     let row = Rows::Even(DOMINO.row().unwrap());
@@ -460,7 +460,8 @@ fn compare_instability(path: Continuation<Chain>, compared: &mut HashSet<(usize,
             depth: negative_eigenvalues(&dense, Some(&depth)) + ridges,
             tilt: negative_eigenvalues(&dense, Some(&tilt)) + ridges,
         };
-        // On a path from a stable state, load and depth decrease where the count is odd.
+        // On a path from a stable state, load and depth decrease where the number of negative
+        // eigenvalues is odd.
         let falls = [point.leaving[chain.load()], chain.depth_slope(&state.z, &point.leaving)];
         let odd = [expected.load, expected.depth].map(|count| count % 2 == 1);
         assert_eq!(falls.map(|rate| rate < 0.0), odd, "{:?}", chain.path_point(&point));
@@ -507,7 +508,7 @@ fn negative_eigenvalues_match_the_dense_stiffness() {
     }
 }
 
-/// `SnapObserver` relies on this and counts no negative eigenvalues before the load decreases.
+/// `SnapObserver` relies on this stability: it counts no eigenvalues before the load decreases.
 #[test]
 fn a_row_is_stable_until_the_load_decreases() {
     for design in [LIVELY, FOLDING, SLIDING, STEEP, DOMINO] {

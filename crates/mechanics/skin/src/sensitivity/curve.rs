@@ -1,4 +1,4 @@
-//! Points of a curve, such as force over displacement, and their derivatives.
+//! Points of a curve, such as the force as a function of the displacement, and their derivatives.
 
 use solver::{AnchoredPoint, Equilibrium, Neighbours, PathAnchor, Settings};
 
@@ -22,7 +22,7 @@ pub struct CurvePoint {
 /// A curve `y(x)` along a path: the functions that evaluate `x` and `y` at a state.
 pub(crate) type Curve<S> = [ValueOf<S>; 2];
 
-/// Multiple of the path direction, to each side, over which the slope of a curve is differenced.
+/// Half-width of the central difference for the slope of a curve, as a multiple of the direction.
 const ALONG: f64 = 1e-5;
 
 /// Evaluates a curve at an equilibrium.
@@ -43,21 +43,21 @@ pub(crate) fn curve_point<S: Skin>(
         after - before
     });
     let slope = rise_y / rise_x;
-    // Keep the point in a section across the path, so that it moves little even where the curve
-    // turns back. The slope of the curve then corrects the change of `y` to constant `x`.
+    // Keep the point in a section through the path, so that it moves little even where the curve
+    // reverses in `x`. The slope of the curve then corrects the change of `y` to constant `x`.
     let anchored = AnchoredPoint::arriving(point, PathAnchor::Still);
     let point =
         MeasuredPoint::new(Some(anchored), [quantity("x", curve[0]), quantity("y", curve[1])]);
-    let found = derivatives(system, vec![point], variations, settings);
-    // At a singular tangent `found` is empty, and all rates remain `None`.
+    let derivatives = derivatives(system, vec![point], variations, settings);
+    // At a singular tangent `derivatives` is empty, and all rates remain `None`.
     let mut rates = vec![None; variations.len()];
-    let (of_x, of_y) = found.split_at(found.len() / 2);
+    let (of_x, of_y) = derivatives.split_at(derivatives.len() / 2);
     for (rate, (x, y)) in rates.iter_mut().zip(of_x.iter().zip(of_y)) {
         let sides = [(x.left, y.left), (x.right, y.right)]
             .map(|(x, y)| Some(y? - slope * x?).filter(|rate| rate.is_finite()));
         *rate = match sides {
             [Some(left), Some(right)] => Some(0.5 * (left + right)),
-            // If one side has no equilibrium, use the rate of the other side for both.
+            // If one side has no equilibrium, use the rate of the other side for both sides.
             [left, right] => left.or(right),
         };
     }

@@ -28,7 +28,7 @@ pub(crate) fn end<S: System>(path: &Continuation<S>) -> AnchoredPoint<S::Mode> {
 
 /// Returns the state at first contact, with all contacts still open.
 ///
-/// `None` if no contact closes at `point`, or if the needle changes there, too.
+/// `None` if no contact closes at `point`, or if the needle also changes its state at `point`.
 pub(crate) fn first_contact<S: Skin>(
     system: &S,
     point: &SkinPoint,
@@ -39,7 +39,8 @@ pub(crate) fn first_contact<S: Skin>(
     // are found as violated constraints.
     let constraint = changes.iter().find(|change| change.activated)?.constraint;
     if changes.iter().any(|change| change.constraint >= contacts.len()) {
-        // The needle changes together with the contact. Its state before the event is unknown here.
+        // The state of the needle before the event is unknown, because `point` has the state after
+        // the event.
         return None;
     }
     // The recorded point has the state after the event. Restore the state before the event: all
@@ -97,8 +98,8 @@ pub(crate) fn summit<S: Skin>(
 
 /// Returns the point of a path at which a quantity has an extremum, with its anchor.
 ///
-/// If a contact changes at the point, the anchor is the guard of this contact. Otherwise it is the
-/// vanishing [rate](System::rate) with this `number`.
+/// If a contact changes at the point, the anchor is the guard of this contact. Otherwise the anchor
+/// is the vanishing [rate](System::rate) with this `number`.
 pub(crate) fn turn<S: Skin>(
     system: &S,
     point: &SkinPoint,
@@ -128,7 +129,7 @@ pub(crate) fn is_held<S: Skin>(system: &S, point: &AnchoredPoint<S::Mode>) -> bo
     }
 }
 
-/// Finds the constraint of a changed contact with a vanishing guard at an event.
+/// Finds a constraint with a vanishing guard among the contacts that changed at an event.
 pub(crate) fn vanished<S: Skin>(
     system: &S,
     state: &SkinState,
@@ -150,7 +151,8 @@ pub(crate) fn vanished<S: Skin>(
             changes.iter().any(|change| contacts.contact_of(change.constraint).0 == contact)
         })
         .filter(|&c| guards[c].abs() < VANISHED);
-    // Skip a slip distance: it counts from the event, so its guard is zero wherever the event is.
+    // Skip a slip distance: it is measured from the event, so its guard is zero at any position of
+    // the event.
     let known = vanished.filter(|&c| !contacts.slips(state, c));
     known.min_by(|&a, &b| {
         let friction_last = contacts.is_friction(a).cmp(&contacts.is_friction(b));

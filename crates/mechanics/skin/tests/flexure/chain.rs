@@ -16,7 +16,8 @@ fn compare(design: &Design, law: Law) -> usize {
         let gaps = Some(whole_gaps(&design.row().unwrap(), &FlexureParameters::default()));
         let parameters = FlexureParameters { method, gaps, ..FlexureParameters::default() };
         let shots = snapshots(design, &with_law(law), &parameters, &AT).unwrap();
-        shots.into_iter().map(|shot| shot.expect("reached")).collect::<Vec<StripSnapshot>>()
+        let shots = shots.into_iter().map(|shot| shot.expect("the path reaches this rotation"));
+        shots.collect::<Vec<StripSnapshot>>()
     });
     for (cell, chain) in cell.iter().zip(&chain) {
         assert_relative_eq!(cell.curvature, chain.curvature, max_relative = 1e-11);

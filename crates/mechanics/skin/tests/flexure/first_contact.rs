@@ -12,7 +12,8 @@ fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
 fn upright_scales_touch_when_the_bend_radius_equals_their_height() {
     for (membrane_axis_offset, curvature) in [(0.0, 0.1 / 1.1), (0.25, 0.1 / 1.25 / 1.1)] {
         let parameters = FlexureParameters { membrane_axis_offset, ..Default::default() };
-        let touching = contact_curvature(&design(0.1, 1.0, 0.0), &parameters).expect("a design");
+        let touching = contact_curvature(&design(0.1, 1.0, 0.0), &parameters);
+        let touching = touching.expect("a valid design");
         assert_eq!(touching, Some(curvature));
     }
 }
@@ -21,7 +22,7 @@ fn upright_scales_touch_when_the_bend_radius_equals_their_height() {
 fn a_slight_slant_hardly_changes_first_contact() {
     let [upright, slanted] = [0.0, 1e-6].map(|slant| {
         let touching = contact_curvature(&design(0.1, 1.0, slant), &FlexureParameters::default());
-        touching.expect("a design").expect("closed")
+        touching.expect("a valid design").expect("gaps that close")
     });
     assert!((slanted / upright - 1.0).abs() < 1e-6, "{upright} {slanted}");
 }
@@ -43,9 +44,10 @@ proptest! {
             membrane_length: if short { 100.0 } else { 6.0 },
             ..Default::default()
         };
-        let closed_form = contact_curvature(&design, &parameters).expect("a design");
-        let solved = flexure::solve(&design, &Common::default(), &parameters).expect("a strip");
-        let end = solved.path.last().expect("a path").curvature;
+        let closed_form = contact_curvature(&design, &parameters).expect("a valid design");
+        let solved = flexure::solve(&design, &Common::default(), &parameters);
+        let solved = solved.expect("a valid design");
+        let end = solved.path.last().expect("a nonempty path").curvature;
         match (closed_form, solved.measures.first_contact_curvature) {
             (Some(expected), Some(found)) => {
                 prop_assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
@@ -60,10 +62,11 @@ proptest! {
     fn bending_with_scales_on_the_outside_opens_the_gaps(gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0) {
         let design = design(gap, length, slant);
         let parameters = FlexureParameters { max_end_rotation_deg: -180.0, ..Default::default() };
-        let solved = flexure::solve(&design, &Common::default(), &parameters).expect("a strip");
+        let solved = flexure::solve(&design, &Common::default(), &parameters);
+        let solved = solved.expect("a valid design");
         prop_assert_eq!(solved.status, skin::Status::Complete);
         prop_assert_eq!(solved.measures.contact, Some(false));
-        let end = solved.path.last().expect("a path");
+        let end = solved.path.last().expect("a nonempty path");
         prop_assert!((end.end_rotation_deg + 180.0).abs() < 1e-9);
         prop_assert!(end.curvature < 0.0 && end.moment < 0.0);
         let pitch = length + gap;

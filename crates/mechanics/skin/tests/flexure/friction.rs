@@ -11,7 +11,7 @@ use crate::samples::design;
 
 /// Compares moments at the end of bending, with one co-rotational element in each gap.
 ///
-/// In all cases with friction but the last, contacts slip at the end.
+/// Contacts slip at the end in all cases with friction except the last one.
 #[test]
 fn end_moments_with_friction_match_two_programs() {
     let moments = [
@@ -28,7 +28,7 @@ fn end_moments_with_friction_match_two_programs() {
     for ((gap, length, slant), friction, expected) in moments {
         let common = Common { friction, ..Common::default() };
         let strip = solve(&design(gap, length, slant, Base::L), &common, &parameters);
-        let end = strip.expect("a strip").path.last().expect("a path").moment;
+        let end = strip.expect("a valid design").path.last().expect("a nonempty path").moment;
         assert_relative_eq!(end, expected, max_relative = 1e-7);
     }
 }
@@ -39,15 +39,15 @@ fn unloading_curves_lie_on_the_unloading_path() {
     let common = Common { friction: 0.2, ..Common::default() };
     let parameters = FlexureParameters { unload: true, ..Default::default() };
     let to = FlexureParameters { max_end_rotation_deg: 60.0, ..parameters };
-    let strip = solve(&design, &common, &to).expect("a strip");
-    let back = strip.unloading.as_ref().expect("unloading");
-    let turn = strip.path.last().expect("a path").curvature;
+    let strip = solve(&design, &common, &to).expect("a valid design");
+    let back = strip.unloading.as_ref().expect("an unloading path");
+    let turn = strip.path.last().expect("a nonempty path").curvature;
     let points = &back.path[1..back.path.len() - 1];
-    let places: Vec<_> = points.iter().map(|point| point.curvature).collect();
+    let curvatures: Vec<_> = points.iter().map(|point| point.curvature).collect();
     let input = FlexureInput { design, common, parameters };
-    let found = unloading_curve(&input, turn, &places).expect("a curve");
-    for (point, found) in points.iter().zip(&found) {
-        let value = found.as_ref().expect("a point").value;
+    let curve = unloading_curve(&input, turn, &curvatures).expect("a valid design");
+    for (point, on_curve) in points.iter().zip(&curve) {
+        let value = on_curve.as_ref().expect("a curvature on the unloading path").value;
         assert_relative_eq!(value, point.moment, max_relative = 1e-6, epsilon = 1e-9);
     }
 }
@@ -60,9 +60,10 @@ fn corners_that_meet_with_friction_count_as_contact() {
             let solver = Settings { max_step, ..Settings::default() };
             let common = Common { friction, solver, ..Common::default() };
             let upright = design(gap, length, 0.0, Base::TwoL);
-            let strip = solve(&upright, &common, &FlexureParameters::default()).expect("a strip");
+            let strip = solve(&upright, &common, &FlexureParameters::default());
+            let strip = strip.expect("a valid design");
             assert_eq!(strip.measures.contact, Some(true), "{upright:?} {max_step}");
-            assert!(strip.measures.compliance.expect("a compliance") < 1e-3);
+            assert!(strip.measures.compliance.expect("a complete path") < 1e-3);
         }
     }
 }

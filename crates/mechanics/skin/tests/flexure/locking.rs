@@ -32,9 +32,9 @@ fn more_friction_locks_a_strip_earlier_but_not_before_first_contact() {
             let common = Common { friction, ..Common::default() };
             let strip =
                 solve(&design(0.1, length, slant, Base::L), &common, &FlexureParameters::default());
-            strip.expect("a strip").measures
+            strip.expect("a valid design").measures
         });
-        let touch = strips[0].first_contact_curvature.expect("contact");
+        let touch = strips[0].first_contact_curvature.expect("scales that touch");
         locks_earlier(&strips.map(|strip| strip.locking_curvature), touch);
     }
 }

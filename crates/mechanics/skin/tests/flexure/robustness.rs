@@ -36,8 +36,8 @@ fn a_contact_beyond_its_edge_fails_the_audit() {
 
 /// Steep scales on a membrane far below their bases rotate until a side lies flush with a base.
 ///
-/// There the moment grows without rotation, so the compliance is undefined. The last recorded point
-/// lies shortly before the `moment` at which the side becomes flush.
+/// When the side is flush, the moment grows without rotation, so the compliance is undefined. The
+/// last recorded point lies shortly before the `moment` at which the side becomes flush.
 #[test]
 fn a_strip_locked_by_flush_sides_has_no_compliance() {
     for (design, gaps, moment) in [

@@ -49,7 +49,7 @@ fn forces_agree_with_two_independent_programs() {
         }
     }
     // On a concave body gaps are narrow and many scales share the load, so the force depends on the
-    // length of the row. With all scales of the body it is 3.76.
+    // length of the row. With all scales that the body can carry, the force is 3.76.
     let design = design(0.1, 0.2, 60.0);
     let flat = critical_force(&design, &on_body(0.0));
     let scales = RowLength::Scales(31);
@@ -328,7 +328,7 @@ fn draw(random: &mut ChaCha8Rng, from: f64, to: f64) -> f64 {
 
 /// A design on a body, with its needle, friction and tissue.
 #[derive(Debug)]
-struct WornSkin {
+struct SkinOnBody {
     design: Design,
     parameters: PunctureParameters,
     friction: f64,
@@ -345,7 +345,7 @@ fn draw_either(random: &mut ChaCha8Rng) -> bool {
 ///
 /// Needles are free, guided or round. About half of the skins have friction between scales, and
 /// every skin with a number divisible by `layers` lies on a layer of finite thickness.
-fn random_worn_skins(count: usize, layers: usize) -> Vec<WornSkin> {
+fn random_skins(count: usize, layers: usize) -> Vec<SkinOnBody> {
     let mut random = ChaCha8Rng::seed_from_u64(52);
     let mut all = Vec::new();
     while all.len() < count {
@@ -366,13 +366,13 @@ fn random_worn_skins(count: usize, layers: usize) -> Vec<WornSkin> {
         let tissue = draw(random, 0.5, 10.0);
         let tissue = all.len().is_multiple_of(layers).then_some(tissue);
         if !puncture::overlaps_at_rest(&design, Body { curvature }).unwrap() {
-            all.push(WornSkin { design, parameters, friction, tissue });
+            all.push(SkinOnBody { design, parameters, friction, tissue });
         }
     }
     all
 }
 
-impl WornSkin {
+impl SkinOnBody {
     fn status(&self) -> Status {
         let Self { design, parameters, friction, tissue } = self;
         let mut footprint = design.footprint(parameters.poisson_ratio).unwrap();
@@ -390,7 +390,7 @@ fn random_skins_on_bodies_end_for_mechanical_reasons() {
     // At most 1 skin in 1,000 may end for a numerical reason. The short test has few layers,
     // because the computation of their springs takes most of the time.
     let (count, layers) = if long_campaigns() { (5000, 5) } else { (200, 40) };
-    let skins = random_worn_skins(count, layers);
+    let skins = random_skins(count, layers);
     let ends: Vec<_> = skins.par_iter().map(|skin| (skin, skin.status())).collect();
     let numeric: Vec<_> = ends.iter().filter(|(_, status)| is_numeric(*status)).collect();
     let complete = ends.iter().filter(|(_, status)| *status == Status::Complete).count();

@@ -27,7 +27,7 @@ fn a_path_stops_at_zero_load() {
     assert!(last.force.abs() < 1e-14 && last.tilt_deg < 35.0, "{last:?}");
     assert!(puncture.path.iter().skip(1).rev().skip(1).all(|point| point.force > 0.0));
     assert_eq!(measures.critical_force.or(measures.penetration), None);
-    // A path that ends at the tilt of the peak has the same force there.
+    // A path that ends at the tilt of the largest load has this load as its critical force.
     let to_peak = solve(&design, &to_tilt(measures.peak_tilt_deg.unwrap()));
     assert_eq!(to_peak.status, Status::Complete);
     assert_relative_eq!(
@@ -129,7 +129,7 @@ fn steep_designs_never_have_a_negative_load() {
 #[test]
 fn no_path_returns_to_rest() {
     use SubstrateLaw::{Linear, NeoHookean};
-    let came_back = [
+    let difficult = [
         (Linear, 0.1, 0.05),
         (Linear, 0.2, 0.1),
         (NeoHookean, 0.1, 0.8),
@@ -146,7 +146,7 @@ fn no_path_returns_to_rest() {
             .flat_map(|law| study.iter().map(move |design| (law, *design)))
             .collect()
     } else {
-        came_back.map(|(law, gap, length)| (law, design(gap, length, 75.0, Base::L))).to_vec()
+        difficult.map(|(law, gap, length)| (law, design(gap, length, 75.0, Base::L))).to_vec()
     };
     let known = Calibrations::default();
     designs.par_iter().for_each(|&(substrate_law, design)| {
@@ -170,7 +170,7 @@ fn random_designs_never_have_a_negative_load() {
     check(&designs, &Calibrations::default());
 }
 
-/// When the corner reaches the end of its edge, load, depth and tilt turn back, and the row snaps.
+/// When the corner reaches the end of its edge, load, depth and tilt decrease, and the row snaps.
 ///
 /// The snap point does not depend on the step size. After the snap the path reaches the same depth
 /// again with a force that is lower by `drop`.

@@ -21,7 +21,7 @@ enum ContactState {
     Stick,
     /// Slips; the value is the sign of the slip rate.
     Slip(f64),
-    /// Closed, but the other (sticking) contact carries the friction of both.
+    /// Closed, but another contact, which sticks, carries the friction of both contacts.
     ///
     /// While two contacts on parallel edges stick, only the sum of their friction is determined.
     CarriedByOther,
@@ -36,7 +36,7 @@ const STATES: [ContactState; 5] = [
 ];
 
 /// A contact between a corner of one scale and an edge of the other scale.
-struct Touch {
+struct CornerOnEdge {
     /// Scale with the corner, and position of the corner relative to its node.
     corner: (usize, V),
     /// Scale with the edge, and position of the lower end of the edge relative to its node.
@@ -53,7 +53,7 @@ struct Pair {
     /// Position of the loaded corner relative to the node.
     arm: V,
     pitch: f64,
-    touches: Vec<Touch>,
+    contacts: Vec<CornerOnEdge>,
     /// Constants `λ₀`, `L` and `C₂` of the contact law.
     law: [f64; 3],
     friction: f64,
@@ -96,21 +96,21 @@ impl Pair {
         // Outward normals: the right edge of the left scale faces right, the left edge of the right
         // scale faces left.
         let (right, left) = (-quarter(up), quarter(up));
-        let touches = [
+        let contacts = [
             ((0, top[1]), (1, bottom[0]), left),
             ((1, top[0]), (0, bottom[1]), right),
             ((1, bottom[0]), (0, bottom[1]), right),
             ((0, bottom[1]), (1, bottom[0]), left),
         ];
-        let touches = touches
-            .map(|(corner, edge, normal)| Touch { corner, edge, normal, tangent: up })
+        let contacts = contacts
+            .map(|(corner, edge, normal)| CornerOnEdge { corner, edge, normal, tangent: up })
             .into();
         let modulus =
             parameters.contact_modulus_over_substrate * (1.0 - parameters.poisson_ratio.powi(2));
         let law =
             [common.law.c1 * design.length * design.width * modulus, design.length, common.law.c2];
         let pitch = 2.0 * a + design.gap;
-        Self { stiffness, arm: top[1], pitch, touches, law, friction: common.friction }
+        Self { stiffness, arm: top[1], pitch, contacts, law, friction: common.friction }
     }
 
     fn position(&self, z: &Unknowns, (scale, arm): (usize, V)) -> V {
@@ -122,8 +122,8 @@ impl Pair {
     ///
     /// `P` is the corner, `E` the end of the edge, and `v` the deformed `direction`: the normal of
     /// the edge gives the gap, its tangent the slip coordinate.
-    fn along(&self, z: &Unknowns, touch: &Touch, direction: V) -> (f64, DVector<f64>) {
-        let (corner, edge) = (touch.corner, touch.edge);
+    fn along(&self, z: &Unknowns, contact: &CornerOnEdge, direction: V) -> (f64, DVector<f64>) {
+        let (corner, edge) = (contact.corner, contact.edge);
         let v = turned(z[3 * edge.0 + 2], direction);
         let between = self.position(z, corner) - self.position(z, edge);
         let mut slopes = DVector::zeros(6);
@@ -137,9 +137,9 @@ impl Pair {
         (between.dot(&v), slopes)
     }
 
-    fn slip(&self, z: &Unknowns, touch: usize) -> f64 {
-        let touch = &self.touches[touch];
-        self.along(z, touch, touch.tangent).0
+    fn slip(&self, z: &Unknowns, contact: usize) -> f64 {
+        let contact = &self.contacts[contact];
+        self.along(z, contact, contact.tangent).0
     }
 
     fn approach(&self, force: f64) -> f64 {
@@ -159,10 +159,10 @@ impl Pair {
         let arm = turned(z[2], self.arm);
         balance[1] += z[LOAD];
         balance[2] += arm.x * z[LOAD];
-        for (k, (touch, state)) in self.touches.iter().zip(states).enumerate() {
+        for (k, (contact, state)) in self.contacts.iter().zip(states).enumerate() {
             let (at, traction) = (LOAD + 1 + 2 * k, LOAD + 2 + 2 * k);
-            let (gap, by_gap) = self.along(z, touch, touch.normal);
-            let (slip, by_slip) = self.along(z, touch, touch.tangent);
+            let (gap, by_gap) = self.along(z, contact, contact.normal);
+            let (slip, by_slip) = self.along(z, contact, contact.tangent);
             if *state == ContactState::Open {
                 (r[at], r[traction]) = (z[at], z[traction]);
                 continue;
@@ -212,17 +212,19 @@ impl Pair {
     /// pattern.
     ///
     /// `from` is the state at the previous tilt.
-    fn holds(&self, from: &Unknowns, to: &Unknowns, states: &[ContactState]) -> bool {
+    fn satisfies(&self, from: &Unknowns, to: &Unknowns, states: &[ContactState]) -> bool {
         let shared_force =
             states.iter().enumerate().filter(|(_, state)| **state == ContactState::CarriedByOther);
         let shared_force: f64 = shared_force.map(|(k, _)| to[LOAD + 1 + 2 * k]).sum();
         states.iter().enumerate().all(|(k, state)| {
-            let touch = &self.touches[k];
+            let contact = &self.contacts[k];
             let (push, traction) = (to[LOAD + 1 + 2 * k], to[LOAD + 2 + 2 * k]);
             let (slip, before) = (self.slip(to, k), self.slip(from, k));
-            let is_on_edge = slip > 0.0 && slip < touch.tangent.y.recip();
+            let is_on_edge = slip > 0.0 && slip < contact.tangent.y.recip();
             match state {
-                ContactState::Open => !is_on_edge || self.along(to, touch, touch.normal).0 >= 0.0,
+                ContactState::Open => {
+                    !is_on_edge || self.along(to, contact, contact.normal).0 >= 0.0
+                }
                 ContactState::Stick => {
                     let normal_force = push + shared_force;
                     push >= 0.0 && is_on_edge && traction.abs() <= self.friction * normal_force
@@ -239,7 +241,7 @@ impl Pair {
 
     /// Computes the load at the given `tilts`, and the sequence of patterns.
     fn loads(&self, tilts: &[f64], steps: usize) -> (Vec<f64>, Vec<Vec<ContactState>>) {
-        let count = self.touches.len();
+        let count = self.contacts.len();
         let mut z = Unknowns::zeros(LOAD + 1 + 2 * count);
         let mut states = vec![ContactState::Open; count];
         let (mut loads, mut seen) = (Vec::new(), vec![states.clone()]);
@@ -253,7 +255,7 @@ impl Pair {
             });
             let found = std::iter::once(states.clone()).chain(patterns).find_map(|pattern| {
                 let to = self.solve(&z, tilt, &pattern, &anchors)?;
-                self.holds(&z, &to, &pattern).then_some((to, pattern))
+                self.satisfies(&z, &to, &pattern).then_some((to, pattern))
             });
             let (to, pattern) = found.unwrap_or_else(|| panic!("no pattern at {tilt}: {states:?}"));
             if pattern != states {

@@ -28,7 +28,7 @@ fn failure(design: &Design, parameters: &PunctureParameters) -> FailureMeasures 
 
 /// Compares the largest stresses (`MPa`) of three designs with an independent program.
 #[test]
-fn designs_with_large_critical_forces_bend_or_fold_before() {
+fn designs_with_large_critical_forces_bend_or_fold_before_the_critical_tilt() {
     for (gap, length, slant, stress, mode) in [
         (0.1, 0.1, 75.0, 4900.0, FailureMode::Bend),
         (0.1, 0.2, 75.0, 2100.0, FailureMode::Bend),
@@ -54,23 +54,24 @@ fn the_pressure_at_a_force_belongs_to_the_equilibrium_with_that_force() {
     let isolated = design(100.0, 0.5, 0.0, Base::L);
     let single = PunctureParameters { scales: RowLength::Scales(1), force: Some(0.01), ..unloaded };
     let puncture = solve_as(&known, &isolated, &Common::default(), &single);
-    let tilts = puncture.path.windows(2).find(|pair| pair[1].force >= 0.01).expect("reached");
+    let tilts = puncture.path.windows(2).find(|pair| pair[1].force >= 0.01);
+    let tilts = tilts.expect("the path reaches this force");
     // Load `F/(E_s t²)` on a base of area 0.5, at the tilts of the points before and after.
     let pressures = [tilts[0].tilt_deg, tilts[1].tilt_deg]
         .map(|tilt| 0.01 * 0.5 / 0.75 * tilt.to_radians().cos() / 0.5);
-    let pressure = puncture.measures.tissue_pressure_at_force.expect("reached");
+    let pressure = puncture.measures.tissue_pressure_at_force;
+    let pressure = pressure.expect("the path reaches this force");
     assert!(pressures[1] <= pressure && pressure <= pressures[0], "{pressure} {pressures:?}");
 
     let slanted = design(0.2, 0.5, 60.0, Base::L);
     let whole = complete(&solve_with(&known, &slanted, &unloaded));
-    let (last, largest) =
-        (whole.critical_force.expect("a force"), whole.failure.tissue_pressure.expect("pressure"));
+    let (last, largest) = (whole.critical_force.unwrap(), whole.failure.tissue_pressure.unwrap());
     let [low, almost, beyond] = [1e-3, last * (1.0 - 1e-9), 1.001 * last].map(|force| {
         let parameters = PunctureParameters { force: Some(force), ..unloaded };
         complete(&solve_with(&known, &slanted, &parameters)).tissue_pressure_at_force
     });
-    assert_relative_eq!(almost.expect("reached"), largest, max_relative = 1e-7);
-    assert!(low.expect("reached") < 0.1 * largest);
+    assert_relative_eq!(almost.unwrap(), largest, max_relative = 1e-7);
+    assert!(low.unwrap() < 0.1 * largest);
     assert_eq!(beyond, None);
 }
 
@@ -127,14 +128,14 @@ fn failures_are_located_at_the_point_where_a_stress_reaches_its_strength() {
         assert_eq!(failed.mode, Some(mode));
         assert!(failed.force < solved.critical_force, "{failed:?}");
         // A path that ends at the tilt of the failure has the strength as its largest stress.
-        let place = skin::puncture::At::Force(failed.force.unwrap());
+        let point = skin::puncture::At::Force(failed.force.unwrap());
         let springs = substrate::calibrate(&design.footprint(0.5).unwrap()).unwrap();
         let at = skin::puncture::snapshots(
             &design,
             &springs,
             &Common::default(),
             &parameters(Strengths::default()),
-            &[place],
+            &[point],
         );
         let at = at.unwrap().at[0].clone().unwrap();
         let to_there = PunctureParameters {

@@ -222,23 +222,22 @@ fn loading_work_equals_returned_work_plus_loop_work() {
             (Status::Complete, Termination::Unloaded),
             "{design:?}"
         );
-        let [there, given_back] =
-            [(1.0, &puncture.path), (-1.0, &back.path)].map(|(sign, path)| {
-                let steps = path.windows(2).map(|pair| {
-                    let mean = 0.5 * (pair[0].force + pair[1].force) * length;
-                    mean * (pair[1].displacement - pair[0].displacement)
-                });
-                sign * steps.sum::<f64>()
+        let [done, returned] = [(1.0, &puncture.path), (-1.0, &back.path)].map(|(sign, path)| {
+            let steps = path.windows(2).map(|pair| {
+                let mean = 0.5 * (pair[0].force + pair[1].force) * length;
+                mean * (pair[1].displacement - pair[0].displacement)
             });
+            sign * steps.sum::<f64>()
+        });
         let loop_work = puncture.measures.remains.loop_work.unwrap();
-        println!("{design:?} {there} {given_back} {loop_work} {:?}", puncture.measures.remains);
-        assert!((there - given_back - loop_work).abs() < 1e-5 * there, "{design:?}");
+        println!("{design:?} {done} {returned} {loop_work} {:?}", puncture.measures.remains);
+        assert!((done - returned - loop_work).abs() < 1e-5 * done, "{design:?}");
         let end = back.path.last().unwrap();
         assert!(end.force.abs() < 1e-9);
         if friction == 0.0 && needle == Needle::Free {
-            assert!(end.displacement.abs() < 1e-9 && loop_work.abs() < 1e-9 * there);
+            assert!(end.displacement.abs() < 1e-9 && loop_work.abs() < 1e-9 * done);
         } else {
-            assert!(loop_work > 1e-3 * there && end.displacement > -1e-9);
+            assert!(loop_work > 1e-3 * done && end.displacement > -1e-9);
         }
     }
 }
@@ -265,13 +264,13 @@ fn unloading_curves_lie_on_the_unloading_path() {
         let input = PunctureInput { design, stiffness, common, parameters, odd: None };
         let turn = puncture.path.last().unwrap().displacement;
         let points = &back.path[1..back.path.len() - 1];
-        let places: Vec<_> = points.iter().map(|point| point.displacement).collect();
-        let below = places.last().unwrap() - 1.0;
-        let found =
-            puncture::unloading_curve(&input, turn, &[&places[..], &[below]].concat()).unwrap();
-        assert_eq!(found.last(), Some(&None));
-        for (point, found) in points.iter().zip(&found) {
-            let value = found.as_ref().unwrap().value;
+        let depths: Vec<_> = points.iter().map(|point| point.displacement).collect();
+        let below = depths.last().unwrap() - 1.0;
+        let curve =
+            puncture::unloading_curve(&input, turn, &[&depths[..], &[below]].concat()).unwrap();
+        assert_eq!(curve.last(), Some(&None));
+        for (point, on_curve) in points.iter().zip(&curve) {
+            let value = on_curve.as_ref().unwrap().value;
             assert_relative_eq!(value, point.force, max_relative = 1e-6, epsilon = 1e-9);
         }
     }
@@ -311,7 +310,7 @@ fn friction_in_a_notch_reverses_with_the_load() {
 
 /// Returns the friction between scales and the parameters for random design number `k`.
 ///
-/// Successive numbers cover all kinds of needles.
+/// Twelve successive numbers combine three frictions with four needles: free, sharp and round.
 fn unloaded_with_friction(k: usize) -> (f64, PunctureParameters) {
     let needle = k / 3 % 4;
     let parameters = PunctureParameters {
@@ -329,7 +328,7 @@ fn unloaded_with_friction(k: usize) -> (f64, PunctureParameters) {
     ([0.0, 0.1, 0.25][k % 3], parameters)
 }
 
-/// Tests all kinds of needles.
+/// Tests free needles, and guided needles with sharp and round tips.
 #[test]
 fn loop_work_is_the_area_of_the_loop_for_random_designs() {
     let count = if long_campaigns() { 400 } else { 24 };
@@ -404,8 +403,8 @@ fn dissipation_of_a_tip_includes_the_segment_up_to_a_corner() {
 
 /// During unloading of these designs a tip leaves a notch, or a contact closes while another opens.
 ///
-/// If the solver started with the wrong one of the simultaneous changes, these paths would turn
-/// back or stop.
+/// If the solver started with the wrong one of the simultaneous changes, these paths would reverse
+/// or stop.
 #[test]
 fn unloading_continues_through_simultaneous_contact_changes() {
     let guided = Needle::Guided { friction: 0.3 };

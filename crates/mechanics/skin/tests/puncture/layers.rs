@@ -20,8 +20,8 @@ fn solve(design: &Design, stiffness: &RowStiffness, parameters: &PunctureParamet
 
 /// Compares forces and penetrations with an independent program.
 ///
-/// The springs of that program have an error of 1 to 2 %, and neglect the coupling between normal
-/// and tangential tractions. The designs are chosen so that this coupling is small.
+/// The springs of the other program have an error of 1 to 2 %, and neglect the coupling between
+/// normal and tangential tractions. The designs are chosen so that this coupling is small.
 #[test]
 fn layers_match_an_independent_program() {
     let slanted = design(0.1, 1.0, 45.0, Base::L);

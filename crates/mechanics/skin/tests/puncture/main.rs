@@ -19,7 +19,7 @@
 //! | `path_ends` | path ends solved from similar designs, compared with paths from rest |
 //! | `ends` | paths beyond the largest force: zero load, and snap-through |
 //! | `tilts` | measures at several critical tilts, compared with paths that end at these tilts |
-//! | `load_positions` | the weakest one of several load positions, compared with single punctures |
+//! | `load_positions` | the weakest of several load positions, compared with single punctures |
 //! | `friction` | friction between scales: independent programs, step sizes, energy balance |
 //! | `enumerated` | friction of two scales, compared with an enumeration of contact patterns |
 //! | `round_tip` | a round needle, compared with a sharp needle, a closed form and its mirror image |

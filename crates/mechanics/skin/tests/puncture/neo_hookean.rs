@@ -28,7 +28,7 @@ fn is_open(puncture: &Puncture) -> bool {
         && puncture.folds.is_empty()
 }
 
-/// Solves every design with one of both contact laws, alternately.
+/// Solves successive designs alternately with the printed and the exchanged contact law.
 #[test]
 fn no_gap_closes_in_the_reference_study() {
     let (known, parameters) = (Calibrations::default(), neo_hookean(on_row(41)));
@@ -72,9 +72,9 @@ fn difference(design: &Design, tilt_deg: f64) -> f64 {
     (neo_hookean - linear).abs() / linear
 }
 
-/// The relative difference decreases at least in proportion to the tilt.
+/// The relative difference must decrease at least in proportion to the tilt.
 ///
-/// The scales of the first design touch almost at once, so its gaps are compressed from the start.
+/// Scales of the `steep` design touch almost at once, so its gaps are compressed from the start.
 #[test]
 fn both_substrate_laws_agree_to_first_order_at_small_loads() {
     let steep = Design { gap: 1e-4, ..design(0.1, 0.3, 60.0, Base::L) };

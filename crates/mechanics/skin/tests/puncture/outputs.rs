@@ -73,7 +73,7 @@ fn closed_by(
             ContactChange::Closed => assert!(kinds.insert(kind), "closed twice: {event:?}"),
             ContactChange::Opened => assert!(kinds.remove(kind), "opened while open: {event:?}"),
             _ => {
-                assert!(!kinds.is_empty(), "turned while open: {event:?}");
+                assert!(!kinds.is_empty(), "changed while open: {event:?}");
                 *kinds = [kind].into();
             }
         }

@@ -32,8 +32,8 @@ impl Draw {
         low + (high - low) * self.0.next()
     }
 
-    fn is_true(&mut self, share: f64) -> bool {
-        self.0.next() < share
+    fn is_true(&mut self, probability: f64) -> bool {
+        self.0.next() < probability
     }
 
     /// Draws designs that differ by up to 15 % in gap and length, and by up to 6° in slant.
@@ -157,21 +157,21 @@ fn numbers(puncture: &Puncture) -> [Option<f64>; 9] {
     ]
 }
 
-/// A load above the middle of the base hardly tilts the scale, so its end is no safe start.
+/// A load above the middle of the base hardly tilts the scale, so the path has no usable end.
 #[test]
 fn a_path_with_the_load_above_the_middle_of_the_base_stores_no_end() {
     let known = Calibrations::default();
-    let mut tried = 0;
+    let mut tested = 0;
     for mut pair in random_pairs(20, 5) {
         let [design, _] = &pair.designs;
         let shift = design.slant_deg.to_radians().tan() / (2.0 * design.half_base());
         pair.parameters.load_position = 0.52 - shift;
         if pair.parameters.load_position > 0.0 {
             assert_eq!(pair.outcome(&known), Outcome::NoStart, "{pair:?}");
-            tried += 1;
+            tested += 1;
         }
     }
-    assert!(tried > 3);
+    assert!(tested > 3);
 }
 
 /// An end that differs from the path from rest would lie on another branch.

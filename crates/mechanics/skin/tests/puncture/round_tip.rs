@@ -79,11 +79,11 @@ fn small_radii_converge_to_a_sharp_tip_with_friction() {
 #[test]
 fn an_isolated_scale_matches_the_closed_form() {
     let known = Calibrations::default();
-    for (slant, place, radius) in [(0.0, 1.0, 0.1), (0.0, 0.9, 1.0), (10.0, 0.9, 0.5)] {
+    for (slant, load_position, radius) in [(0.0, 1.0, 0.1), (0.0, 0.9, 1.0), (10.0, 0.9, 0.5)] {
         let design = design(0.1, 1.0, slant, Base::L);
         let parameters = PunctureParameters {
             scales: RowLength::Scales(1),
-            load_position: place,
+            load_position,
             ..parameters(Some(radius))
         };
         let a = design.half_base();
@@ -91,7 +91,7 @@ fn an_isolated_scale_matches_the_closed_form() {
         let (along, turn) = (a * along, a.powi(3) * turn);
         let puncture = solve_as(&known, &design, &in_small_steps(), &parameters);
         assert_eq!(puncture.measures.passage.critical_event, Some(CriticalEvent::Tilt));
-        let arm = slant.to_radians().tan() - a + 2.0 * a * place;
+        let arm = slant.to_radians().tan() - a + 2.0 * a * load_position;
         for (point, forces) in puncture.path.iter().zip(&puncture.tip_forces) {
             let phi = -point.tilt_deg.to_radians();
             let (sin, cos) = phi.sin_cos();
@@ -107,7 +107,7 @@ fn an_isolated_scale_matches_the_closed_form() {
     }
 }
 
-/// Compares tips on the left and on the right of an upright scale; large tips touch several scales.
+/// Compares tips at mirrored positions on an upright scale; large tips touch several scales.
 #[test]
 fn needles_at_mirrored_positions_have_mirrored_results() {
     for (radius, friction) in [(0.2, 0.0), (1.0, 0.0), (0.2, 0.1), (1.0, 0.3)] {
@@ -185,8 +185,8 @@ fn a_tip_between_two_scales_ends_at_the_surface_between_their_bases() {
     let [from, to] = [(0, a), (1, -a)].map(|(number, x)| {
         let scale = puncture.scales.iter().find(|scale| scale.scale == number).unwrap();
         let (sin, cos) = scale.rotation_deg.to_radians().sin_cos();
-        let place = number as f64 * (2.0 * a + open.gap);
-        [place + scale.displacement[0] + x * cos, scale.displacement[1] + x * sin]
+        let node = number as f64 * (2.0 * a + open.gap);
+        [node + scale.displacement[0] + x * cos, scale.displacement[1] + x * sin]
     });
     // At rest the circle touches the left face of the next scale. The normal of this face is
     // (−cos 60°, sin 60°).
@@ -219,8 +219,8 @@ fn touching_a_scale_beyond_the_critical_tilt_ends_the_path() {
     assert!(puncture.scales.iter().any(|scale| scale.scale == next));
 }
 
-/// In this design a contact closes while another one is about to open. Because of round-off, the
-/// solver may there reverse the path, and must detect that the path returns to rest.
+/// In this design a contact closes while another contact is about to open. Because of round-off,
+/// the solver may reverse the path at this event. It must detect that the path returns to rest.
 #[test]
 fn a_path_that_returns_to_rest_is_repeated_with_smaller_steps() {
     let steep = design(0.0258, 0.248, 57.8, Base::L);
@@ -230,7 +230,7 @@ fn a_path_that_returns_to_rest_is_repeated_with_smaller_steps() {
         let solver = Settings { max_step, ..Settings::default() };
         let common = Common { solver, ..Common::default() };
         let puncture = puncture::solve(&steep, stiffness.clone(), &common, &parameters).unwrap();
-        let force = puncture.measures.critical_force.expect("a critical tilt");
+        let force = puncture.measures.critical_force.expect("the path reaches the critical tilt");
         assert_relative_eq!(force, 4.351_706_525_75, max_relative = 1e-10);
     }
 }
@@ -263,7 +263,7 @@ fn a_large_tip_touches_several_scales() {
 fn a_radius_is_rejected_for_a_free_needle_or_if_it_covers_too_many_scales() {
     let known = Calibrations::default();
     let design = design(0.1, 1.0, 45.0, Base::L);
-    let pitch = design.row().expect("a row").pitch();
+    let pitch = design.row().expect("a valid design").pitch();
     let refusals = [
         (Needle::Free, 0.5, "needle radius", 0.5),
         (SMOOTH, 100.0, puncture::TIP_REACH, 100.0 / pitch),
@@ -277,7 +277,7 @@ fn a_radius_is_rejected_for_a_free_needle_or_if_it_covers_too_many_scales() {
     }
 }
 
-/// The gap is then the weakest load position, with and without friction.
+/// A position above the gap is then the weakest load position, with and without friction.
 #[test]
 fn a_tip_narrower_than_the_gap_passes_without_force() {
     let wide = design(0.8612, 0.2262, 0.34, Base::L);

@@ -106,7 +106,7 @@ fn a_row_that_is_too_short_underestimates_the_force() {
     assert_relative_eq!(long, longer, max_relative = 1e-9);
 }
 
-/// On these scales only the substrate acts, so the forces of its springs must vanish.
+/// Only the substrate acts on scales without contact, so the forces of its springs must vanish.
 #[test]
 fn scales_out_of_reach_of_contact_are_in_equilibrium() {
     for scales in [12, 20, 41, 401] {
@@ -121,8 +121,8 @@ fn scales_out_of_reach_of_contact_are_in_equilibrium() {
             .collect();
         assert_eq!(row.len(), scales);
         assert_eq!(complete(&puncture).scales, scales);
-        // No contact acts on scales on the left of the first pair that touched or on the right of
-        // the last one.
+        // No contact acts on scales to the left of the first pair that touched, or to the right of
+        // the last pair that touched.
         let touched: Vec<i64> = puncture.events.iter().filter_map(|e| e.left_scale).collect();
         let (first, last) = (touched.iter().min().unwrap(), touched.iter().max().unwrap() + 1);
         for (i, state) in puncture.scales.iter().enumerate() {

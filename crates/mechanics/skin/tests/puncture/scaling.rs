@@ -52,7 +52,7 @@ fn a_scale_three_times_as_wide_and_a_third_as_stiff_is_equivalent() {
 /// The contact law (Eq. 5) divides the approach by `L`, which another prefactor compensates. `F*`
 /// is the force divided by `L`, so it doubles.
 #[test]
-fn both_meanings_of_the_length_agree() {
+fn both_meanings_of_the_length_give_equal_results_for_equal_geometry() {
     let (known, ours) = (Calibrations::default(), settled());
     let theirs = Design { length: 0.5 * ours.length, base: Base::TwoL, ..ours };
     for law in LAWS {

@@ -16,7 +16,7 @@ fn shots(design: &Design, parameters: &PunctureParameters, at: &[At]) -> Snapsho
 }
 
 fn shot(design: &Design, at: At) -> RowSnapshot {
-    shots(design, &on_row(41), &[at]).at.remove(0).expect("a point of the path")
+    shots(design, &on_row(41), &[at]).at.remove(0).expect("the path reaches this point")
 }
 
 #[test]
@@ -87,8 +87,8 @@ fn the_position_of_a_contact_is_its_touching_corner() {
         let (sin, cos) = scales[of].rotation_deg.to_radians().sin_cos();
         let arm = row.scale().corner(contact.corner_edge.corner());
         let [x, y] = scales[of].displacement;
-        let place = of as f64 * row.pitch() + x + cos * arm.x - sin * arm.y;
-        assert_relative_eq!(contact.point[0], place, epsilon = 1e-9);
+        let position = of as f64 * row.pitch() + x + cos * arm.x - sin * arm.y;
+        assert_relative_eq!(contact.point[0], position, epsilon = 1e-9);
         assert_relative_eq!(contact.point[1], y + sin * arm.x + cos * arm.y, epsilon = 1e-9);
         assert!(contact.approach >= 0.0);
     }
@@ -96,8 +96,8 @@ fn the_position_of_a_contact_is_its_touching_corner() {
 
 #[test]
 fn snapshots_extend_the_path_beyond_the_critical_tilt() {
-    let places = [At::Tilt(5.0), At::Tilt(25.0)];
-    let Snapshots { puncture, at, .. } = shots(&settled(), &on_row(41), &places);
+    let points = [At::Tilt(5.0), At::Tilt(25.0)];
+    let Snapshots { puncture, at, .. } = shots(&settled(), &on_row(41), &points);
     let tilts: Vec<f64> = at.iter().flatten().map(|shot| shot.tilt_deg).collect();
     assert_relative_eq!(tilts[0], 5.0, epsilon = 1e-9);
     assert_relative_eq!(tilts[1], 25.0, epsilon = 1e-9);
@@ -109,8 +109,8 @@ fn snapshots_extend_the_path_beyond_the_critical_tilt() {
 fn snapshots_to_end_stop_at_the_critical_state() {
     let (design, parameters) = (settled(), on_row(41));
     let springs = springs(&design, &parameters, &Calibrations::default());
-    let places = [At::Tilt(5.0), At::Tilt(25.0)];
-    let solved = snapshots_to_end(&design, &springs, &Common::default(), &parameters, &places);
+    let points = [At::Tilt(5.0), At::Tilt(25.0)];
+    let solved = snapshots_to_end(&design, &springs, &Common::default(), &parameters, &points);
     let Snapshots { puncture, at, end, is_critical } = solved.unwrap();
     assert!(is_critical && at[0].is_some() && at[1].is_none());
     assert_relative_eq!(end.tilt_deg, 10.0, epsilon = 1e-9);

@@ -14,7 +14,7 @@ fn finely(design: &Design) -> Puncture {
     solve_as(&Calibrations::default(), design, &common, &on_row(2))
 }
 
-/// Computes the slope of the force over the displacement between the first two points.
+/// Computes the change of the force divided by the change of the displacement, from two points.
 fn stiffness(points: &[PuncturePoint]) -> f64 {
     (points[1].force - points[0].force) / (points[1].displacement - points[0].displacement)
 }
@@ -31,7 +31,7 @@ fn the_stiffness_jumps_at_first_contact() {
     crate::complete(&puncture);
     assert_eq!(puncture.events[0].change, ContactChange::Closed);
     let kink = kink(&puncture);
-    println!("two blocks, L/t = 1, d/t = 0.1: stiffness after over before contact {kink:.3}");
+    println!("two blocks, L/t = 1, d/t = 0.1: stiffness after / before contact {kink:.3}");
     assert!(kink > 1.5, "{kink}");
     // The path has no other kink: elsewhere the slope changes little from step to step.
     let slopes: Vec<f64> = puncture.path.windows(2).map(stiffness).collect();

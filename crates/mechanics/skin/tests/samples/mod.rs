@@ -44,8 +44,8 @@ pub fn settled() -> Design {
 
 /// Returns designs that cover the kinds of behaviour of the puncture model.
 ///
-/// They have no contact to many contacts; contacts at edges, corners and tips; and loads that rise,
-/// fall and turn back.
+/// Their numbers of contacts range from none to many. Contacts are at edges, corners and tips. Some
+/// loads increase monotonically, others decrease or reverse.
 pub fn spread() -> Vec<Design> {
     vec![
         blocks(),
@@ -87,7 +87,7 @@ pub fn reference_study(base: Base) -> Vec<Design> {
 
 /// Returns forty designs of the reference study, evenly spread over both bases.
 ///
-/// They include the design of base `2L` with the smallest gap, the largest `L` and slant.
+/// They include the design of base `2L` with the smallest gap, largest length and largest slant.
 pub fn forty() -> Vec<Design> {
     let all = BASES.into_iter().flat_map(reference_study);
     // The step 37 is coprime to the numbers of slants, lengths and gaps, so all values occur.

@@ -159,8 +159,8 @@ impl Section {
         let z = own.min(other);
         let [zeroth, first] = l.integrals(0, z);
         let [zeroth_by_other, first_by_other] = l.integrals(1, z);
-        // The integral ends at the nearer load, where the moment of this load is zero. So the
-        // motion of this end contributes only to the second derivative.
+        // The integral ends at the load nearer to the base, where the moment of this load is zero.
+        // So the motion of this upper limit contributes only to the second derivative.
         let moves = own <= other && own > 0.0 && own < self.length;
         let at_limit = if moves {
             k.section[1] * (l.moment[0] - l.across[0] * z) * (k.moment[1] - k.across[1] * z)
@@ -196,7 +196,7 @@ impl Section {
         }
     }
 
-    /// Returns the shear force in the section `x` of a unit transverse force at `s`.
+    /// Returns the shear force in the section `x` caused by a unit transverse force at `s`.
     fn shear(&self, s: f64, x: f64) -> f64 {
         ((s + self.spread - x) / (2.0 * self.spread)).clamp(0.0, 1.0)
     }

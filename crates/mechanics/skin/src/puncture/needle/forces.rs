@@ -3,11 +3,11 @@
 use geometry::Vec2;
 use solver::{Residual, Tangent};
 
-use super::outline::{COORDINATES, Meeting};
+use super::outline::{COORDINATES, TipKinematics};
 use super::{BACKWARD, CONSTRAINTS_PER_TOUCH, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
 use crate::contacts::{
-    Contacts, Dissipation, HOLDS, OutlinePart, SkinPoint, SkinState, TipFriction, TipState, Touch,
-    product_integral,
+    Contacts, Dissipation, OutlinePart, SATISFIED, SkinPoint, SkinState, TipContact, TipFriction,
+    TipState, product_integral,
 };
 use crate::puncture::system::Chain;
 
@@ -39,25 +39,25 @@ impl Chain {
         matrix.add(needle.depth, load, 1.0);
         if needle.constraints_per_touch < needle.unknowns_per_touch {
             // Slots without a tip contact have no tangential force.
-            let touches = &state.mode.needle.touches;
+            let touches = &state.mode.needle.tip_contacts;
             for slot in (0..needle.slots).filter(|&slot| touches[slot].is_none()) {
                 let tangential_force = needle.normal_force(slot) + 1;
                 residual.add(tangential_force, state.z[tangential_force]);
                 matrix.add(tangential_force, tangential_force, 1.0);
             }
         }
-        for (slot, touch, scale, meeting) in self.touches(state) {
+        for (slot, touch, scale, kinematics) in self.tip_contacts(state) {
             let at = self.layout.scale(scale);
             let rows = [at, at + 1, at + 2, needle.depth];
             let normal_force = needle.normal_force(slot);
-            add_balance(&meeting, rows, normal_force, &state.z, residual, matrix);
-            residual.add(normal_force, meeting.gap());
-            add_row(normal_force, rows, 1.0, meeting.tip.gap_slopes(), matrix);
+            add_balance(&kinematics, rows, normal_force, &state.z, residual, matrix);
+            residual.add(normal_force, kinematics.gap());
+            add_row(normal_force, rows, 1.0, kinematics.tip.gap_slopes(), matrix);
             // A frictionless round tip has no tangential force and no friction law.
             if needle.constraints_per_touch == needle.unknowns_per_touch {
                 continue;
             }
-            add_law(needle, (touch, normal_force), &meeting, rows, &state.z, residual, matrix);
+            add_law(needle, (touch, normal_force), &kinematics, rows, &state.z, residual, matrix);
             for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
                 // The slip distance enters no other equation. It only lets the solver detect a
                 // reversal of sliding.
@@ -68,9 +68,9 @@ impl Chain {
                 };
                 let slid = normal_force + 1 + constraint;
                 residual.add(slid, state.z[slid]);
-                residual.add(slid, sign * (start - meeting.xi()));
+                residual.add(slid, sign * (start - kinematics.xi()));
                 matrix.add(slid, slid, 1.0);
-                add_row(slid, rows, -sign, meeting.xi_slopes(), matrix);
+                add_row(slid, rows, -sign, kinematics.xi_slopes(), matrix);
             }
         }
         if let Some((slot, corner)) = self.corner_friction(state) {
@@ -94,32 +94,32 @@ impl Chain {
         values: &mut Vec<f64>,
     ) {
         let first = values.len();
-        values.resize(first + needle.endings().end, HOLDS);
+        values.resize(first + needle.endings().end, SATISFIED);
         let values = &mut values[first..];
         let tilt = needle.tilt_number();
-        for (_, touch, number, meeting) in self.touches(state) {
+        for (_, touch, number, kinematics) in self.tip_contacts(state) {
             let [_, _, rotation] = self.displacement(&state.z, number);
             values[tilt] = values[tilt].min(needle.critical_tilt - rotation.abs());
             // A scale has its feet at the start of the left face and at the end of the right face.
-            let to_foot = match touch.place {
-                OutlinePart::Left => meeting.tip.xi,
-                OutlinePart::Right => meeting.tip.length - meeting.tip.xi,
-                _ => HOLDS,
+            let to_foot = match touch.part {
+                OutlinePart::Left => kinematics.tip.xi,
+                OutlinePart::Right => kinematics.tip.length - kinematics.tip.xi,
+                _ => SATISFIED,
             };
             values[tilt + 1] = values[tilt + 1].min(to_foot);
         }
         if needle.is_round() {
             return self.round_conditions(needle, state, values);
         }
-        for (number, touch) in state.mode.needle.touches.iter().enumerate() {
-            let other = state.mode.needle.touches[1 - number].filter(|_| touch.is_none());
+        for (number, touch) in state.mode.needle.tip_contacts.iter().enumerate() {
+            let other = state.mode.needle.tip_contacts[1 - number].filter(|_| touch.is_none());
             if let Some(other) = other {
                 values[CONSTRAINTS_PER_TOUCH * number + NORMAL] = self.gap_of_next(state, &other);
             }
         }
-        for (number, touch, _, meeting) in self.touches(state) {
+        for (number, touch, _, kinematics) in self.tip_contacts(state) {
             let of_touch = &mut values[CONSTRAINTS_PER_TOUCH * number..][..CONSTRAINTS_PER_TOUCH];
-            self.touch_conditions(needle, state, (number, touch), &meeting, of_touch);
+            self.touch_conditions(needle, state, (number, touch), &kinematics, of_touch);
         }
         if let Some((slot, corner)) = self.corner_friction(state) {
             // Tip and corner begin to slide together when the sum of their friction forces reaches
@@ -139,31 +139,31 @@ impl Chain {
         &self,
         needle: &GuidedNeedle,
         state: &SkinState,
-        (number, touch): (usize, &Touch),
-        meeting: &Meeting,
+        (number, touch): (usize, &TipContact),
+        kinematics: &TipKinematics,
         values: &mut [f64],
     ) {
-        let (tip, forces) = (&meeting.tip, needle.forces(&state.z, number));
+        let (tip, forces) = (&kinematics.tip, needle.forces(&state.z, number));
         let friction = needle.friction;
         values[NORMAL] = tip.gap;
-        needle.stick_slip_conditions(state, number, touch, meeting, values);
+        needle.stick_slip_conditions(state, number, touch, kinematics, values);
         match touch.tip_state {
             TipState::Slip { .. } => {
                 // The lower end of a side face is a foot of the scale. A tip that reaches it is
                 // through, which is another condition.
-                if touch.place != OutlinePart::Left {
+                if touch.part != OutlinePart::Left {
                     values[FACE_START] = tip.xi;
                 }
                 let is_stopped =
-                    touch.place == OutlinePart::Top && self.is_notched(state, touch.scale);
-                if touch.place != OutlinePart::Right && !is_stopped {
+                    touch.part == OutlinePart::Top && self.is_notched(state, touch.scale);
+                if touch.part != OutlinePart::Right && !is_stopped {
                     values[FACE_END] = tip.length - tip.xi;
                 }
             }
             TipState::Passing { forward } => {
                 let force = tip.force(forces);
                 let seen = |onward: bool| {
-                    let beside = self.tip(&state.z, touch.scale, touch.place.next(onward)?)?;
+                    let beside = self.tip(&state.z, touch.scale, touch.part.next(onward)?)?;
                     Some(beside.parts(force))
                 };
                 let [before, after] = [false, true].map(|onward| seen(onward).unwrap_or(forces));
@@ -183,23 +183,23 @@ impl Chain {
     ///
     /// The foot of the perpendicular from the tip must lie on this face. A tip that sticks at a
     /// corner never closes the gap: the corner alone presses on the face until the tip slides.
-    fn gap_of_next(&self, state: &SkinState, touch: &Touch) -> f64 {
+    fn gap_of_next(&self, state: &SkinState, touch: &TipContact) -> f64 {
         if self.sticks_at_corner(state, touch) {
             // The corner and the tip reach the face at the same point of the path, in an order that
             // depends on round-off. So do not require that the contact of the corner is closed.
-            return HOLDS;
+            return SATISFIED;
         }
         let next = Self::next_touch(touch);
-        let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
+        let tip = next.and_then(|(scale, part)| self.tip(&state.z, scale, part));
         let faced = tip.filter(|tip| (-BESIDE..=tip.length + BESIDE).contains(&tip.xi));
-        faced.map_or(HOLDS, |tip| tip.gap)
+        faced.map_or(SATISFIED, |tip| tip.gap)
     }
 
     /// Returns true if a tip sticks on the top of a scale, at the right corner of this top.
-    fn sticks_at_corner(&self, state: &SkinState, touch: &Touch) -> bool {
+    fn sticks_at_corner(&self, state: &SkinState, touch: &TipContact) -> bool {
         let sticks = matches!(touch.tip_state, TipState::Stick { .. });
-        let here = self.tip(&state.z, touch.scale, touch.place);
-        let here = here.filter(|_| sticks && touch.place == OutlinePart::Top);
+        let here = self.tip(&state.z, touch.scale, touch.part);
+        let here = here.filter(|_| sticks && touch.part == OutlinePart::Top);
         here.is_some_and(|here| here.xi > here.length - BESIDE)
     }
 
@@ -218,26 +218,26 @@ impl Chain {
             return false;
         };
         let (slot, constraint) = (number / CONSTRAINTS_PER_TOUCH, number % CONSTRAINTS_PER_TOUCH);
-        let touches = &state.mode.needle.touches;
+        let touches = &state.mode.needle.tip_contacts;
         !needle.is_round()
             && constraint == NORMAL
             && touches[slot].is_none()
             && touches[1 - slot].is_some_and(|touch| self.sticks_at_corner(state, &touch))
     }
 
-    /// Returns true if the end of the next face is about to move below the tip from the side.
+    /// Returns true if a corner of the next scale is about to touch the needle from the side.
     ///
-    /// The tip is then already deeper than this face, so a corner of the scale would touch the
-    /// shaft of the needle, which is not modelled.
+    /// The tip is then already below the face that ends at this corner, so the corner would touch
+    /// the shaft of the needle, which is not modelled.
     pub(in crate::puncture) fn is_met_from_the_side(&self, state: &SkinState) -> bool {
         if state.mode.needle.is_round() {
             return false;
         }
         // With two tip contacts, the tip already touches the next scale.
-        let mut touches = state.mode.needle.touches.iter().flatten();
+        let mut touches = state.mode.needle.tip_contacts.iter().flatten();
         let (Some(touch), None) = (touches.next(), touches.next()) else { return false };
         let next = Self::next_touch(touch);
-        let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
+        let tip = next.and_then(|(scale, part)| self.tip(&state.z, scale, part));
         tip.is_some_and(|tip| {
             let xi = tip.xi.min(tip.length - tip.xi);
             tip.gap < -BESIDE && xi.abs() < AT_AN_END
@@ -286,7 +286,7 @@ impl Chain {
     pub(in crate::puncture) fn needle_in_stiffness(&self, state: &SkinState) -> Vec<usize> {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut unknowns = vec![needle.depth];
-        for (slot, touch, ..) in self.touches(state) {
+        for (slot, touch, ..) in self.tip_contacts(state) {
             unknowns.push(needle.normal_force(slot));
             if touch.has_fixed_position() {
                 unknowns.push(needle.normal_force(slot) + 1);
@@ -295,28 +295,28 @@ impl Chain {
         unknowns
     }
 
-    /// Calls `entry` for each stiffness entry of a needle with conservative forces.
+    /// Calls `entry(row, column, value)` for each stiffness entry of a conservative needle.
     ///
-    /// The arguments are row, column and value: second derivatives of `−N g + T ξ`. `N` is an
-    /// unknown, and so is `T` of a tip that sticks or passes a corner.
+    /// The entries are the second derivatives of `−N g + T ξ`. `N` is an unknown, and so is `T` of
+    /// a tip that sticks or passes a corner.
     pub(in crate::puncture) fn for_needle_stiffness(
         &self,
         state: &SkinState,
         mut entry: impl FnMut(usize, usize, f64),
     ) {
         let Some(needle) = &self.needle else { return };
-        for (slot, touch, scale, meeting) in self.touches(state) {
+        for (slot, touch, scale, kinematics) in self.tip_contacts(state) {
             let at = self.layout.scale(scale);
             let unknowns = [at, at + 1, at + 2, needle.depth];
             let normal_force = needle.normal_force(slot);
-            let curvature = meeting.curvature(needle.forces(&state.z, slot));
+            let curvature = kinematics.curvature(needle.forces(&state.z, slot));
             for (row, curvature) in unknowns.into_iter().zip(curvature) {
                 for (column, value) in unknowns.into_iter().zip(curvature) {
                     entry(row, column, value);
                 }
             }
-            let gap = (normal_force, meeting.tip.gap_slopes().map(|slope| -slope));
-            let xi = touch.has_fixed_position().then(|| (normal_force + 1, meeting.xi_slopes()));
+            let gap = (normal_force, kinematics.tip.gap_slopes().map(|slope| -slope));
+            let xi = touch.has_fixed_position().then(|| (normal_force + 1, kinematics.xi_slopes()));
             for (force, slopes) in std::iter::once(gap).chain(xi) {
                 for (unknown, slope) in unknowns.into_iter().zip(slopes) {
                     entry(unknown, force, slope);
@@ -329,7 +329,7 @@ impl Chain {
     /// Computes the force of the needle on all scales along the row, positive to the right.
     pub(in crate::puncture) fn lateral_force(&self, state: &SkinState) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
-        let touches = self.touches(state);
+        let touches = self.tip_contacts(state);
         touches
             .map(|(slot, _, scale, at)| {
                 let force = at.tip.force(needle.forces(&state.z, slot));
@@ -348,7 +348,7 @@ impl Chain {
         scale: usize,
     ) -> Vec<[Vec2; 2]> {
         let Some(needle) = &self.needle else { return Vec::new() };
-        let touches = self.touches(state).filter(|(_, _, number, _)| *number == scale);
+        let touches = self.tip_contacts(state).filter(|(_, _, number, _)| *number == scale);
         let forces = touches.map(|(slot, _, _, at)| {
             [at.contact_arm(), at.tip.force(needle.forces(&state.z, slot))]
         });
@@ -358,7 +358,7 @@ impl Chain {
     /// Returns the normal force of a guided needle on a scale; 0 without contact.
     pub(in crate::puncture) fn needle_push_on(&self, state: &SkinState, scale: usize) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
-        let touches = self.touches(state).filter(|(_, _, number, _)| *number == scale);
+        let touches = self.tip_contacts(state).filter(|(_, _, number, _)| *number == scale);
         touches.map(|(slot, ..)| state.z[needle.normal_force(slot)]).fold(0.0, f64::max)
     }
 
@@ -370,12 +370,12 @@ impl Chain {
         spans: [f64; 2],
     ) -> Dissipation {
         let Some(needle) = &self.needle else { return Dissipation::default() };
-        self.touches(&from.state)
+        self.tip_contacts(&from.state)
             .map(|(slot, touch, ..)| {
                 let TipState::Slip { sign, start } = touch.tip_state else {
                     return Dissipation::default();
                 };
-                let Some(end) = self.meeting(&to.state.z, touch.scale, touch.place) else {
+                let Some(end) = self.tip_kinematics(&to.state.z, touch.scale, touch.part) else {
                     return Dissipation::default();
                 };
                 if sign == 0.0 {
@@ -387,9 +387,9 @@ impl Chain {
                 let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
                 // If the second point is at a corner, resolve its force along the normal of the
                 // face on which the tip slid.
-                let after = self.touches(&to.state).find(|(other, ..)| *other == slot);
-                let push = after.map_or(to.state.z[normal_force], |(.., meeting)| {
-                    let force = meeting.tip.force(needle.forces(&to.state.z, slot));
+                let after = self.tip_contacts(&to.state).find(|(other, ..)| *other == slot);
+                let push = after.map_or(to.state.z[normal_force], |(.., kinematics)| {
+                    let force = kinematics.tip.force(needle.forces(&to.state.z, slot));
                     end.tip.parts(force)[0]
                 });
                 let pushes = [from.state.z[normal_force], push];
@@ -407,8 +407,8 @@ impl Chain {
     pub(in crate::puncture) fn tip_friction(&self, state: &SkinState) -> Vec<[f64; 2]> {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut all = vec![[0.0; 2]; needle.slots];
-        for (slot, _, _, meeting) in self.touches(state) {
-            all[slot] = [needle.forces(&state.z, slot)[1], meeting.xi()];
+        for (slot, _, _, kinematics) in self.tip_contacts(state) {
+            all[slot] = [needle.forces(&state.z, slot)[1], kinematics.xi()];
         }
         all
     }
@@ -459,8 +459,8 @@ impl GuidedNeedle {
         &self,
         state: &SkinState,
         slot: usize,
-        touch: &Touch,
-        meeting: &Meeting,
+        touch: &TipContact,
+        kinematics: &TipKinematics,
         values: &mut [f64],
     ) {
         let [normal_force, tangential_force] = self.forces(&state.z, slot);
@@ -469,7 +469,7 @@ impl GuidedNeedle {
                 for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
                     if state.active[self.number(slot, constraint)] {
                         let slid = state.z[self.normal_force(slot) + 1 + constraint];
-                        values[constraint] = slid + sign * (start - meeting.xi());
+                        values[constraint] = slid + sign * (start - kinematics.xi());
                     }
                 }
             }
@@ -486,7 +486,7 @@ impl GuidedNeedle {
 ///
 /// The force on the needle has the opposite sign of the force on the scale.
 fn add_balance(
-    meeting: &Meeting,
+    kinematics: &TipKinematics,
     rows: [usize; COORDINATES],
     normal_force: usize,
     z: &[f64],
@@ -496,8 +496,8 @@ fn add_balance(
     // A frictionless round tip has no tangential force. The unknown after the normal force then
     // belongs to the condition on the position and is always 0.
     let forces = [z[normal_force], z[normal_force + 1]];
-    let (by_gap, by_xi) = (meeting.tip.gap_slopes(), meeting.xi_slopes());
-    let curvature = meeting.curvature(forces);
+    let (by_gap, by_xi) = (kinematics.tip.gap_slopes(), kinematics.xi_slopes());
+    let curvature = kinematics.curvature(forces);
     for (i, row) in rows.into_iter().enumerate() {
         let sign = if i + 1 == COORDINATES { -1.0 } else { 1.0 };
         residual.add(row, -sign * forces[0] * by_gap[i]);
@@ -511,8 +511,8 @@ fn add_balance(
 /// Adds the friction law of a tip contact, in the row of its tangential force.
 fn add_law(
     needle: &GuidedNeedle,
-    (touch, normal_force): (&Touch, usize),
-    meeting: &Meeting,
+    (touch, normal_force): (&TipContact, usize),
+    kinematics: &TipKinematics,
     rows: [usize; COORDINATES],
     z: &[f64],
     residual: &mut Residual,
@@ -540,8 +540,8 @@ fn add_law(
             // tip stops. With the opposite sign the solver would conclude that it has switched to
             // another branch, and stop.
             residual.add(row, at);
-            residual.add(row, -meeting.xi());
-            add_row(row, rows, -1.0, meeting.xi_slopes(), matrix);
+            residual.add(row, -kinematics.xi());
+            add_row(row, rows, -1.0, kinematics.xi_slopes(), matrix);
         }
     }
 }

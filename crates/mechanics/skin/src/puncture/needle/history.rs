@@ -17,7 +17,7 @@ use std::borrow::Cow;
 use solver::{AnchoredPoint, Continuation, Linearisation, Neighbours, PathAnchor};
 
 use super::GuidedNeedle;
-use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState, TipState, Touch};
+use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState, TipContact, TipState};
 use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
 use crate::sensitivity::vanished;
@@ -26,7 +26,7 @@ use crate::sensitivity::vanished;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::puncture) enum HistoryVariable {
     /// Anchor or locked ratio of a tip contact.
-    Touch(Touch),
+    TipContact(TipContact),
     /// Number of a contact between scales, and its anchor or locked ratio.
     Contact(usize, f64),
 }
@@ -41,7 +41,7 @@ impl HistoryObserver {
     pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
         // History variables are copied exactly along the path, so a value that differs in any bit
         // belongs to a new variable.
-        if history(&to.state).iter().any(|kept| !history(&from.state).contains(kept)) {
+        if history(&to.state).iter().any(|variable| !history(&from.state).contains(variable)) {
             self.segments.push([(**from).clone(), to.clone()]);
         }
     }
@@ -49,7 +49,7 @@ impl HistoryObserver {
 
 /// A history variable and its derivatives.
 pub(in crate::puncture) struct Anchor {
-    kept: HistoryVariable,
+    variable: HistoryVariable,
     /// Derivative with respect to each parameter; `None` if it is unknown.
     rates: Vec<Option<f64>>,
 }
@@ -65,14 +65,14 @@ pub(in crate::puncture) fn anchors(
 ) -> Vec<Anchor> {
     let rest = path.system().at_rest();
     let mut anchors: Vec<Anchor> = Vec::new();
-    for kept in history(&rest) {
+    for variable in history(&rest) {
         // The anchor of the needle at rest depends on the parameters alone, not on an event.
         anchors.push(Anchor {
-            kept,
+            variable,
             rates: variations
                 .iter()
                 .map(|neighbours| {
-                    let at = |chain: &Chain| chain.history_value(&rest, kept, &rest);
+                    let at = |chain: &Chain| chain.history_value(&rest, variable, &rest);
                     let (below, above) = (at(&neighbours.below)?, at(&neighbours.above)?);
                     Some((above - below) / (2.0 * neighbours.step))
                 })
@@ -84,26 +84,28 @@ pub(in crate::puncture) fn anchors(
         // Earlier history variables move this event, too, so process segments in path order.
         let varied = event.as_ref().and_then(|event| with(&anchors, &event.state, variations));
         let mut here = event.and_then(|event| Linearisation::new(path.system(), event).ok());
-        let new =
-            history(&to.state).into_iter().filter(|kept| !history(&from.state).contains(kept));
+        let new = history(&to.state)
+            .into_iter()
+            .filter(|variable| !history(&from.state).contains(variable));
         // Solve for the perturbed equilibria once for all history variables of the event.
         let unknown = || vec![None; variations.len()];
         let moved: Vec<_> =
             here.as_mut().zip(varied.as_ref()).map_or_else(unknown, |(here, varied)| {
                 varied.iter().map(|q| moved_to(path.system(), here, q)).collect()
             });
-        for kept in new {
+        for variable in new {
             let rates = moved
                 .iter()
                 .zip(variations)
                 .map(|(at, neighbours)| {
                     let [below, above] = at.as_ref()?;
-                    let value = |chain: &Chain, state| chain.history_value(state, kept, &to.state);
+                    let value =
+                        |chain: &Chain, state| chain.history_value(state, variable, &to.state);
                     let rise = value(&neighbours.above, above)? - value(&neighbours.below, below)?;
                     Some(rise / (2.0 * neighbours.step)).filter(|rate| rate.is_finite())
                 })
                 .collect();
-            anchors.push(Anchor { kept, rates });
+            anchors.push(Anchor { variable, rates });
         }
     }
     anchors
@@ -118,13 +120,13 @@ pub(in crate::puncture) fn with<'v>(
     variations: &'v [Neighbours<Chain>],
 ) -> Option<Cow<'v, [Neighbours<Chain>]>> {
     let mut varied = Cow::Borrowed(variations);
-    for kept in history(state) {
+    for variable in history(state) {
         // A variable may have the same value after two events: use the later event.
-        let anchor = anchors.iter().rev().find(|anchor| anchor.kept == kept)?;
+        let anchor = anchors.iter().rev().find(|anchor| anchor.variable == variable)?;
         for (neighbours, rate) in varied.to_mut().iter_mut().zip(&anchor.rates) {
             let change = neighbours.step * (*rate)?;
-            neighbours.below.shift_anchor(kept, -change);
-            neighbours.above.shift_anchor(kept, change);
+            neighbours.below.shift_anchor(variable, -change);
+            neighbours.above.shift_anchor(variable, change);
         }
     }
     Some(varied)
@@ -135,10 +137,10 @@ pub(in crate::puncture) fn history(state: &SkinState) -> Vec<HistoryVariable> {
     let mode = &state.mode.needle;
     let touches = mode.all().filter(|(_, touch)| touch.has_history());
     let touches = touches.map(|(_, touch)| {
-        HistoryVariable::Touch(if mode.is_round() { touch.anywhere() } else { *touch })
+        HistoryVariable::TipContact(if mode.is_round() { touch.without_part() } else { *touch })
     });
     let contacts =
-        Contacts::anchors(state).map(|(contact, kept)| HistoryVariable::Contact(contact, kept));
+        Contacts::anchors(state).map(|(contact, value)| HistoryVariable::Contact(contact, value));
     touches.chain(contacts).collect()
 }
 
@@ -182,29 +184,29 @@ impl Chain {
     fn history_value(
         &self,
         state: &SkinState,
-        kept: HistoryVariable,
+        variable: HistoryVariable,
         to: &SkinState,
     ) -> Option<f64> {
-        let touch = match kept {
+        let touch = match variable {
             HistoryVariable::Contact(contact, _) => {
                 return self.contacts.anchor_value(state, contact, to);
             }
-            HistoryVariable::Touch(touch) => touch,
+            HistoryVariable::TipContact(touch) => touch,
         };
         let TipState::Locked { .. } = touch.tip_state else {
             // A round tip may move to another outline part after the event. Evaluate its slip
             // coordinate on the part that it touches in the state `to`.
-            let place = to.mode.needle.place(touch.scale).unwrap_or(touch.place);
-            return Some(self.meeting(&state.z, touch.scale, place)?.xi());
+            let part = to.mode.needle.part(touch.scale).unwrap_or(touch.part);
+            return Some(self.tip_kinematics(&state.z, touch.scale, part)?.xi());
         };
-        let before = &state.mode.needle.touches;
+        let before = &state.mode.needle.tip_contacts;
         let Some(slot) = before.iter().position(|before| {
             before
                 .as_ref()
-                .is_some_and(|before| (before.scale, before.place) == (touch.scale, touch.place))
+                .is_some_and(|before| (before.scale, before.part) == (touch.scale, touch.part))
         }) else {
-            // The tip did not touch this outline part before. Its corner has reached the tip,
-            // which is locked without a tangential force.
+            // The tip did not touch this outline part before. The corner of the scale has reached
+            // the tip, which is locked without a tangential force.
             return Some(0.0);
         };
         let normal_force = self.needle.as_ref()?.normal_force(slot);
@@ -212,10 +214,12 @@ impl Chain {
     }
 
     /// Shifts a history variable of this perturbed row by an amount.
-    fn shift_anchor(&mut self, kept: HistoryVariable, by: f64) {
-        match (kept, &mut self.needle) {
-            (HistoryVariable::Touch(touch), Some(needle)) => needle.anchor_shifts.push((touch, by)),
-            (HistoryVariable::Touch(..), None) => {}
+    fn shift_anchor(&mut self, variable: HistoryVariable, by: f64) {
+        match (variable, &mut self.needle) {
+            (HistoryVariable::TipContact(touch), Some(needle)) => {
+                needle.anchor_shifts.push((touch, by));
+            }
+            (HistoryVariable::TipContact(..), None) => {}
             (HistoryVariable::Contact(contact, _), _) => self.contacts.shift_anchor(contact, by),
         }
     }
@@ -225,8 +229,8 @@ impl GuidedNeedle {
     /// Returns the anchor or ratio of a tip contact on this row, possibly a perturbed one.
     ///
     /// `of_mode` is its value on the unperturbed row.
-    pub(super) fn shifted_anchor(&self, touch: &Touch, of_mode: f64) -> f64 {
-        let touch = if self.is_round() { touch.anywhere() } else { *touch };
+    pub(super) fn shifted_anchor(&self, touch: &TipContact, of_mode: f64) -> f64 {
+        let touch = if self.is_round() { touch.without_part() } else { *touch };
         let moved = self.anchor_shifts.iter().find(|(moved, _)| *moved == touch);
         of_mode + moved.map_or(0.0, |(_, by)| *by)
     }

@@ -9,7 +9,7 @@ use crate::contacts::OutlinePart;
 ///
 /// A corner is a face of zero length with the mean direction of both adjacent faces.
 pub(super) struct Face {
-    /// First point of the face, seen from the left foot of the scale.
+    /// First point of the face along the outline from the left foot to the right foot.
     pub(super) origin: Vec2,
     /// Unit vector from the first to the last point.
     pub(super) along: Vec2,
@@ -17,7 +17,7 @@ pub(super) struct Face {
 }
 
 impl Face {
-    pub(super) fn new(scale: &Parallelogram, place: OutlinePart) -> Self {
+    pub(super) fn new(scale: &Parallelogram, part: OutlinePart) -> Self {
         let between = |from: Corner, to: Corner| {
             let (origin, end) = (scale.corner(from), scale.corner(to));
             let length = (end - origin).norm();
@@ -31,7 +31,7 @@ impl Face {
             along: (one.along + other.along).normalize(),
             length: 0.0,
         };
-        match place {
+        match part {
             OutlinePart::Left => left(),
             OutlinePart::TopLeft => corner(left(), top()),
             OutlinePart::Top => top(),
@@ -53,15 +53,16 @@ impl Face {
 ///
 /// All vectors are in the tangent frame of the scale. `v` is the upward direction of the needle.
 pub(super) struct Tip {
-    /// `r`.
+    /// Vector `r` from the node of the scale to the tip.
     arm: Vec2,
     normal: Vec2,
     along: Vec2,
     upward: Vec2,
-    /// `g`.
+    /// Distance `g` of the tip from the face, positive outside the scale.
     pub(super) gap: f64,
-    /// `ξ`.
+    /// Coordinate `ξ` of the tip along the face.
     pub(super) xi: f64,
+    /// Length of the face.
     pub(super) length: f64,
 }
 
@@ -90,9 +91,7 @@ impl Tip {
         Self { arm, normal, along, upward, gap, xi, length: face.length }
     }
 
-    /// Rotates the frame so that its normal points from the corner to the tip.
-    ///
-    /// A round tip at a corner requires this.
+    /// Rotates normal and tangent so that the normal points from the corner to a round tip.
     pub(super) fn at_corner(self) -> Self {
         let away = self.gap * self.normal + self.xi * self.along;
         let gap = away.norm();
@@ -148,7 +147,7 @@ impl Tip {
     }
 }
 
-/// The tip in contact with a scale: on a face, or for a round tip also on a corner.
+/// Kinematics of a tip in contact with a face or, for a round tip, with a corner of a scale.
 ///
 /// The slip coordinate `ξ` of a round tip with the centre `C` is the distance that the circle has
 /// slid along the outline, without rolling. `ψ` is the angle of the normal, clockwise from upward,
@@ -158,7 +157,7 @@ impl Tip {
 /// ξ = s + (C − E)·t + R ψ  on a face,     s + R ψ  on a corner
 /// ∂ξ = −t, (P − O)·n, −t_y                                                             (L9)
 /// ```
-pub(super) struct Meeting {
+pub(super) struct TipKinematics {
     /// The tip or the centre of a round tip relative to the touched outline part.
     pub(super) tip: Tip,
     /// Radius of the tip; 0 for a sharp tip.
@@ -169,7 +168,7 @@ pub(super) struct Meeting {
     before: f64,
 }
 
-impl Meeting {
+impl TipKinematics {
     pub(super) fn new(tip: Tip, radius: f64, before: f64) -> Self {
         let is_corner = radius > 0.0 && tip.length == 0.0;
         Self { tip: if is_corner { tip.at_corner() } else { tip }, radius, is_corner, before }

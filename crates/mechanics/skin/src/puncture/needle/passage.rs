@@ -48,7 +48,7 @@ pub struct Passage {
 }
 
 impl Passage {
-    /// Returns true if nothing is recorded, as for a free needle.
+    /// Returns true if no measure has a value, as for a free needle.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
@@ -84,7 +84,7 @@ impl PassageObserver {
         let Some(needle) = &chain.needle else { return Passage::default() };
         let ended = needle.ended_at(chain, end);
         let passed = self.passed.as_ref().map(|[_, at]| chain.path_point(at));
-        let left = self.passed.as_ref().map_or(end, |[_, at]| &at.state);
+        let shifted = self.passed.as_ref().map_or(end, |[_, at]| &at.state);
         Passage {
             critical_event: ended.map(|constraint| {
                 let is_through = constraint > needle.contacts + needle.tilt_number();
@@ -93,7 +93,7 @@ impl PassageObserver {
             passing_force: passed.map(|point| point.force),
             passing_displacement: passed.map(|point| point.displacement),
             passing_tilt_deg: passed.map(|point| point.tilt_deg),
-            needle_shift: chain.shift(left),
+            needle_shift: chain.shift(shifted),
         }
     }
 }
@@ -102,7 +102,7 @@ impl PassageObserver {
 fn is_on_its_face(state: &SkinState) -> bool {
     state.mode.needle.all().all(|(_, touch)| {
         touch.scale == 0
-            && touch.place == OutlinePart::Top
+            && touch.part == OutlinePart::Top
             && !matches!(touch.tip_state, TipState::Locked { .. })
     })
 }

@@ -13,7 +13,7 @@ use super::forces::STEP;
 use super::outline::Face;
 use super::passage::TipForces;
 use super::{GuidedNeedle, NORMAL};
-use crate::contacts::{HOLDS, OutlinePart, SkinState, TipState, Touch};
+use crate::contacts::{OutlinePart, SATISFIED, SkinState, TipContact, TipState};
 use crate::puncture::system::Chain;
 
 /// Gap up to which a scale counts as touched at rest, in units of `t`; larger than round-off.
@@ -35,13 +35,13 @@ impl GuidedNeedle {
     }
 
     /// Sets the contact of the tip with a scale, or removes it if `touch` is `None`.
-    fn set_touch(&self, state: &mut SkinState, scale: i64, touch: Option<Touch>) {
+    fn set_touch(&self, state: &mut SkinState, scale: i64, touch: Option<TipContact>) {
         let slot = (scale + self.reach() as i64) as usize;
         if touch.is_none() && self.has_friction() {
             self.end_sliding(state, slot);
             state.z[self.normal_force(slot) + 1] = 0.0;
         }
-        state.mode.needle.touches[slot] = touch;
+        state.mode.needle.tip_contacts[slot] = touch;
         state.active[self.number(slot, NORMAL)] = touch.is_some();
     }
 }
@@ -56,8 +56,8 @@ impl Chain {
         for (_, scale) in needle.scales() {
             let Some(number) = self.scale_numbered(scale) else { continue };
             let frame = self.frame_from_punctured(number);
-            for place in FACES {
-                let face = Face::new(&self.contacts.arrangement.scale(number), place);
+            for part in FACES {
+                let face = Face::new(&self.contacts.arrangement.scale(number), part);
                 let face = Face {
                     origin: frame.outward(face.origin),
                     along: frame.outward(face.along),
@@ -74,35 +74,35 @@ impl Chain {
     ///
     /// The distance is negative if the centre lies inside the scale.
     fn nearest(&self, z: &[f64], scale: i64) -> Option<(OutlinePart, f64)> {
-        let [left, top, right] = FACES.map(|place| self.tip(z, scale, place));
+        let [left, top, right] = FACES.map(|part| self.tip(z, scale, part));
         let faces = [left?, top?, right?];
-        let places = || FACES.into_iter().zip(&faces);
+        let parts = || FACES.into_iter().zip(&faces);
         let [left, top, _] = &faces;
         // A centre below the base line is not inside the scale. On a convex body this happens for
         // scales far away from the tip.
         let is_above_base = left.to_end(0.0).dot(&top.normal()) <= 0.0;
         if is_above_base && faces.iter().all(|face| face.gap < 0.0) {
             // Inside the scale, the nearest face has the least negative gap.
-            let gaps = places().map(|(place, face)| (place, face.gap));
+            let gaps = parts().map(|(part, face)| (part, face.gap));
             return gaps.reduce(|a, b| if b.1 > a.1 { b } else { a });
         }
         // If the perpendicular from the centre meets a face, this face is the nearest part of a
         // convex outline. Comparing distances would not be exact: near a corner the distances of
         // face and corner differ only by the square of a small length.
         let opposite =
-            places().find(|(_, face)| face.gap >= 0.0 && (0.0..=face.length).contains(&face.xi));
-        if let Some((place, face)) = opposite {
-            return Some((place, face.gap));
+            parts().find(|(_, face)| face.gap >= 0.0 && (0.0..=face.length).contains(&face.xi));
+        if let Some((part, face)) = opposite {
+            return Some((part, face.gap));
         }
-        let distances = places().map(|(place, face)| {
+        let distances = parts().map(|(part, face)| {
             let beyond = face.xi - face.xi.clamp(0.0, face.length);
             // Only the top corners are parts of the outline. A foot belongs to its side face.
-            let at_end = match (place, beyond) {
+            let at_end = match (part, beyond) {
                 (OutlinePart::Top, ..0.0) => OutlinePart::TopLeft,
                 (OutlinePart::Left, 0.0..) if beyond > 0.0 => OutlinePart::TopLeft,
                 (OutlinePart::Right, ..0.0) => OutlinePart::TopRight,
                 (OutlinePart::Top, 0.0..) if beyond > 0.0 => OutlinePart::TopRight,
-                _ => place,
+                _ => part,
             };
             (at_end, face.gap.hypot(beyond))
         });
@@ -135,8 +135,8 @@ impl Chain {
                     needle.set_touch(&mut rest, touch.scale, None);
                     continue;
                 }
-                if let Some((place, _)) = self.nearest(&ahead.z, touch.scale) {
-                    needle.set_touch(&mut rest, touch.scale, Some(Touch { place, ..*touch }));
+                if let Some((part, _)) = self.nearest(&ahead.z, touch.scale) {
+                    needle.set_touch(&mut rest, touch.scale, Some(TipContact { part, ..*touch }));
                 }
                 if let TipState::Stick { anchor } = touch.tip_state
                     && tangential_force.abs() > needle.friction * normal_force
@@ -152,10 +152,11 @@ impl Chain {
     }
 
     /// Creates the contact of a round tip with the nearest part of a scale, without sliding.
-    fn round_touch(&self, needle: &GuidedNeedle, z: &[f64], scale: i64) -> Option<Touch> {
-        let (place, _) = self.nearest(z, scale)?;
-        let at = if needle.has_friction() { self.meeting(z, scale, place)?.xi() } else { 0.0 };
-        Some(Touch { scale, place, tip_state: needle.resting(at) })
+    fn round_touch(&self, needle: &GuidedNeedle, z: &[f64], scale: i64) -> Option<TipContact> {
+        let (part, _) = self.nearest(z, scale)?;
+        let at =
+            if needle.has_friction() { self.tip_kinematics(z, scale, part)?.xi() } else { 0.0 };
+        Some(TipContact { scale, part, tip_state: needle.resting(at) })
     }
 
     /// Sets the `values` of the conditions of a round tip.
@@ -169,22 +170,22 @@ impl Chain {
         for (slot, scale) in needle.scales() {
             let conditions =
                 &mut values[needle.constraints_per_touch * slot..][..needle.constraints_per_touch];
-            if state.mode.needle.touches[slot].is_none() {
+            if state.mode.needle.tip_contacts[slot].is_none() {
                 let nearest = self.nearest(&state.z, scale);
                 conditions[NORMAL] =
-                    nearest.map_or(HOLDS, |(_, distance)| distance - needle.radius);
+                    nearest.map_or(SATISFIED, |(_, distance)| distance - needle.radius);
             }
         }
-        for (slot, touch, _, meeting) in self.touches(state) {
+        for (slot, touch, _, kinematics) in self.tip_contacts(state) {
             let conditions =
                 &mut values[needle.constraints_per_touch * slot..][..needle.constraints_per_touch];
-            conditions[NORMAL] = meeting.gap();
-            let [before, after] = self.to_ends(state, touch.scale, touch.place);
+            conditions[NORMAL] = kinematics.gap();
+            let [before, after] = self.to_ends(state, touch.scale, touch.part);
             // One condition covers both ends of the outline part. The transition determines which
-            // of them was reached.
+            // end was reached.
             conditions[needle.constraints_per_touch - 1] = before.min(after);
             if needle.has_friction() {
-                needle.stick_slip_conditions(state, slot, touch, &meeting, conditions);
+                needle.stick_slip_conditions(state, slot, touch, &kinematics, conditions);
             }
         }
         values[through] = values[through].min(self.above_surface(needle, state));
@@ -192,15 +193,14 @@ impl Chain {
 
     /// Computes the distances of the tip from the start and the end of its outline part.
     ///
-    /// A foot of the scale does not count as an end; its entry is [`HOLDS`].
-    fn to_ends(&self, state: &SkinState, scale: i64, place: OutlinePart) -> [f64; 2] {
-        let seen = |place: OutlinePart| self.tip(&state.z, scale, place);
-        let is_corner = !FACES.contains(&place);
+    /// A foot of the scale does not count as an end; its entry is [`SATISFIED`].
+    fn to_ends(&self, state: &SkinState, scale: i64, part: OutlinePart) -> [f64; 2] {
+        let seen = |part: OutlinePart| self.tip(&state.z, scale, part);
+        let is_corner = !FACES.contains(&part);
         [false, true].map(|onward| {
-            let face =
-                place.next(onward).and_then(|next| seen(if is_corner { next } else { place }));
-            let Some(face) = face else { return HOLDS };
-            // The part before a corner ends there, and the part after it starts there.
+            let face = part.next(onward).and_then(|next| seen(if is_corner { next } else { part }));
+            let Some(face) = face else { return SATISFIED };
+            // The part before a corner ends at the corner; the part after it starts at the corner.
             let inside = if is_corner == onward { face.xi } else { face.length - face.xi };
             if is_corner { -inside } else { inside }
         })
@@ -211,10 +211,10 @@ impl Chain {
     /// The surface is the straight line from the right foot of a scale to the left foot of the next
     /// one.
     fn above_surface(&self, needle: &GuidedNeedle, state: &SkinState) -> f64 {
-        let mut least = HOLDS;
+        let mut least = SATISFIED;
         for (_, scale) in needle.scales() {
-            let foot = |scale: i64, place: OutlinePart, at_end: bool| {
-                let tip = self.tip(&state.z, scale, place)?;
+            let foot = |scale: i64, part: OutlinePart, at_end: bool| {
+                let tip = self.tip(&state.z, scale, part)?;
                 let frame = self.frame_from_punctured(self.scale_numbered(scale)?);
                 Some(frame.outward(tip.to_end(if at_end { tip.length } else { 0.0 })))
             };
@@ -222,8 +222,8 @@ impl Chain {
             let to = foot(scale + 1, OutlinePart::Left, false);
             let (Some(from), Some(to)) = (from, to) else { continue };
             let along = to - from;
-            let part = (-from.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            least = least.min((from + part * along).norm() - needle.radius);
+            let fraction = (-from.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+            least = least.min((from + fraction * along).norm() - needle.radius);
         }
         least
     }
@@ -243,12 +243,12 @@ impl Chain {
         if number % needle.constraints_per_touch == needle.constraints_per_touch - 1 {
             // This constraint has no force and never becomes active.
             state.active[change.constraint] = false;
-            let place = state.mode.needle.touches[slot]?.place;
-            let [before, after] = self.to_ends(state, scale, place);
+            let part = state.mode.needle.tip_contacts[slot]?.part;
+            let [before, after] = self.to_ends(state, scale, part);
             // The tip has reached the nearer end.
-            let next = place.next(after < before)?;
+            let next = part.next(after < before)?;
             // Slip coordinate and forces are continuous, so only the part changes.
-            state.mode.needle.touches[slot].as_mut()?.place = next;
+            state.mode.needle.tip_contacts[slot].as_mut()?.part = next;
         } else {
             let touch = self.round_touch(needle, &state.z, scale);
             needle.set_touch(state, scale, touch.filter(|_| change.activated));
@@ -275,7 +275,7 @@ impl Chain {
     }
 }
 
-/// Computes the height of the centre of a circle that rests on a face or its ends.
+/// Computes the height of the centre of a circle that rests on a face or on an end of the face.
 ///
 /// The centre is at `x`. Its height is −∞ if the circle passes beside the face.
 fn height_above(face: &Face, x: f64, radius: f64) -> f64 {

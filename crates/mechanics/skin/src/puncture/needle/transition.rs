@@ -3,27 +3,27 @@
 use solver::Change;
 
 use super::{BACKWARD, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
-use crate::contacts::{OutlinePart, SkinState, TipState, Touch};
+use crate::contacts::{OutlinePart, SkinState, TipContact, TipState};
 use crate::puncture::system::Chain;
 
 /// Difference below which two fractions of a friction limit count as equal.
 const SAME_FRACTION: f64 = 1e-6;
 
 impl Chain {
-    /// Moves the needle to its next state.
+    /// Moves the needle to its next state after a constraint became active or inactive.
     ///
-    /// Returns the constraint that must hold on the outgoing branch; `None` if no next
+    /// Returns the constraint that must be satisfied on the outgoing branch; `None` if no next
     /// state exists.
     ///
     /// | Tip before | Event | Tip after |
     /// |---|---|---|
-    /// | touches one scale | it reaches a face of the neighbour | touches both scales, in a notch |
+    /// | touches one scale | tip reaches a face of the next one | touches both scales, in a notch |
     /// | touches two scales | one normal force vanishes | touches the other scale alone |
     /// | sticks | `\|T\| = μ N` | slides, forward or backward |
     /// | slides | `ξ` reverses | sticks at its current position |
-    /// | slides | it reaches the end of the face | passes over the corner |
+    /// | slides | tip reaches the end of the face | passes over the corner |
     /// | passes over a corner | force at the slip limit on the next face | slides on this face |
-    /// | passes over a corner | force back at its slip limit | sticks at the end of its face |
+    /// | passes over a corner | force returns to its slip limit | sticks at the end of its face |
     pub(in crate::puncture) fn needle_transition(
         &self,
         needle: &GuidedNeedle,
@@ -52,7 +52,8 @@ impl Chain {
             }
             (FORWARD | BACKWARD, false) => {
                 let anchor = self.touch_xi(state, slot)?;
-                state.mode.needle.touches[slot].as_mut()?.tip_state = TipState::Stick { anchor };
+                state.mode.needle.tip_contacts[slot].as_mut()?.tip_state =
+                    TipState::Stick { anchor };
                 self.stick_corner(needle, state, slot, constraint == FORWARD);
                 constraint
             }
@@ -71,7 +72,7 @@ impl Chain {
     /// The tip stays at the corner.
     pub(in crate::puncture) fn release_notch(&self, needle: &GuidedNeedle, state: &mut SkinState) {
         let Some([face, _]) = self.notch(state) else { return };
-        let top = state.mode.needle.touches[1 - face];
+        let top = state.mode.needle.tip_contacts[1 - face];
         if top.is_some_and(|top| !self.is_notched(state, top.scale)) {
             // Release the corner before the tip moves: `notch` needs both tip contacts.
             self.release_corner(state);
@@ -89,26 +90,26 @@ impl Chain {
     /// Makes a sliding tip stick at its current position.
     pub(in crate::puncture) fn stop_tip(&self, needle: &GuidedNeedle, state: &mut SkinState) {
         for slot in (0..needle.slots).filter(|_| needle.has_friction()) {
-            let touch = state.mode.needle.touches[slot];
+            let touch = state.mode.needle.tip_contacts[slot];
             let slides = touch.filter(|touch| matches!(touch.tip_state, TipState::Slip { .. }));
             let (Some(touch), Some(anchor)) = (slides, self.touch_xi(state, slot)) else {
                 continue;
             };
             needle.end_sliding(state, slot);
-            state.mode.needle.touches[slot] =
-                Some(Touch { tip_state: TipState::Stick { anchor }, ..touch });
+            state.mode.needle.tip_contacts[slot] =
+                Some(TipContact { tip_state: TipState::Stick { anchor }, ..touch });
         }
         self.share_friction(needle, state);
     }
 
     /// Distributes friction in a notch in proportion to the limits of tip and corner.
     ///
-    /// Only the sum of both friction forces matters while both stick, and the sum is kept.
+    /// Only the sum of both friction forces matters while both stick, and the sum does not change.
     fn share_friction(&self, needle: &GuidedNeedle, state: &mut SkinState) {
         let Some([face, corner]) = self.notch(state).filter(|_| needle.has_friction()) else {
             return;
         };
-        let sticks = state.mode.needle.touches[face]
+        let sticks = state.mode.needle.tip_contacts[face]
             .is_some_and(|touch| matches!(touch.tip_state, TipState::Stick { .. }));
         if !sticks || !self.contacts.has_friction() {
             return;
@@ -173,8 +174,8 @@ impl Chain {
 
     /// Returns the slip coordinate `ξ` of the tip contact in a slot.
     fn touch_xi(&self, state: &SkinState, slot: usize) -> Option<f64> {
-        let touch = state.mode.needle.touches[slot]?;
-        Some(self.meeting(&state.z, touch.scale, touch.place)?.xi())
+        let touch = state.mode.needle.tip_contacts[slot]?;
+        Some(self.tip_kinematics(&state.z, touch.scale, touch.part)?.xi())
     }
 
     /// Adds the contact of a sharp tip with a second scale, so that the tip rests in a notch.
@@ -186,23 +187,23 @@ impl Chain {
         state: &mut SkinState,
         slot: usize,
     ) -> Option<usize> {
-        let other = state.mode.needle.touches[1 - slot]?;
-        let (scale, place) = Self::next_touch(&other)?;
-        let anchor = self.tip(&state.z, scale, place)?.xi;
-        let is_locked = |scale, place| place == OutlinePart::Top && self.is_notched(state, scale);
-        let (new_is_held, other_is_held) =
-            (is_locked(scale, place), is_locked(other.scale, other.place));
+        let other = state.mode.needle.tip_contacts[1 - slot]?;
+        let (scale, part) = Self::next_touch(&other)?;
+        let anchor = self.tip(&state.z, scale, part)?.xi;
+        let is_locked = |scale, part| part == OutlinePart::Top && self.is_notched(state, scale);
+        let (new_is_locked, other_is_locked) =
+            (is_locked(scale, part), is_locked(other.scale, other.part));
         let tip_state =
-            if new_is_held { TipState::Locked { ratio: 0.0 } } else { needle.resting(anchor) };
-        state.mode.needle.touches[slot] = Some(Touch { scale, place, tip_state });
-        if other_is_held {
+            if new_is_locked { TipState::Locked { ratio: 0.0 } } else { needle.resting(anchor) };
+        state.mode.needle.tip_contacts[slot] = Some(TipContact { scale, part, tip_state });
+        if other_is_locked {
             let normal_force = needle.normal_force(1 - slot);
             let ratio = state.z[normal_force + 1] / state.z[normal_force];
             // A tip without normal force has no friction, so its ratio is 0.
             let ratio = if ratio.is_finite() { ratio } else { 0.0 };
             needle.end_sliding(state, 1 - slot);
-            state.mode.needle.touches[1 - slot] =
-                Some(Touch { tip_state: TipState::Locked { ratio }, ..other });
+            state.mode.needle.tip_contacts[1 - slot] =
+                Some(TipContact { tip_state: TipState::Locked { ratio }, ..other });
         }
         if let Some([_, corner]) = self.notch(state).filter(|_| needle.friction > 0.0) {
             // Tip and corner are at the same point of the face, so two stick equations would be
@@ -217,9 +218,9 @@ impl Chain {
     ///
     /// `None` if the tip is not in a notch.
     pub(super) fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
-        let touches = &state.mode.needle.touches;
+        let touches = &state.mode.needle.tip_contacts;
         let top = touches.iter().position(|touch| {
-            touch.as_ref().is_some_and(|touch| touch.place == OutlinePart::Top && touch.is_locked())
+            touch.as_ref().is_some_and(|touch| touch.part == OutlinePart::Top && touch.is_locked())
         })?;
         Some([1 - top, self.corner_of_notch(touches[top]?.scale)?])
     }
@@ -229,13 +230,13 @@ impl Chain {
     /// Returns the constraint that must hold on the outgoing branch; `None` for a single contact.
     fn leave(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) -> Option<usize> {
         // The only contact of the tip cannot open, because the load must act on a scale.
-        state.mode.needle.touches[1 - slot]?;
+        state.mode.needle.tip_contacts[1 - slot]?;
         // Release the corner before the contact opens: `notch` needs both tip contacts.
         self.release_corner(state);
         needle.end_sliding(state, slot);
         state.z[needle.normal_force(slot) + 1] = 0.0;
-        state.mode.needle.touches[slot] = None;
-        if !state.mode.needle.touches[1 - slot]?.is_locked() {
+        state.mode.needle.tip_contacts[slot] = None;
+        if !state.mode.needle.tip_contacts[1 - slot]?.is_locked() {
             return Some(needle.number(slot, NORMAL));
         }
         self.come_to_rest(needle, state, 1 - slot);
@@ -258,15 +259,15 @@ impl Chain {
     /// Releases the friction of the corner of a notch that the tip leaves.
     fn release_corner(&self, state: &mut SkinState) {
         let Some([face, corner]) = self.notch(state) else { return };
-        let touch = state.mode.needle.touches[face];
+        let touch = state.mode.needle.tip_contacts[face];
         let slides = touch.is_some_and(|touch| matches!(touch.tip_state, TipState::Slip { .. }));
         self.contacts.release(state, corner, slides);
     }
 
-    /// Makes a tip that was locked in a notch stick; without friction it may slide.
+    /// Makes a tip that was locked in a notch stick or, without friction, slide freely.
     fn come_to_rest(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) {
         let anchor = self.touch_xi(state, slot);
-        if let (Some(touch), Some(anchor)) = (&mut state.mode.needle.touches[slot], anchor)
+        if let (Some(touch), Some(anchor)) = (&mut state.mode.needle.tip_contacts[slot], anchor)
             && touch.is_locked()
         {
             touch.tip_state = needle.resting(anchor);
@@ -284,8 +285,8 @@ impl Chain {
         slot: usize,
         onward: bool,
     ) -> Option<usize> {
-        let touch = state.mode.needle.touches[slot]?;
-        let next = touch.place.next(onward)?;
+        let touch = state.mode.needle.tip_contacts[slot]?;
+        let next = touch.part.next(onward)?;
         needle.end_sliding(state, slot);
         let TipState::Passing { forward } = touch.tip_state else {
             self.move_to(needle, state, slot, next, TipState::Passing { forward: onward });
@@ -320,16 +321,16 @@ impl Chain {
         needle: &GuidedNeedle,
         state: &mut SkinState,
         slot: usize,
-        place: OutlinePart,
+        part: OutlinePart,
         tip_state: TipState,
     ) {
-        let Some(touch) = state.mode.needle.touches[slot] else { return };
-        let seen = |place| self.tip(&state.z, touch.scale, place);
-        let (Some(before), Some(after)) = (seen(touch.place), seen(place)) else { return };
+        let Some(touch) = state.mode.needle.tip_contacts[slot] else { return };
+        let seen = |part| self.tip(&state.z, touch.scale, part);
+        let (Some(before), Some(after)) = (seen(touch.part), seen(part)) else { return };
         let normal_force = needle.normal_force(slot);
         let force = before.force([state.z[normal_force], state.z[normal_force + 1]]);
         [state.z[normal_force], state.z[normal_force + 1]] = after.parts(force);
-        state.mode.needle.touches[slot] = Some(Touch { place, tip_state, ..touch });
+        state.mode.needle.tip_contacts[slot] = Some(TipContact { part, tip_state, ..touch });
     }
 }
 
@@ -346,7 +347,7 @@ impl GuidedNeedle {
     /// Makes the tip contact in a slot slide, forward or backward, from the coordinate `start`.
     pub(super) fn slide(&self, state: &mut SkinState, slot: usize, forward: bool, start: f64) {
         let (sign, constraint) = if forward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
-        if let Some(touch) = &mut state.mode.needle.touches[slot] {
+        if let Some(touch) = &mut state.mode.needle.tip_contacts[slot] {
             touch.tip_state = TipState::Slip { sign, start };
             state.active[self.number(slot, constraint)] = true;
         }

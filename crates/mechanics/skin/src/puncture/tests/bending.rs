@@ -49,7 +49,7 @@ fn tangent_of_elastic_scales_matches_differences() {
     let (mut most, mut checked, mut segments) = (0, 0, 0);
     for (design, modulus, curvature) in SOFT {
         for_segments(elastic_path(&design, modulus, curvature), |path, from, to| {
-            // Check only every second segment, because differences take long.
+            // Check only every second segment, because the difference quotients are slow.
             segments += 1;
             if segments % 2 == 0 {
                 return;

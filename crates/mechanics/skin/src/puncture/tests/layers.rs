@@ -74,10 +74,10 @@ fn reactions_match_the_stiffness() {
             forces[row] += value * z[column];
         });
         for scale in 0..chain.layout.scales() {
-            let told = chain.reaction(z, scale.cast_signed());
-            for (k, told) in told.into_iter().enumerate() {
+            let reaction = chain.reaction(z, scale.cast_signed());
+            for (k, reaction) in reaction.into_iter().enumerate() {
                 let force = forces[chain.layout.scale(scale) + k];
-                assert_relative_eq!(told, -force, epsilon = 1e-14, max_relative = 1e-9);
+                assert_relative_eq!(reaction, -force, epsilon = 1e-14, max_relative = 1e-9);
             }
         }
     }

@@ -245,7 +245,8 @@ fn dissipated_fraction(path: Continuation<Chain>) -> f64 {
     for_segments(path, |path, from, to| {
         done += work(path, from, to);
         let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
-        // The unknowns at the end, with the mode of the segment before it.
+        // Combine the unknowns at the end with the mode of the segment, because the mode may change
+        // at the end.
         let mut end = inner[2].clone();
         end.z.clone_from(&to.state.z);
         let chain = path.system();
@@ -290,7 +291,7 @@ fn an_isolated_scale_matches_a_scalar_equation() {
     assert_relative_eq!(puncture.measures.critical_force.unwrap(), expected, max_relative = 1e-9);
 }
 
-/// Needles at the same distance from the left and the right corner of an upright scale.
+/// Compares needles at the same distance from the left and the right corner of an upright scale.
 #[test]
 fn mirrored_needles_have_mirrored_results() {
     for friction in [0.0, 0.2] {
@@ -314,7 +315,7 @@ fn mirrored_needles_have_mirrored_results() {
 
 /// The tip slides down the left face of the next scale to the foot of this face.
 #[test]
-fn a_needle_that_reaches_a_foot_is_through() {
+fn the_path_of_a_needle_that_reaches_a_foot_ends_as_through() {
     for friction in [0.0, 0.3] {
         let design = design(1.0, 1.0, 60.0);
         let parameters =
@@ -414,7 +415,7 @@ fn longer(input: &mut puncture::PunctureInput, by: f64) {
 }
 
 /// Moves the load position to the right by `by`.
-fn set_down_further_right(input: &mut puncture::PunctureInput, by: f64) {
+fn move_load_right(input: &mut puncture::PunctureInput, by: f64) {
     input.parameters.load_position += by;
 }
 
@@ -425,7 +426,7 @@ fn set_down_further_right(input: &mut puncture::PunctureInput, by: f64) {
 fn derivatives_account_for_history_variables() {
     let changes: [(Change, f64); 4] = [
         (longer, 2e-6),
-        (set_down_further_right, 2e-6),
+        (move_load_right, 2e-6),
         (|input, h| input.parameters.critical_tilt_deg += h, 2e-5),
         (
             |input, h| {
@@ -492,7 +493,8 @@ fn derivatives_are_differences(
         .collect();
     let (puncture, derivatives) = puncture::differentiate(&input, &variations).unwrap();
     for (parameter, &(change, step)) in changes.iter().enumerate() {
-        // The step of the difference is large enough for round-off and small enough for curvature.
+        // The step must be large enough to suppress round-off, and small enough to neglect the
+        // curvature of the measure.
         let [below, above] = [-50.0, 50.0].map(|times| {
             let input = moved(&input, change, times * step);
             puncture::differentiate(&input, &[]).unwrap().0.measures

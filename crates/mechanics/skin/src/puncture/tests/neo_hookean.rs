@@ -53,7 +53,7 @@ fn work_of_the_load_equals_stored_energy() {
 
 /// The neo-Hookean law has the same tangent at rest as the linear springs.
 #[test]
-fn at_rest_bars_match_the_springs() {
+fn bars_match_linear_springs_at_rest() {
     let linear = path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0);
     let bars = bar_path(&LIVELY, Law::PRINTED, Coupling::Nearest);
     let [linear, bars] = [linear.system(), bars.system()].map(|chain| {
@@ -70,7 +70,7 @@ fn at_rest_bars_match_the_springs() {
 
 /// A row that leans to the left has the mirrored forces of a row that leans to the right.
 #[test]
-fn mirrored_rows_have_mirrored_forces() {
+fn a_row_and_its_mirror_image_have_mirrored_forces() {
     let layout = RowLayout { left: 3, right: 3, needle: 0, contacts: 6 };
     let last = layout.scales() - 1;
     let stiffness =

@@ -11,7 +11,7 @@ use crate::puncture::{Problem, Puncture, PunctureParameters, Rows};
 use crate::{Base, Common, Design, Status};
 
 /// Designs of the paper in which scales touch second neighbours under full coupling.
-const MEETING: [Design; 2] =
+const DISTANT_CONTACT: [Design; 2] =
     [DOMINO, Design { gap: 0.1, length: 0.4, slant_deg: 75.0, base: Base::L, width: 1.0 }];
 
 /// Returns the stiffness of the substrate with full coupling.
@@ -19,7 +19,7 @@ fn full(design: &Design) -> RowStiffness {
     RowStiffness::compute(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap()
 }
 
-/// Solves a puncture with a fixed contact reach, or for `None` with the reach that it needs.
+/// Solves a puncture with a fixed contact reach; `None` increases the reach as needed.
 fn solved(design: &Design, common: &Common, contact_reach: Option<usize>) -> Puncture {
     let parameters = PunctureParameters::default();
     let rows = Rows::Even(design.row().unwrap());
@@ -35,8 +35,8 @@ fn solved(design: &Design, common: &Common, contact_reach: Option<usize>) -> Pun
 }
 
 #[test]
-fn scales_stop_at_their_second_neighbours() {
-    for design in MEETING {
+fn contacts_with_second_neighbours_prevent_their_overlap() {
+    for design in DISTANT_CONTACT {
         let common = Common::default();
         let through = solved(&design, &common, Some(1));
         assert_eq!(through.status, Status::Interpenetration);
@@ -60,23 +60,23 @@ fn scales_stop_at_their_second_neighbours() {
 }
 
 #[test]
-fn distant_contacts_conserve_energy_and_match_differences() {
-    let design = &MEETING[1];
+fn distant_contacts_conserve_energy_and_their_tangent_matches_differences() {
+    let design = &DISTANT_CONTACT[1];
     let law = law(design, Law::PRINTED, HARD);
     let layout = RowLayout { left: 20, right: 20, needle: 0, contacts: 2 * pair_constraints(&law) };
     let chain = whole(&full(design), design, law, layout, &PunctureParameters::default());
     let path = Continuation::new(chain.clone(), SkinState::at_rest(&chain), Settings::default());
     let Balance { work, off, .. } = balance(path.clone());
     assert!(off < 1e-6 * work, "{:e}", off / work);
-    let mut met = 0;
+    let mut closed = 0;
     for_segments(path, |path, from, to| {
         let state = path.between(from, to, 0.5).unwrap().state;
         let contacts = path.system().contacts.closed_contacts(&state);
         let beyond = contacts.iter().filter(|contact| contact.right == contact.left + 2).count();
-        met += beyond;
+        closed += beyond;
         if beyond > 0 {
             check_tangent(path.system(), &state, 1e-6).unwrap();
         }
     });
-    assert!(met > 0);
+    assert!(closed > 0);
 }

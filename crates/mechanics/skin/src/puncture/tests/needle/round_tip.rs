@@ -21,27 +21,27 @@ const TIPS: [([f64; 3], f64, f64, f64); 9] = [
 
 #[test]
 fn work_of_a_round_tip_is_stored_or_dissipated() {
-    let most = TIPS.map(|(of, radius, friction, place)| {
-        let dissipated = dissipated_fraction(round_path(of, [radius, friction, place], 0.01));
+    let most = TIPS.map(|(of, radius, friction, position)| {
+        let dissipated = dissipated_fraction(round_path(of, [radius, friction, position], 0.01));
         assert_eq!(dissipated > 1e-12, friction > 0.0, "{of:?} {dissipated}");
         dissipated
     });
     assert!(most.into_iter().fold(0.0, f64::max) > 0.01, "{most:?}");
 }
 
-/// The tips touch tops and other parts, sticking and sliding: four combinations.
+/// The paths must contain tips that stick and slide, each on tops and on other outline parts.
 #[test]
 fn tangent_of_a_round_tip_matches_finite_differences() {
     let mut tip_states = HashSet::new();
-    for (of, radius, friction, place) in TIPS {
-        for_segments(round_path(of, [radius, friction, place], 0.1), |path, from, to| {
+    for (of, radius, friction, position) in TIPS {
+        for_segments(round_path(of, [radius, friction, position], 0.1), |path, from, to| {
             if path.spans(from, to)[0].abs() < 1e-6 {
                 return;
             }
             let Some(between) = path.between(from, to, 0.5) else { return };
-            for touch in between.state.mode.needle.touches.iter().flatten() {
+            for touch in between.state.mode.needle.tip_contacts.iter().flatten() {
                 tip_states.insert((
-                    touch.place == OutlinePart::Top,
+                    touch.part == OutlinePart::Top,
                     std::mem::discriminant(&touch.tip_state),
                 ));
             }
@@ -58,7 +58,7 @@ fn tangent_of_a_round_tip_matches_finite_differences() {
 fn derivatives_of_a_round_tip_match_differences() {
     let by_radius: Change =
         |input, h| input.parameters.needle_radius = input.parameters.needle_radius.map(|r| r + h);
-    let changes = [(by_radius, 2e-6), (set_down_further_right, 2e-6), (longer, 2e-6)];
+    let changes = [(by_radius, 2e-6), (move_load_right, 2e-6), (longer, 2e-6)];
     for (gap, length, slant, radius, friction, position) in [
         (0.1, 1.0, 0.0, 0.5, 0.0, 0.8),
         (0.5, 1.0, 0.0, 0.2, 0.0, 0.9),
@@ -111,21 +111,22 @@ fn path_of(
     Continuation::new(chain, rest, settings)
 }
 
-/// Corner and top are equally near up to round-off. The first tilt moves the tip onto the top.
+/// Corner and top are at the same distance up to round-off. The first tilt moves the tip onto the
+/// top.
 #[test]
 fn a_tip_set_down_on_a_corner_starts_on_the_top() {
     for (length, radius) in [(2.0, 0.7), (5.0, 0.3), (9.5, 0.7), (9.5, 2.0)] {
         for (friction, position) in [(0.0, 0.0), (0.0, 1.0), (0.3, 0.0), (0.3, 1.0)] {
             let design = Design { width: 16.0, ..design(1.0, length, 0.0) };
             let mut path = path_of(&design, [radius, friction, position], 0.01);
-            let start = path.point().state.mode.needle.place(0);
+            let start = path.point().state.mode.needle.part(0);
             assert_eq!(start, Some(OutlinePart::Top), "{length} {radius} {friction} {position}");
             assert_eq!(path.by_ref().take(3).count(), 3, "{:?}", path.termination());
         }
     }
 }
 
-/// The tip lies below the bases of scales at 78° on the arc, between their extended side faces.
+/// At 78° along the arc, the tip lies below the bases of scales, between their extended side faces.
 #[test]
 fn a_tip_on_a_convex_body_does_not_touch_scales_far_along_the_arc() {
     let design = design(1.145, 4.632, 54.87);
