@@ -41,9 +41,9 @@ impl Force {
 /// One of `P` and `Q` is a tip, an acute corner. If the side that ends in the tip has rotated
 /// beyond parallel to the neighbour's top or base, C replaces B (upper level) or A (lower level).
 ///
-/// A corner that slides to the end of its edge reaches the other corner. There the force turns
-/// continuously from one normal to the other while the corners stay together. Both forces act, and
-/// the law applies to their sum,
+/// A corner that slides to the end of its edge reaches the other corner. While both corners stay
+/// together, the force turns continuously from one normal to the other. The force is then the sum
+/// `f` of two contact forces, and the law applies to this sum:
 ///
 /// ```text
 /// v ≡ D + δ(|f|) f/|f| = 0,    f = λ m + λ' m'                                     (C5)
@@ -71,8 +71,8 @@ impl Force {
 /// ```
 ///
 /// The state changes if a force begins to act (+) or vanishes (−). `e`, `e'` and `e''` are the
-/// corner and edge of the own contact, of its partner and of the flush contact. The last column
-/// names the force with the condition that the outgoing path must satisfy.
+/// corner and edge of the own contact, of its partner and of the flush contact. The outgoing path
+/// must satisfy the condition of the force in the last column.
 ///
 /// | State | Force | Next state | Forces | Condition of |
 /// |---|---|---|---|---|
@@ -109,7 +109,7 @@ pub struct Transition {
     pub contact: CornerContact,
     /// Values of the three forces in the next state.
     pub forces: [f64; FORCES],
-    /// Force with the condition that the outgoing path must satisfy.
+    /// Force for which the outgoing path must satisfy the condition (C6) or (C7).
     pub valid: Force,
 }
 

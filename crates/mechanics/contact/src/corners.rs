@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use geometry::{Corner, Vec2};
 
-use crate::gap::{CornerEdge, Gap, Meeting, Pair, Pose};
+use crate::gap::{CornerEdge, CornerPosition, Gap, Pair, Pose};
 
 /// Angle (radians) below which two sides count as parallel.
 ///
@@ -97,15 +97,15 @@ impl<'a> Corners<'a> {
 
     /// Returns the corner and edge that face each other in an open contact, with the gap.
     ///
-    /// A corner faces an edge if its projection (foot) lies within the edge. If both corners do,
-    /// the corner of the left scale is returned, and `None` if neither does. The gap is in units of
-    /// `t`.
+    /// A corner faces an edge if its projection (foot) lies within the edge. If both corners face
+    /// an edge, the corner of the left scale is returned; `None` if no corner faces an edge. The
+    /// gap is in units of `t`.
     pub fn facing(&self) -> Option<(CornerEdge, f64)> {
-        self.meeting().map(|(edge, meeting)| (edge, meeting.gap))
+        self.facing_position().map(|(edge, position)| (edge, position.gap))
     }
 
     /// Returns the corner and edge of [`Self::facing`], with their relative position.
-    pub(crate) fn meeting(&self) -> Option<(CornerEdge, Meeting)> {
+    pub(crate) fn facing_position(&self) -> Option<(CornerEdge, CornerPosition)> {
         let (leaning, on_side) = (self.leaning(), self.level.tip_on_side());
         // The corner of the left scale is first in the list; at the upper level it is the tip.
         let edges = match self.level {
@@ -126,7 +126,7 @@ impl<'a> Corners<'a> {
         edge.normal(self.pair, self.poses).0
     }
 
-    /// Computes the tangential displacement between a corner and an edge, as [`Pair::slide`].
+    /// Computes the tangential coordinate of a corner along an edge, as [`Pair::slide`].
     pub(crate) fn slide(&self, edge: CornerEdge) -> Gap {
         let [left, right] = self.poses;
         self.pair.slide(edge, left, right)
@@ -134,8 +134,8 @@ impl<'a> Corners<'a> {
 
     /// Returns the two contacts that act in the state corner on corner: own and partner.
     ///
-    /// `edge` is the own contact at the time when the corners coincided. Where this was corner on
-    /// side or tip on end, the current angle of the side selects which of them is returned.
+    /// `edge` is the own contact at the time when the corners coincided. If `edge` is corner on
+    /// side or tip on end, the current angle of the side selects between these two contacts.
     pub fn together(&self, edge: CornerEdge) -> [CornerEdge; 2] {
         let (leaning, on_side) = (self.leaning(), self.level.tip_on_side());
         if edge == on_side { [on_side, leaning] } else { [leaning, on_side] }
@@ -157,9 +157,9 @@ impl<'a> Corners<'a> {
         self.poses[0].rotation - self.poses[1].rotation
     }
 
-    /// Returns corner on side or tip on end, depending on the angle of the side.
+    /// Returns the contact corner on side or tip on end, depending on the angle of the side.
     fn leaning(&self) -> CornerEdge {
-        if self.beyond_level() > 0.0 {
+        if self.beyond_flush() > 0.0 {
             self.level.tip_on_end()
         } else {
             self.level.corner_on_side()
@@ -170,7 +170,7 @@ impl<'a> Corners<'a> {
     ///
     /// The angle is zero if side and end face are parallel, and positive if the side has rotated
     /// beyond this position, so that only the tip can rest on the end face.
-    fn beyond_level(&self) -> f64 {
+    fn beyond_flush(&self) -> f64 {
         let [of_left, of_right] = self.pair.scales();
         let from_the_vertical = match self.level {
             Level::Upper => of_left.slant() - self.turned(),
@@ -187,7 +187,7 @@ impl<'a> Corners<'a> {
     pub(crate) fn angle_to_flush(&self, flush: CornerEdge) -> Angle {
         let toward = if flush == self.level.tip_on_end() { -1.0 } else { 1.0 };
         let turning = if self.level == Level::Upper { -1.0 } else { 1.0 };
-        Angle { value: toward * self.beyond_level(), slope: toward * turning }
+        Angle { value: toward * self.beyond_flush(), slope: toward * turning }
     }
 
     /// Returns true if the corner of the contact `flush` has not passed the far end of its edge.

@@ -24,7 +24,7 @@ impl Pose {
         Self { displacement: Vec2::new(x, y), rotation, cos, sin }
     }
 
-    /// Returns the vector `v` of the scale at rest after the rotation of the scale.
+    /// Returns the vector `v`, which is fixed to the scale, after the rotation of the scale.
     pub fn turn(&self, v: Vec2) -> Vec2 {
         Vec2::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
     }
@@ -101,7 +101,7 @@ impl CornerEdge {
     }
 }
 
-/// Gap between a corner and an edge, with derivatives by the six coordinates of a pair.
+/// Gap between a corner and an edge, with derivatives with respect to the coordinates of a pair.
 ///
 /// The coordinates are `(x, y, φ)` of the left scale and `(x, y, φ)` of the right scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,11 +129,11 @@ pub struct Gap {
 pub struct Curvature {
     /// True if the corner belongs to the left scale.
     pub corner_is_left: bool,
-    /// `n' = ∂²g/∂u_A∂φ_B = −∂²g/∂u_B∂φ_B`.
+    /// Normal of the edge rotated by 90°: `n' = ∂²g/∂u_A∂φ_B = −∂²g/∂u_B∂φ_B`.
     pub normal_turned: Vec2,
-    /// `ρ·n = ∂²g/∂φ_A∂φ_B = −∂²g/∂φ_A²`.
+    /// Arm of the corner along the normal: `ρ·n = ∂²g/∂φ_A∂φ_B = −∂²g/∂φ_A²`.
     pub arm: f64,
-    /// `−D·n = ∂²g/∂φ_B²`.
+    /// Negative distance of the corner from the node of `B`, along the normal: `−D·n = ∂²g/∂φ_B²`.
     pub distance: f64,
 }
 
@@ -161,8 +161,8 @@ pub struct Pair {
     scales: [Parallelogram; 2],
     /// Vector from the node of the left scale to the node of the right scale at rest.
     offset: Vec2,
-    /// Undeformed corner and edge of each contact, in the order of [`CornerEdge`].
-    meetings: [(Vec2, Edge); 6],
+    /// Corner and edge of each contact in the scales at rest, in the order of [`CornerEdge`].
+    undeformed: [(Vec2, Edge); 6],
 }
 
 /// Undeformed edge of a scale.
@@ -228,13 +228,13 @@ impl Pair {
     ///
     /// `offset` is the vector from the left to the right node at rest, in units of `t`.
     pub fn between(scales: [Parallelogram; 2], offset: Vec2) -> Self {
-        let meetings = CornerEdge::ALL.map(|corner_edge| {
+        let undeformed = CornerEdge::ALL.map(|corner_edge| {
             let [left, right] = &scales;
             let (a, b) = if corner_edge.corner_is_left() { (left, right) } else { (right, left) };
             let (_, corner, edge) = corner_edge.parts();
             (a.corner(corner), edge(b))
         });
-        Self { scales, offset, meetings }
+        Self { scales, offset, undeformed }
     }
 
     /// Returns the shapes of the left and the right scale.
@@ -249,7 +249,7 @@ impl Pair {
 
     /// Returns the outward normal of the edge of `corner_edge` in the scale at rest.
     pub fn normal(&self, corner_edge: CornerEdge) -> Vec2 {
-        self.meetings[corner_edge as usize].1.normal
+        self.undeformed[corner_edge as usize].1.normal
     }
 
     /// Computes the gap between a corner and an edge, with first and second derivatives.
@@ -267,8 +267,8 @@ impl Pair {
     /// ```
     #[inline]
     pub fn gap(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Gap {
-        let meeting = self.meeting(corner_edge, left, right);
-        meeting.along(corner_edge, meeting.normal, meeting.gap)
+        let position = self.position(corner_edge, left, right);
+        position.along(corner_edge, position.normal, position.gap)
     }
 
     /// Computes the tangential coordinate of a corner along an edge, with derivatives.
@@ -278,19 +278,19 @@ impl Pair {
     /// counter-clockwise. Value and derivatives follow from (C1) to (C3) of [`Pair::gap`] with `n'`
     /// for `n` and `e = 0`. The field `normal` of the result is `n'`.
     pub fn slide(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Gap {
-        let meeting = self.meeting(corner_edge, left, right);
-        let along = quarter(meeting.normal);
-        meeting.along(corner_edge, along, meeting.to_corner.dot(&along))
+        let position = self.position(corner_edge, left, right);
+        let along = quarter(position.normal);
+        position.along(corner_edge, along, position.to_corner.dot(&along))
     }
 
     /// Computes the gap between a corner and an edge without derivatives.
     pub fn distance(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> f64 {
-        self.meeting(corner_edge, left, right).gap
+        self.position(corner_edge, left, right).gap
     }
 
     /// Computes the position of the foot of a corner on an edge, defined as in [`Gap::foot`].
     pub(crate) fn foot(&self, corner_edge: CornerEdge, [left, right]: [&Pose; 2]) -> f64 {
-        self.meeting(corner_edge, left, right).foot
+        self.position(corner_edge, left, right).foot
     }
 
     /// Returns the first of `corner_edges` for which the foot of the corner lies within the edge.
@@ -298,22 +298,22 @@ impl Pair {
         &self,
         corner_edges: [CornerEdge; 2],
         [left, right]: [&Pose; 2],
-    ) -> Option<(CornerEdge, Meeting)> {
+    ) -> Option<(CornerEdge, CornerPosition)> {
         corner_edges.into_iter().find_map(|corner_edge| {
-            let meeting = self.meeting(corner_edge, left, right);
-            (0.0..=1.0).contains(&meeting.foot).then_some((corner_edge, meeting))
+            let position = self.position(corner_edge, left, right);
+            (0.0..=1.0).contains(&position.foot).then_some((corner_edge, position))
         })
     }
 
     /// Computes the position of a corner relative to an edge in the given poses.
     #[inline]
-    fn meeting(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Meeting {
+    fn position(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> CornerPosition {
         let (corner_pose, edge_pose, offset) = if corner_edge.corner_is_left() {
             (left, right, -self.offset)
         } else {
             (right, left, self.offset)
         };
-        let (corner, edge) = &self.meetings[corner_edge as usize];
+        let (corner, edge) = &self.undeformed[corner_edge as usize];
         let arm = corner_pose.turn(*corner);
         // Only relative positions are used, so the precision does not depend on the position of the
         // pair in a long row.
@@ -321,12 +321,12 @@ impl Pair {
         let normal = edge_pose.turn(edge.normal);
         let gap = to_corner.dot(&normal) - edge.distance;
         let foot = (to_corner - edge_pose.turn(edge.start)).dot(&edge_pose.turn(edge.along));
-        Meeting { arm, normal, to_corner, gap, foot }
+        CornerPosition { arm, normal, to_corner, gap, foot }
     }
 }
 
 /// Position of a corner relative to an edge of the neighbour, in deformed poses.
-pub(crate) struct Meeting {
+pub(crate) struct CornerPosition {
     /// Vector `ρ` from the node of the scale with the corner to the corner.
     arm: Vec2,
     /// Outward normal `n` of the edge.
@@ -339,7 +339,7 @@ pub(crate) struct Meeting {
     foot: f64,
 }
 
-impl Meeting {
+impl CornerPosition {
     /// Returns the gradient of the gap.
     pub(crate) fn gradient(&self, corner_edge: CornerEdge) -> [f64; 6] {
         self.gradient_along(corner_edge, self.normal)
@@ -358,7 +358,7 @@ impl Meeting {
         }
     }
 
-    /// Adds the derivatives to the coordinate `value` of the corner along `direction`.
+    /// Returns the coordinate `value` of the corner along `direction` with its derivatives.
     ///
     /// `direction` is fixed to the edge: its normal, or the normal rotated by 90°.
     #[inline]

@@ -15,7 +15,7 @@ impl Law {
     /// Constants as printed by Shafiei et al. (2021): `C₁ = 1.1`, `C₂ = 0.23`.
     pub const PRINTED: Self = Self { c1: 1.1, c2: 0.23 };
 
-    /// Printed constants with exchanged values, which agree better with finite elements.
+    /// Printed values with `C₁` and `C₂` exchanged, which agree better with finite elements.
     pub const EXCHANGED: Self = Self { c1: 0.23, c2: 1.1 };
 }
 
@@ -109,7 +109,7 @@ impl ContactLaw {
             return self.first_approach(n, ratio / SMALLEST_FORCE);
         }
         let value = self.length * ratio.abs().powf(n).copysign(ratio);
-        // Computed from the value, because a second power would be expensive.
+        // The slope is computed from the value, because a second power would be expensive.
         let slope = if ratio.abs() > SMALLEST_FORCE {
             n * value / force
         } else {

@@ -25,14 +25,14 @@ pub struct Overlap {
 
 /// Returns all pairs of scales of a row that overlap, also pairs that are not neighbours.
 ///
-/// `standing(i)` returns the shape of scale `i` and the position of its node at rest. `poses[i]`
+/// `at_rest(i)` returns the shape of scale `i` and the position of its node at rest. `poses[i]`
 /// contains the displacement from this position.
-pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, Vec2), poses: &[Pose]) -> Vec<Overlap> {
+pub fn overlaps(at_rest: impl Fn(usize) -> (Parallelogram, Vec2), poses: &[Pose]) -> Vec<Overlap> {
     let extents: Vec<Extents> = poses
         .iter()
         .enumerate()
         .map(|(i, pose)| {
-            let (scale, node) = standing(i);
+            let (scale, node) = at_rest(i);
             Extents::new(&scale, pose, node)
         })
         .collect();
@@ -49,9 +49,9 @@ pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, Vec2), poses: &[Pose
             if extents[left].are_apart(&extents[right]) {
                 continue;
             }
-            let ((first, here), (second, there)) = (standing(left), standing(right));
+            let ((first, from), (second, to)) = (at_rest(left), at_rest(right));
             let poses = [&poses[left], &poses[right]];
-            if let Some(depth) = depth([&first, &second], there - here, poses) {
+            if let Some(depth) = depth([&first, &second], to - from, poses) {
                 overlaps.push(Overlap { left, right, depth });
             }
         }
@@ -92,7 +92,7 @@ pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &
     let [first, second] = [(left, Vec2::zeros()), (right, Vec2::new(offset, 0.0))]
         .map(|(pose, at)| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y)));
     let mut polygon = Vec::new();
-    // This function is unreliable if edges lie on each other, so use it only for drawings.
+    // The library function is unreliable if edges lie on each other, so use it only for drawings.
     convex_polygons_intersection_points(&first, &second, &mut polygon);
     polygon.iter().map(|v| Vec2::new(v.x, v.y)).collect()
 }
@@ -106,8 +106,8 @@ fn depth(scales: [&Parallelogram; 2], offset: Vec2, poses: [&Pose; 2]) -> Option
         ConvexPolygon::from_convex_polyline_unmodified(points.to_vec())
     });
     // The corners are already in their deformed positions.
-    let here = Placement::IDENTITY;
-    let contact = query::contact(&here, &first?, &here, &second?, 0.0).ok()??;
+    let placement = Placement::IDENTITY;
+    let contact = query::contact(&placement, &first?, &placement, &second?, 0.0).ok()??;
     (contact.dist < 0.0).then_some(-contact.dist)
 }
 

@@ -69,16 +69,17 @@ impl CornerContact {
 
     /// Evaluates the balance, and the conditions of the forces that act.
     ///
-    /// `held` is a ratio of friction to normal force for corner on corner. For each normal force on
-    /// the left scale, the balance contains a friction force: the normal force times `held`,
-    /// rotated by 90° counter-clockwise, at the corner of this normal force. `held` is the ratio at
-    /// which the corners coincided. Friction does not enter the contact law.
+    /// `friction_ratio` is used only for corner on corner. It is the ratio of friction to normal
+    /// force at the time when the corners coincided. For each normal force on the left scale, the
+    /// balance contains a friction force: the normal force times `friction_ratio`, rotated by 90°
+    /// counter-clockwise, at the corner of this normal force. Friction does not enter the contact
+    /// law.
     pub fn acting_response(
         self,
         corners: &Corners,
         law: &ContactLaw,
         forces: [f64; FORCES],
-        held: f64,
+        friction_ratio: f64,
     ) -> CornerResponse {
         match self {
             Self::Open => CornerResponse::default(),
@@ -89,9 +90,9 @@ impl CornerContact {
                 // Each friction force acts at the corner that rests on its edge. The corners are
                 // the approach `δ` apart, so with one common point of action the moments would
                 // jump when a corner reaches or leaves the end of its edge.
-                if held != 0.0 {
+                if friction_ratio != 0.0 {
                     for (which, edge) in [Force::Own, Force::Partner].into_iter().zip(edges) {
-                        response.add_force(which, &corners.slide(edge), forces, held);
+                        response.add_force(which, &corners.slide(edge), forces, friction_ratio);
                     }
                 }
                 response
@@ -109,10 +110,10 @@ impl CornerContact {
         }
     }
 
-    /// Returns the contact forces on the left scale: at the two corners, and of the flush contact.
+    /// Returns the contact forces on the left scale, as two vectors.
     ///
-    /// The first vector is the sum of `λ` and `λ'` with their directions, the second belongs to
-    /// `λ''`. The forces on the right scale are opposite.
+    /// The first vector is the sum of the forces `λ` and `λ'`, the second vector is the force `λ''`
+    /// of the flush contact. The forces on the right scale are opposite.
     pub fn forces_on_left(self, corners: &Corners, forces: [f64; FORCES]) -> [Vec2; 2] {
         let [own, partner, flush] = forces;
         match self {
@@ -166,8 +167,8 @@ impl CornerResponse {
 
 /// Evaluates the condition of an open contact, its gap; `None` if no corner faces an edge.
 fn open_condition(corners: &Corners) -> Option<Equation> {
-    let (edge, meeting) = corners.meeting()?;
-    let (value, by_coordinate) = (meeting.gap, meeting.gradient(edge));
+    let (edge, position) = corners.facing_position()?;
+    let (value, by_coordinate) = (position.gap, position.gradient(edge));
     Some(Equation { value, by_coordinate, ..Equation::default() })
 }
 
@@ -334,7 +335,7 @@ impl Together {
 
     /// Returns the derivative of the force `f` with respect to a coordinate of the pair.
     ///
-    /// It is not zero only for rotations, because each normal rotates with the scale of its edge.
+    /// The derivative is zero for displacements. A normal rotates with the scale of its edge.
     fn force_slope(&self, forces: [f64; 2], coordinate: usize) -> Vec2 {
         let mut slope = Vec2::zeros();
         for ((&normal, &turn), force) in self.normals.iter().zip(&self.turns).zip(forces) {

@@ -12,10 +12,10 @@ use crate::response::{COORDINATES, ROTATIONS, Secant, Together};
 /// [[A, B], [Bᵀ, −C]]      stiffness  A + B C⁻¹ Bᵀ                                     (C8)
 /// ```
 ///
-/// The force components are `λ` on an edge, and `λ` and `λ''` for a flush contact. Corner on corner
-/// has the components of `f` along fixed axes, because the directions of `λ` and `λ'` rotate with
-/// the scales, so that the tangent would not be symmetric. `C` is positive semidefinite, and zero
-/// for a rigid contact.
+/// The force components are `λ` on an edge, and `λ` and `λ''` for a flush contact. In the state
+/// corner on corner they are the components of `f` along fixed axes. With `λ` and `λ'` the tangent
+/// would not be symmetric, because their directions rotate with the scales. `C` is positive
+/// semidefinite, and zero for a rigid contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactStiffness {
     /// Matrix `A`, in the coordinates of the pair.

@@ -30,7 +30,7 @@ const COUPLED: usize = COORDINATES + FORCES;
 
 /// Contact state at one level of a pair, with its law.
 ///
-/// An argument `z` of its functions contains the coordinates of the pair and the three forces.
+/// The argument `z` of its methods contains the coordinates of the pair and the three forces.
 struct Case {
     level: Level,
     contact: CornerContact,
@@ -50,16 +50,16 @@ impl Case {
         Corners::new(self.level, &self.pair, [&left, &right]).facing().map(|(edge, _)| edge)
     }
 
-    /// Evaluates the response with the ratio `held` of friction to normal force at corners.
-    fn with_friction(&self, z: &[f64; COUPLED], held: f64) -> CornerResponse {
+    /// Evaluates the response with a ratio of friction to normal force at corners.
+    fn with_friction(&self, z: &[f64; COUPLED], ratio: f64) -> CornerResponse {
         let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
         let acting = self.contact.acting();
         let forces = std::array::from_fn(|k| if acting[k] { z[COORDINATES + k] } else { 0.0 });
         let corners = Corners::new(self.level, &self.pair, [&left, &right]);
-        if held == 0.0 {
+        if ratio == 0.0 {
             return self.contact.response(&corners, &self.law, forces);
         }
-        self.contact.acting_response(&corners, &self.law, forces, held)
+        self.contact.acting_response(&corners, &self.law, forces, ratio)
     }
 
     /// Adds to `balance` the friction of a corner that slides on an edge.
@@ -132,16 +132,16 @@ proptest! {
     #[test]
     fn tangents_of_corners_with_friction_agree_with_finite_differences(
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
-        forces in prop::array::uniform3(0.2_f64..2.0), held in -0.6_f64..0.6,
+        forces in prop::array::uniform3(0.2_f64..2.0), ratio in -0.6_f64..0.6,
     ) {
         let case = case(edge, slant, Law::PRINTED, CornerContact::Corner);
         let z = with(q, forces);
-        let ours = case.with_friction(&z, held).balance;
+        let ours = case.with_friction(&z, ratio).balance;
         for j in 0..COORDINATES + 2 {
             let [low, high] = [-1e-6, 1e-6].map(|h| {
                 let mut z = z;
                 z[j] += h;
-                case.with_friction(&z, held).balance.map(|equation| equation.value)
+                case.with_friction(&z, ratio).balance.map(|equation| equation.value)
             });
             for (ours, (low, high)) in ours.iter().zip(low.iter().zip(&high)) {
                 let difference = (high - low) / 2e-6;
@@ -232,19 +232,19 @@ proptest! {
     ) {
         let closed = closed(edge, state);
         let ours = case(edge, slant, Law::EXCHANGED, closed);
-        let there = case(5 - edge, slant, Law::EXCHANGED, closed);
+        let rotated = case(5 - edge, slant, Law::EXCHANGED, closed);
         let turned = half_turn(slant, &q);
-        let (ours, there) = (ours.at(&with(q, forces)), there.at(&with(turned, forces)));
-        for (ours, there) in ours.conditions.iter().zip(&there.conditions) {
-            prop_assert_eq!(ours.is_some(), there.is_some());
-            if let (Some(ours), Some(there)) = (ours, there) {
-                assert_relative_eq!(ours.value, there.value, epsilon = 1e-12);
+        let (ours, rotated) = (ours.at(&with(q, forces)), rotated.at(&with(turned, forces)));
+        for (ours, rotated) in ours.conditions.iter().zip(&rotated.conditions) {
+            prop_assert_eq!(ours.is_some(), rotated.is_some());
+            if let (Some(ours), Some(rotated)) = (ours, rotated) {
+                assert_relative_eq!(ours.value, rotated.value, epsilon = 1e-12);
             }
         }
         // The rotation reverses forces and exchanges the left and the right scale.
         for (k, row) in [3, 4, 0, 1].into_iter().enumerate() {
             let column = [0, 1, 3, 4][k];
-            assert_relative_eq!(ours.balance[column].value, -there.balance[row].value, epsilon = 1e-12);
+            assert_relative_eq!(ours.balance[column].value, -rotated.balance[row].value, epsilon = 1e-12);
         }
     }
 }
@@ -269,7 +269,7 @@ fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
 
 /// Places a corner exactly at the end of an edge of the other scale.
 ///
-/// At this point balance and conditions must agree between both states.
+/// At this point balance and conditions must be equal in the states edge and corner on corner.
 #[test]
 fn edge_and_corner_states_agree_at_their_transition() {
     let (alike, leaning) = ([-0.05, 0.03], [0.05, -0.03]);

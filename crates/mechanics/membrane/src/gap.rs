@@ -40,8 +40,8 @@ pub struct Span {
 ///
 /// so element `k` contributes to the six entries of `u` from `3k` on, and the tangent of a row of
 /// gaps is block-tridiagonal. An element only uses the difference between the displacements of its
-/// two bodies and their distance at rest. The precision therefore does not depend on the position
-/// of the gap in a long row, except for the rounding of the displacements.
+/// two bodies and the distance of the bodies at rest. The precision therefore does not depend
+/// on the position of the gap in a long row, except for the rounding of the displacements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapMembrane {
     section: Section,
@@ -50,7 +50,7 @@ pub struct GapMembrane {
     span: Span,
 }
 
-/// Energies of the membrane in a gap, and the derivatives of their sum by the state `u`.
+/// Energies of the membrane in a gap, and the derivatives of their sum with respect to `u`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GapResponse {
     /// Stretching energy of all elements.
@@ -227,9 +227,9 @@ impl GapMembrane {
         }
     }
 
-    /// Returns the poses of the two nodes that element `k` connects.
+    /// Returns the poses of the two nodes that element `k` connects, relative to the first node.
     ///
-    /// The first node is the origin. `u` contains the displacements of both nodes.
+    /// `u` contains the displacements and rotations of both nodes.
     fn bodies(&self, k: usize, u: &Ends) -> Ends {
         let at_rest = self.rest_position(k + 1) - self.rest_position(k);
         Ends::new(0.0, 0.0, u[2], at_rest.x + (u[3] - u[0]), at_rest.y + (u[4] - u[1]), u[5])

@@ -73,7 +73,7 @@ impl Lobatto {
     ///
     /// Uses the barycentric formula.
     pub(crate) fn interpolate(&self, values: &DVector<f64>, xi: f64) -> f64 {
-        let (mut above, mut below) = (0.0, 0.0);
+        let (mut numerator, mut denominator) = (0.0, 0.0);
         for i in 0..values.len() {
             let distance = xi - self.points[i];
             // At one of the points the formula would divide infinity by infinity.
@@ -81,10 +81,10 @@ impl Lobatto {
                 return values[i];
             }
             let weight = 1.0 / (self.legendre[i] * distance);
-            above += weight * values[i];
-            below += weight;
+            numerator += weight * values[i];
+            denominator += weight;
         }
-        above / below
+        numerator / denominator
     }
 }
 

@@ -84,7 +84,7 @@ impl RowTangent {
         let none = vec![false; self.rhs.len()];
         group.bench_function(BenchmarkId::new("band LU", self.scales), |bencher| {
             bencher.iter(|| {
-                lu.factorise(black_box(&matrix), &none).expect("a regular matrix");
+                lu.factorise(black_box(&matrix), &none).expect("the matrix is regular");
                 let mut x = self.rhs.clone();
                 lu.solve(&mut x);
                 x

@@ -15,12 +15,13 @@ const WIDE: usize = LINK * FARTHEST_LINK;
 
 /// True if only matrices of reach 1 are eliminated block by block.
 ///
-/// For a larger reach [`BlockElimination::factorise`] then returns an error, and the caller uses a
-/// band LU factorisation. In a WebAssembly module the code for a larger reach would take up a
-/// twelfth of the size, and speed matters less, because a page solves one design at a time.
+/// If this is true, [`BlockElimination::factorise`] returns an error for a larger reach, and the
+/// caller uses a band LU factorisation. In a WebAssembly module the code for a larger reach would
+/// take up a twelfth of the size, and speed matters less, because a page solves one design at a
+/// time.
 const IS_SMALL: bool = cfg!(target_arch = "wasm32");
 
-/// Smallest pivot relative to the largest entry of its column.
+/// Smallest acceptable pivot, relative to the largest entry of its column.
 ///
 /// With a smaller pivot, elimination would lose digits that row exchanges between blocks can keep.
 const SMALL: f64 = 1e-9;
@@ -42,10 +43,11 @@ pub struct UnsafeBlock {
 
 /// Factorisation of a [`BlockMatrix`] by elimination from both ends towards the root.
 ///
-/// For a block, `D` is its diagonal matrix after elimination of the outer neighbours, `C` contains
-/// its entries in the columns of the inner links, and `B` the entries of its columns in the rows of
-/// the inner links. Elimination of the block subtracts `B D⁻¹ C` from the inner blocks (Golub & Van
-/// Loan, *Matrix Computations*, 4th ed. 2013, §4.5.1, isbn 978-1-4214-0794-4).
+/// `D` is the diagonal matrix of a block after elimination of the outer neighbours. `C` contains
+/// the entries in the rows of the block and the columns of the inner links, `B` the entries in the
+/// rows of the inner links and the columns of the block. Elimination of the block subtracts
+/// `B D⁻¹ C` from the inner blocks (Golub & Van Loan, *Matrix Computations*, 4th ed. 2013, §4.5.1,
+/// isbn 978-1-4214-0794-4).
 ///
 /// Rows are exchanged only within a block. This is as stable as partial pivoting as long as each
 /// block is regular if its inner neighbours are fixed; otherwise a small pivot reveals the singular
@@ -56,7 +58,7 @@ pub struct BlockElimination {
     ///
     /// Factorisation replaces each `D` by its LU factors and each `C` by `D⁻¹ C`.
     pub matrix: BlockMatrix,
-    /// For each position, the row within its block with which its row was exchanged.
+    /// For each position, the row with which its row was exchanged, as an index within the block.
     exchanges: Vec<usize>,
     /// For each block, true if the determinant of `D` is negative.
     negative: Vec<bool>,
@@ -67,7 +69,7 @@ pub struct BlockElimination {
 /// Matrix that elimination subtracts from the links of the inner neighbours.
 type Update<const W: usize> = [[f64; W]; W];
 
-/// Calls a generic method with the block size and the number `W` of columns `C` as constants.
+/// Calls a generic method with the block size and the number `W` of columns of `C` as constants.
 ///
 /// Evaluates `$refused` if the block size is zero or above [`LARGEST_BLOCK`].
 macro_rules! with_size {
@@ -175,7 +177,7 @@ impl BlockElimination {
         let (start, is_root) = (self.matrix.starts[block], block == self.matrix.root);
         let link = self.matrix.links[block] - start;
         let (d, c, b) = self.matrix.parts_mut::<N, W>(block)?;
-        // The reference is the size of the entries before the update is subtracted, so that a pivot
+        // Pivots are compared with the entries before the update is subtracted, so that a pivot
         // that is small by cancellation is detected.
         let least = least_pivots(d);
         for i in 0..LINK {
@@ -203,7 +205,7 @@ impl BlockElimination {
         for (work, &kept) in self.work.iter_mut().zip(&self.matrix.kept) {
             *work = x[kept];
         }
-        self.inwards([0, self.matrix.blocks() - 1]);
+        self.substitute_at_reach([0, self.matrix.blocks() - 1]);
         for (x, solution) in x.iter_mut().zip(self.solution()) {
             *x = solution;
         }
@@ -217,14 +219,14 @@ impl BlockElimination {
         let position = self.matrix.positions[unknown];
         self.work[position] = 1.0;
         let block = self.matrix.starts.partition_point(|&start| start <= position) - 1;
-        self.inwards([block, self.matrix.root]);
+        self.substitute_at_reach([block, self.matrix.root]);
         self.solution().collect()
     }
 
-    /// Replaces the right-hand side in `work` by the solution, at the reach of the matrix.
+    /// Replaces the right-hand side in `work` by the solution, with code compiled for the reach.
     ///
     /// The right-hand side must be zero before the first and after the second block of `between`.
-    fn inwards(&mut self, between: [usize; 2]) {
+    fn substitute_at_reach(&mut self, between: [usize; 2]) {
         if self.matrix.reach == 1 || IS_SMALL {
             self.substitute::<NARROW>(between);
         } else {
@@ -232,7 +234,7 @@ impl BlockElimination {
         }
     }
 
-    /// Substitutes inwards from the blocks `first` and `last` to the root, then outwards to all.
+    /// Substitutes inwards from `first` and `last` to the root, then outwards to all blocks.
     #[inline(always)]
     fn substitute<const W: usize>(&mut self, [first, last]: [usize; 2]) {
         let (root, blocks) = (self.matrix.root, self.matrix.blocks());
@@ -250,7 +252,7 @@ impl BlockElimination {
         self.matrix.reach.min(block.abs_diff(self.matrix.root))
     }
 
-    /// Returns the first position in the link of the block `away` blocks nearer to the root.
+    /// Returns the first position of the link of the inner neighbour `away` blocks from `block`.
     fn inner_link(&self, block: usize, away: usize) -> usize {
         let inner = if block < self.matrix.root { block + away } else { block - away };
         self.matrix.links[inner]
@@ -338,10 +340,10 @@ impl BlockElimination {
     }
 }
 
-/// Replaces the contribution to a block by the contribution to its inner neighbours.
+/// Replaces `update`, the contribution to a block, by the contribution to its inner neighbours.
 ///
-/// The new contribution is `B c` with `c = D⁻¹ C`, plus the entries of the old one that belong to
-/// links beyond the block.
+/// The new contribution is `B c` with `c = D⁻¹ C`, plus the entries of the old contribution that
+/// belong to links beyond the block.
 #[inline(always)]
 fn propagate<const N: usize, const W: usize>(
     update: &mut Update<W>,

@@ -1,7 +1,7 @@
 //! Matrices of small blocks, each coupled with the next block or with several next blocks.
 #![expect(
     clippy::inline_always,
-    reason = "callers know the indices within a block, and adding takes a twentieth of a sweep"
+    reason = "the compiler then folds constant indices; additions take a twentieth of a sweep"
 )]
 
 use crate::tangent::Tangent;
@@ -51,7 +51,7 @@ pub struct Blocks {
 pub struct BlockMatrix {
     /// Number of the root block.
     pub(crate) root: usize,
-    /// Number of inner neighbours for which storage exists.
+    /// Number of inner neighbours of a block for which entries are stored.
     pub(crate) reach: usize,
     /// First position of each block, followed by the number of positions.
     pub(crate) starts: Vec<usize>,
@@ -63,17 +63,17 @@ pub struct BlockMatrix {
     blocks: Vec<usize>,
     /// Position of each unknown, or [`LEFT_OUT`].
     pub(crate) positions: Vec<usize>,
-    /// Index of the first value of each block.
+    /// Index in `values` of the first value of each block.
     pub(crate) at: Vec<usize>,
-    /// Offset of the row at each position for entries within its block.
+    /// For each position, the offset in `values` of its row for entries within its block.
     ///
     /// The index of a value is this offset plus the position of the column.
     within: Vec<usize>,
-    /// Offset of the row at each position for entries in the columns of inner links.
+    /// For each position, the offset in `values` of its row for columns of inner links.
     ///
     /// The index of a value is this offset plus the entry of `in_links` for the column.
     coupling: Vec<usize>,
-    /// Number of the unknown at each position among the unknowns of all links, or [`LEFT_OUT`].
+    /// For each position, its index among the unknowns of all links, or [`LEFT_OUT`] outside links.
     in_links: Vec<usize>,
     /// Values of all blocks.
     pub(crate) values: Vec<f64>,
@@ -157,7 +157,7 @@ impl BlockMatrix {
         self.starts[block + 1] - self.starts[block]
     }
 
-    /// Returns the distance from `C` to `Bᵀ` in the storage of the block of a position.
+    /// Returns the number of values of `C`, which precede `Bᵀ`, in the block of a position.
     fn behind(&self, position: usize) -> usize {
         self.width() * self.size_of(self.blocks[position])
     }
@@ -171,7 +171,7 @@ impl BlockMatrix {
         (d, coupling.as_chunks().0.split_at(size).into())
     }
 
-    /// Returns the mutable parts of a block; `N` must be its number of unknowns.
+    /// Returns mutable references to `D`, `C` and `Bᵀ` of a block of `N` unknowns.
     #[inline(always)]
     pub(crate) fn parts_mut<const N: usize, const W: usize>(
         &mut self,
@@ -197,23 +197,23 @@ impl BlockMatrix {
         self.values[self.index(row, column)]
     }
 
-    /// Returns true if the matrix stores the entry at two positions.
+    /// Returns true if the matrix stores the entry at the positions `row` and `column`.
     fn is_coupled(&self, row: usize, column: usize) -> bool {
         self.blocks[row] == self.blocks[column]
             || self.is_linked(row, column)
             || self.is_linked(column, row)
     }
 
-    /// Returns true if position `inner` is in the link of an inner neighbour of the other block.
+    /// Returns true if the block of position `outer` is coupled with the position `inner`.
     ///
-    /// The other block contains position `outer`.
+    /// `inner` must belong to the link of an inner neighbour that is at most `reach` blocks away.
     fn is_linked(&self, outer: usize, inner: usize) -> bool {
         let (from, to) = (self.blocks[outer], self.blocks[inner]);
         let is_inward = if from < to { to <= self.root } else { to >= self.root };
         is_inward && from.abs_diff(to) <= self.reach && self.in_links[inner] != LEFT_OUT
     }
 
-    /// Returns the part to which the entry at two positions belongs.
+    /// Returns the part to which the entry at the positions `row` and `column` belongs.
     #[inline(always)]
     fn part(&self, row: usize, column: usize) -> Part {
         debug_assert!(
@@ -230,7 +230,7 @@ impl BlockMatrix {
         }
     }
 
-    /// Returns the index in `values` of the entry at two positions.
+    /// Returns the index in `values` of the entry at the positions `row` and `column`.
     #[inline(always)]
     fn index(&self, row: usize, column: usize) -> usize {
         match self.part(row, column) {
@@ -255,8 +255,8 @@ impl Tangent for BlockMatrix {
 
     /// Adds `values` along the diagonal that starts at (`row`, `column`).
     ///
-    /// The rows must be successive unknowns of one block, and none of them may be left out. The same
-    /// applies to the columns.
+    /// The rows must be successive unknowns of one block, and none of them may be left out. The
+    /// same applies to the columns.
     #[inline(always)]
     fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
         let (row, column) = (self.positions[row], self.positions[column]);
@@ -272,8 +272,8 @@ impl Tangent for BlockMatrix {
 
     /// Adds a block of `values` with its first entry at (`row`, `column`).
     ///
-    /// The rows must be successive unknowns of one block, and none of them may be left out. The same
-    /// applies to the columns.
+    /// The rows must be successive unknowns of one block, and none of them may be left out. The
+    /// same applies to the columns.
     #[inline(always)]
     fn add_block<const R: usize, const C: usize>(
         &mut self,

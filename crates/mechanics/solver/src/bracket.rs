@@ -9,7 +9,7 @@
 pub struct Bracket {
     /// Argument and value at the two ends.
     ends: [(f64, f64); 2],
-    /// Index of the end replaced last, or `None` to halve after every replacement.
+    /// Index of the end replaced last, or `None` if every replacement halves the other value.
     last: Option<usize>,
 }
 

@@ -6,10 +6,10 @@ use crate::system::{Residual, State, System};
 /// Relative step of an unknown in a difference quotient.
 const STEP: f64 = 1e-5;
 
-/// Smallest magnitude of an unknown for the computation of its step.
+/// Lower limit of the magnitude of an unknown in the computation of its step.
 ///
-/// The unknowns of constraints have no such limit, because a function of a force may vary over
-/// arbitrarily small forces, as in a power law.
+/// The limit does not apply to unknowns of constraints, such as contact forces, because a power law
+/// of a force changes its slope at arbitrarily small forces.
 const SMALL: f64 = 0.01;
 
 /// Error for a derivative that differs from the difference quotient of the residual.

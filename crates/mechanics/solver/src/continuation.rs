@@ -18,9 +18,9 @@ use crate::termination::Termination;
 
 /// Smallest rate of the control parameter for steps that prescribe its increment.
 ///
-/// The rate is per unit of arc length. At a lower rate the control parameter is about to reverse: a
-/// step would be more than twenty times as long along the path as in the control parameter. Such
-/// steps prescribe the arc length instead.
+/// The rate is per unit of arc length. At a lower rate the control parameter is about to reverse,
+/// and steps prescribe the arc length instead: otherwise a step would be more than twenty times as
+/// long along the path as in the control parameter.
 const DRIVES: f64 = 0.05;
 
 /// Equilibrium of a path, with the incoming and outgoing direction of the path.
@@ -186,7 +186,7 @@ impl<S: System> Continuation<S> {
         self.newton = Newton::new(&system);
         self.newton.work = work;
         self.coordinates = system.coordinates();
-        let left = std::mem::replace(&mut self.system, system);
+        let previous = std::mem::replace(&mut self.system, system);
         self.termination = None;
         let condition = self.condition(&point);
         match self.newton.solve(&self.system, &mut point.state, &condition, &self.settings) {
@@ -198,7 +198,7 @@ impl<S: System> Continuation<S> {
         }
         self.newton.history = history;
         self.set_point(point);
-        left
+        previous
     }
 
     /// Returns the work so far, in units of [`Settings::max_work`].
@@ -242,7 +242,7 @@ impl<S: System> Continuation<S> {
     ///
     /// The segment lies between two successive points. The first length is in units of the outgoing
     /// direction of `from`, the second in units of the incoming direction of `to`. A direction
-    /// times its length is the derivative with respect to the fraction of
+    /// times its length is the derivative of the unknowns with respect to `fraction` in
     /// [`Continuation::between`].
     pub fn spans(&self, from: &Equilibrium<S::Mode>, to: &Equilibrium<S::Mode>) -> [f64; 2] {
         [&from.leaving, &to.arriving].map(|direction| self.rate_in(from, to, direction))
@@ -250,8 +250,8 @@ impl<S: System> Continuation<S> {
 
     /// Returns the length of a segment in units of `direction`.
     ///
-    /// The direction times this length is the derivative with respect to the fraction of
-    /// [`Continuation::between`].
+    /// The direction times this length is the derivative of the unknowns with respect to `fraction`
+    /// in [`Continuation::between`].
     pub(crate) fn rate_in(
         &self,
         from: &Equilibrium<S::Mode>,

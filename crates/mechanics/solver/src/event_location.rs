@@ -18,7 +18,7 @@ const FARTHER: f64 = 1.5;
 /// Largest magnitude of the guard of a constraint that changes together with a located event.
 const TOGETHER: f64 = 1e-10;
 
-/// Largest magnitude of a slope that counts as zero.
+/// Largest magnitude of the slope of a guard that counts as zero.
 ///
 /// Typical slopes are of order 1 and their round-off of order 1e-11.
 pub(crate) const NO_RATE: f64 = 1e-6;
@@ -32,8 +32,8 @@ pub(crate) const ELSEWHERE: f64 = 1e-4;
 
 /// Tolerance for the location of an extremum.
 ///
-/// It is relative to the initial bracket for the width of the bracket, and relative to the rate at
-/// the start of the step for the remaining rate.
+/// The search ends if the width of the bracket divided by its initial width, or the rate of the
+/// unknown divided by its rate at the start of the step, is at most this number.
 const CLOSE: f64 = 1e-9;
 /// Maximum number of iterations in the search for an extremum.
 const MAX_ROUNDS: usize = 100;
@@ -116,9 +116,9 @@ impl<S: System> Continuation<S> {
     pub(crate) fn first_violated(&self, after: &[f64]) -> Option<usize> {
         let mut first = (f64::INFINITY, None);
         for (c, (&before, &after)) in self.guards.iter().zip(after).enumerate() {
-            // By the error of the last event a rising guard, such as a slip distance that grows
-            // slowly, may be slightly negative at the start of the step. It is violated only if it
-            // decreases further.
+            // Because of the error of the last event, a rising guard, such as a slip distance that
+            // grows slowly, may be slightly negative at the start of the step. Its constraint is
+            // violated only if the guard decreases further.
             let rises = before > -ELSEWHERE && self.slopes[c] > NO_RATE;
             let floor = if rises { FLOOR.max(-before) } else { FLOOR };
             if after < -floor {
@@ -172,10 +172,10 @@ impl<S: System> Continuation<S> {
         };
         let rises = self.guards[constraint] <= TOGETHER && self.slopes[constraint] > 0.0;
         if changed || rises {
-            // The constraint has changed at the current point, or a transition has passed its
-            // condition on to this constraint, and the outgoing direction satisfies it. The step
-            // was too long if it violates the constraint. A search for the zero of the guard would
-            // return to the current point, and the path would then reverse.
+            // The constraint has changed at the current point, or its guard is zero there after a
+            // transition. The outgoing direction satisfies the constraint, so a step that violates
+            // the constraint was too long. A search for the zero of the guard would return to the
+            // current point, and the path would then reverse.
             let is_sliding = self.system.coupled(constraint).len() > 1;
             let is_at_no_rate = self.slopes[constraint].abs() < NO_RATE;
             self.undone += usize::from(changed && is_sliding && is_at_no_rate);
@@ -271,8 +271,8 @@ impl<S: System> Continuation<S> {
         mut candidate: Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();
-        // A load extremum is a point of the path. If the step starts at a load extremum, the rate
-        // of the load changes sign there, so no search is needed.
+        // Each load extremum becomes a point of the path. If the step starts at a load extremum,
+        // the rate of the load changes sign there, so no search is needed.
         let turns = from.leaving[load] * candidate.direction[load] < 0.0;
         if turns && from.event != Some(Event::LoadExtremum) {
             candidate = self.locate_extremum(from, &candidate, load)?;

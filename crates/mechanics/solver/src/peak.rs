@@ -14,13 +14,13 @@ const FLAT: f64 = 1e-11;
 /// At the kink itself the rate of a force that begins or ceases to act may be infinite.
 const NEAR: f64 = 1e-4;
 
-/// Maximum number of samples closer to a kink, each at a tenth of the last distance.
+/// Maximum number of samples closer to a kink, each at a tenth of the previous distance.
 const CLOSER: usize = 4;
 
-/// Maximum number of iterations of a search. Most searches need at most a quarter of it.
+/// Maximum number of iterations of a search. Most searches need at most a quarter of them.
 const ROUNDS: usize = 40;
 
-/// Smallest value, as a fraction of the largest value so far, for a search next to a kink.
+/// Fraction of the largest value so far that a segment next to a kink must reach for a search.
 ///
 /// If a force has just begun to act, a segment may contain the maximum although both of its ends
 /// are lower than another point. In observed cases such a maximum exceeds the ends of the segment
@@ -195,7 +195,7 @@ pub struct Summit<M = ()> {
     pub is_inside: bool,
 }
 
-/// Value of the function and slope by the fraction, at a fraction of a segment.
+/// Value of the function at a fraction of a segment, and its derivative by the fraction.
 #[derive(Clone, Copy, Debug)]
 struct SegmentSample {
     fraction: f64,
@@ -238,9 +238,9 @@ where
     /// Returns the largest value inside the segment, if it may exceed `least`.
     ///
     /// The next sample is the maximum of the cubic with the values and slopes at both ends of a
-    /// bracket. If the cubic has no maximum inside, the search ends. If a force has just begun to
-    /// act and the function rises within a small part of the segment, the slope near the end
-    /// reveals this.
+    /// bracket. If the cubic has no maximum inside, the search ends. If the function rises only
+    /// within a small part of the segment, because a force has just begun to act, the slope near
+    /// this end of the segment reveals the rise.
     ///
     /// ```text
     ///            top of the cubic

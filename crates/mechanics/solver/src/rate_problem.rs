@@ -13,7 +13,7 @@ use crate::termination::Termination;
 /// path, so the path must be followed also between close events.
 const APART: f64 = 1e-10;
 
-/// Largest difference from 1 of the cosine between two directions of the same branch.
+/// Largest difference from 1 of the cosine of the angle between directions of the same branch.
 const SAME_BRANCH: f64 = 1e-6;
 
 /// Largest number of active sets evaluated at an event if constraints are coupled by friction.
@@ -27,14 +27,14 @@ const MOST_REVERSALS: usize = 20;
 
 /// Choice of the outgoing branch at an event.
 ///
-/// At an event the path has an incoming and an outgoing direction `ż`. A constraint *meets* the
-/// event if both `z_c = 0` and `r_c(z) = 0` there, so that it may become active or inactive. The
-/// outgoing direction solves the complementarity problem of the rates
+/// At an event the path has an incoming and an outgoing direction `ż`. A constraint is
+/// *undecided* if both `z_c = 0` and `r_c(z) = 0` there, so that it may become active or inactive.
+/// The outgoing direction solves the complementarity problem of the rates
 ///
 /// ```text
 /// ∂r_i/∂z ż = 0     for every equation and every other active constraint,
 /// ż_c = 0           for every other inactive constraint,
-/// 0 ≤ ż_c  ⟂  ∂r_c/∂z ż ≥ 0     for the constraints that meet the event              (N6)
+/// 0 ≤ ż_c  ⟂  ∂r_c/∂z ż ≥ 0     for the undecided constraints                        (N6)
 /// ```
 ///
 /// in the mode after the event. The solver uses principal pivoting (Cottle, Pang & Stone 2009,
@@ -43,8 +43,8 @@ const MOST_REVERSALS: usize = 20;
 /// 1. If the unknown of a single monotone constraint stops growing, no search is needed
 ///    (`end_growth`).
 /// 2. Several changes are first applied together, as symmetry requires (`pivot_together`).
-/// 3. If the resulting direction violates one of them, `search_active_sets` changes one constraint
-///    after the other, the most violated constraint first.
+/// 3. If the resulting direction violates a changed constraint, `search_active_sets` changes one
+///    constraint after the other, the most violated constraint first.
 impl<S: System> Continuation<S> {
     /// Changes the constraints of `state` at an event and returns the outgoing direction.
     ///
@@ -135,9 +135,9 @@ impl<S: System> Continuation<S> {
         best.ok_or(failure)
     }
 
-    /// Returns the better of two branches, and records if the branches differ.
+    /// Returns the better of two branches, and sets `is_unique` to false if the branches differ.
     ///
-    /// A branch with the orientation `is_positive` is better than a branch with the other one; if
+    /// A branch with the orientation `is_positive` is better than a branch with the other one. If
     /// both orientations are equal, the branch that turns by the smaller angle is better.
     fn better_branch(
         &mut self,
@@ -164,10 +164,10 @@ impl<S: System> Continuation<S> {
         let back: Vec<f64> = self.point.arriving.iter().map(|rate| -rate).collect();
         // Every constraint with a zero guard may change. For example, a contact continues to slip
         // if its normal force decreases faster than its friction.
-        let meeting = (0..self.guards.len()).collect();
+        let undecided = (0..self.guards.len()).collect();
         let changes = Vec::new();
         let start =
-            ActiveSetCandidate { state, meeting, changes, orienting: None, turns_back: true };
+            ActiveSetCandidate { state, undecided, changes, orienting: None, turns_back: true };
         let branch = self.search_active_sets(start, None, &back, false);
         self.termination = branch.as_ref().err().copied();
         if let Ok(OutgoingBranch { state, leaving, is_positive, .. }) = branch {
@@ -190,7 +190,7 @@ impl<S: System> Continuation<S> {
     ) -> Vec<(ActiveSetCandidate<S::Mode>, Change)> {
         let before = ActiveSetCandidate {
             state: state.clone(),
-            meeting: self.meeting(changes.iter().map(|change| change.constraint)),
+            undecided: self.undecided(changes.iter().map(|change| change.constraint)),
             changes: Vec::new(),
             orienting: None,
             turns_back: false,
@@ -252,19 +252,19 @@ impl<S: System> Continuation<S> {
         changes: &[Change],
     ) -> Option<OutgoingBranch<S::Mode>> {
         let mut opened = state.clone();
-        let mut made = Vec::with_capacity(changes.len());
+        let mut applied = Vec::with_capacity(changes.len());
         for activated in [false, true] {
             for &change in changes.iter().filter(|change| change.activated == activated) {
                 let mut next = opened.clone();
                 if self.pivot(&mut next, change).is_some() {
                     opened = next;
-                    made.push(change);
+                    applied.push(change);
                 }
             }
         }
-        let (state, leaving) = self.pivot_together(state, arriving, &made)?;
+        let (state, leaving) = self.pivot_together(state, arriving, &applied)?;
         let (along, is_positive) = (self.cosine(arriving, &leaving), self.is_positive);
-        let branch = OutgoingBranch { state, leaving, changes: made, is_positive, along };
+        let branch = OutgoingBranch { state, leaving, changes: applied, is_positive, along };
         Some(branch).filter(|branch| branch.along > 0.0)
     }
 
@@ -291,8 +291,8 @@ impl<S: System> Continuation<S> {
                 return None;
             }
         }
-        let meeting = self.meeting(valid);
-        self.violated(&next, &leaving, &meeting).is_empty().then_some((next, leaving))
+        let undecided = self.undecided(valid);
+        self.violated(&next, &leaving, &undecided).is_empty().then_some((next, leaving))
     }
 
     /// Searches depth-first for an active set with a valid outgoing direction.
@@ -332,7 +332,7 @@ impl<S: System> Continuation<S> {
                 }
                 Err(_) => continue,
             };
-            let violated = self.violated(&candidate.state, &leaving, &candidate.meeting);
+            let violated = self.violated(&candidate.state, &leaving, &candidate.undecided);
             if violated.is_empty() {
                 let (along, is_positive) = (self.cosine(arriving, &leaving), self.is_positive);
                 // If all changes have been undone, a reversed direction is the incoming path.
@@ -390,10 +390,10 @@ impl<S: System> Continuation<S> {
     ) -> Result<ActiveSetCandidate<S::Mode>, Termination> {
         let mut next = from.clone();
         let valid = self.pivot(&mut next.state, change).ok_or(Termination::Singular)?;
-        // A transition may pass the condition on to another constraint, for example from a corner
-        // to the next edge.
-        if !next.meeting.contains(&valid) {
-            next.meeting.extend(self.system.coupled(valid));
+        // After a transition another constraint may limit the path, for example the contact with
+        // the next edge after a contact between two corners.
+        if !next.undecided.contains(&valid) {
+            next.undecided.extend(self.system.coupled(valid));
         }
         toggle(&mut next.changes, change);
         if next.turns_back {
@@ -411,14 +411,14 @@ impl<S: System> Continuation<S> {
     }
 
     /// Returns the given constraints and all constraints that are coupled with them.
-    fn meeting(&self, constraints: impl IntoIterator<Item = usize>) -> Vec<usize> {
-        let mut meeting: Vec<usize> = Vec::new();
+    fn undecided(&self, constraints: impl IntoIterator<Item = usize>) -> Vec<usize> {
+        let mut undecided: Vec<usize> = Vec::new();
         for constraint in constraints {
-            if !meeting.contains(&constraint) {
-                meeting.extend(self.system.coupled(constraint));
+            if !undecided.contains(&constraint) {
+                undecided.extend(self.system.coupled(constraint));
             }
         }
-        meeting
+        undecided
     }
 
     /// Applies a change to `state`.
@@ -504,7 +504,7 @@ impl<S: System> Continuation<S> {
 
     /// Returns the constraints that a direction violates, the most violated constraint first.
     ///
-    /// Checks the given constraints with a zero guard, and all active monotone constraints.
+    /// Checks the given constraints, as far as their guards are zero, and all active monotone ones.
     fn violated(
         &mut self,
         state: &State<S::Mode>,
@@ -545,9 +545,9 @@ impl<S: System> Continuation<S> {
 struct ActiveSetCandidate<M> {
     /// State with the changed constraints.
     state: State<M>,
-    /// Constraints that meet the event, so that the outgoing direction may violate them.
-    meeting: Vec<usize>,
-    /// Changes made so far.
+    /// Constraints that may change at the event, and that the outgoing direction might violate.
+    undecided: Vec<usize>,
+    /// Changes applied so far.
     changes: Vec<Change>,
     /// Constraint with the guard that must increase along the outgoing direction.
     orienting: Option<usize>,

@@ -133,6 +133,8 @@ impl<M: Clone> Linearisation<M> {
     }
 
     /// Predicts the points for both systems `sides` from the rates `unknowns` of the unknowns.
+    ///
+    /// The directions of the path are predicted only if `turns` is true.
     fn turned<S: System<Mode = M>>(
         &mut self,
         sides: [&S; 2],
@@ -191,8 +193,8 @@ impl<M: Clone> Linearisation<M> {
                 -unknowns[index] / direction[index]
             }
             _ => {
-                let above = anchor.off(&neighbours.above, &state.moved(step, unknowns));
-                let below = anchor.off(&neighbours.below, &state.moved(-step, unknowns));
+                let above = anchor.value(&neighbours.above, &state.moved(step, unknowns));
+                let below = anchor.value(&neighbours.below, &state.moved(-step, unknowns));
                 -(above - below) / (2.0 * step * anchor.slope(system, state, direction))
             }
         }
@@ -230,7 +232,7 @@ impl<M: Clone> Linearisation<M> {
     ) -> Option<Change> {
         let active = &self.point.state.active;
         // The unknown of a monotone constraint, a slip distance, is measured from a point of the
-        // path, so its rate by the parameter is not meaningful.
+        // path that itself depends on the parameter, so its derivative is not meaningful.
         let loaded = (0..active.len()).filter(|c| active[*c] && !system.monotone().contains(c));
         // The guard of the anchor is zero by definition, and must not be violated by round-off.
         let candidates = loaded
@@ -317,7 +319,7 @@ fn near<S: System>(system: &S, point: &AnchoredPoint<S::Mode>) -> Vec<usize> {
     inactive.map(|(constraint, _)| constraint).collect()
 }
 
-/// Returns the row of a section across the path: the arc length in the controls is fixed.
+/// Returns the row of the section: the coefficients of the arc length in the controls.
 fn section<S: System>(system: &S, direction: &[f64]) -> Vec<(usize, f64)> {
     let controls = system.controls().iter();
     let square: f64 = controls.clone().map(|c| (direction[c.index] / c.scale).powi(2)).sum();

@@ -23,8 +23,8 @@ pub struct Settings {
     /// Largest work of a path: the unknowns of all its tangents, weighted by the bandwidth.
     ///
     /// The path also stops after half of this work without progress. A path with few tangents may
-    /// exceed the limit, so that it does not stop paths of very large systems. If `max_step` is
-    /// below its default, the limit is larger in proportion to the number of steps.
+    /// exceed the limit; otherwise the limit would stop every path of a very large system. If
+    /// `max_step` is below its default, the limit is larger in proportion to the number of steps.
     pub max_work: u64,
 }
 

@@ -6,10 +6,10 @@ use crate::block_matrix::Blocks;
 use crate::event::Change;
 use crate::tangent::Tangent;
 
-/// Largest change of an unknown in the difference quotient of a slope.
+/// Largest change of an unknown in the central difference of [`System::slope`].
 const DIFFERENCE: f64 = 1e-6;
 
-/// Step along the direction of the path in difference quotients of all conditions.
+/// Step along the path direction in the difference quotients of [`System::condition_slopes`].
 const ALONG: f64 = 1e-7;
 
 /// Mixed complementarity system with a load parameter.
@@ -88,8 +88,8 @@ pub trait System {
     /// Returns the unknowns, all of the same unit, that measure the whole deformation.
     ///
     /// The angles between path directions are computed from these unknowns. They also define the
-    /// arc length where the system deforms far from the load and the controls hardly change. Empty
-    /// by default.
+    /// arc length if the system deforms far from the load while the controls hardly change. The
+    /// default is an empty list.
     fn coordinates(&self) -> Vec<usize> {
         Vec::new()
     }
@@ -185,9 +185,9 @@ pub trait System {
         values.extend(self.constraints().iter().map(|&index| residual.value[index]));
     }
 
-    /// Replaces `values` as [`System::conditions`], and `slopes` by their derivatives.
+    /// Replaces `values` as [`System::conditions`] does, and `slopes` by their derivatives.
     ///
-    /// The derivatives are taken along `direction`.
+    /// The derivatives of the values are taken along `direction`.
     fn condition_slopes(
         &self,
         state: &State<Self::Mode>,
@@ -239,9 +239,9 @@ pub trait System {
         f64::NAN
     }
 
-    /// Returns true if the condition of a constraint does not determine the outgoing direction.
+    /// Returns true if a constraint does not determine the sign of the outgoing direction.
     ///
-    /// The path then keeps its incoming direction. False by default.
+    /// The sign then follows from the incoming direction. False by default.
     fn is_neutral(&self, _state: &State<Self::Mode>, _constraint: usize) -> bool {
         false
     }
@@ -250,8 +250,8 @@ pub trait System {
     ///
     /// The caller has set the flag of the constraint and set its unknown to zero. A system with
     /// modes sets the next mode, and the unknowns and flags that change with the mode. Returns the
-    /// constraint with the condition that the outgoing path must satisfy, or `None` if the
-    /// constraint cannot change in this mode.
+    /// number of the constraint that the outgoing path must satisfy, by default the changed one, or
+    /// `None` if the constraint cannot change in this mode.
     fn transition(&self, _state: &mut State<Self::Mode>, change: Change) -> Option<usize> {
         Some(change.constraint)
     }
@@ -268,7 +268,7 @@ pub struct Control {
     pub scale: f64,
 }
 
-/// Values of the equations at a state, with reference sizes for their errors.
+/// Values of the equations at a state, and the sizes with which the values are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residual {
     /// Value of each equation.
@@ -367,7 +367,7 @@ impl<M: Clone> State<M> {
     }
 }
 
-/// Returns the unknowns that are zero: of inactive constraints, and [`System::vanishing`].
+/// Returns the unknowns that are zero: of all inactive constraints, and [`System::vanishing`].
 pub(crate) fn inactive<'a, S: System>(
     system: &'a S,
     state: &'a State<S::Mode>,
@@ -382,7 +382,7 @@ mod tests {
     use super::{Control, Residual, State, System, Tangent};
     use approx::assert_relative_eq;
 
-    /// System with one constraint, which has the equation `z₀³`.
+    /// System with one constraint, with the condition `z₀³ ≥ 0`.
     struct Cube;
 
     impl System for Cube {

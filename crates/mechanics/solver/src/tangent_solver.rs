@@ -6,7 +6,7 @@ use crate::linear::{BandLu, BandMatrix, SingularMatrix};
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent::Tangent;
 
-/// Factors of the tangent, with the row of a condition in place of the missing row.
+/// Factors of the tangent, with the row of a condition as the row of the load.
 #[derive(Clone, Debug)]
 pub(crate) struct TangentSolver {
     /// Block elimination, `None` if the system has no block structure.
@@ -54,7 +54,7 @@ impl TangentSolver {
 
     /// Evaluates the equations into `residual` and factorises the tangent.
     ///
-    /// The unknowns that are zero are left out, and `condition` is the missing row.
+    /// The unknowns that are zero are left out, and `condition` is the row of the load.
     ///
     /// # Errors
     /// If the matrix is singular.

@@ -65,8 +65,8 @@ impl<M: Clone> TargetPoint<M> {
 
     /// Finds the equilibrium of a neighbouring system at a fraction of the target.
     ///
-    /// Works as [`TargetPoint::of_neighbour`], but starts from `near`, an equilibrium of this or a
-    /// similar system. The directions of the result are derivatives with respect to the control
+    /// Works like [`TargetPoint::of_neighbour`], but starts from `near`, an equilibrium of this or
+    /// a similar system. The directions of the result are derivatives with respect to the control
     /// parameter divided by its scale.
     pub fn before_target<S: System<Mode = M>>(
         &self,
@@ -78,7 +78,7 @@ impl<M: Clone> TargetPoint<M> {
         let settings = Settings { max_iterations: MOST_ITERATIONS, ..*settings };
         let condition = at_fraction(system, &self.state, fraction);
         let (mut state, mut newton) = (near.clone(), Newton::new(system));
-        for left in (0..=MOST_CHANGES).rev() {
+        for remaining in (0..=MOST_CHANGES).rev() {
             let direction = newton.solve(system, &mut state, &condition, &settings).ok()?;
             let violated = violated(&Newton::guards(system, &state));
             let Some(&(constraint, _)) = violated.first() else {
@@ -87,7 +87,7 @@ impl<M: Clone> TargetPoint<M> {
                 let point = Equilibrium { state, arriving, leaving, event: None };
                 return is_same_branch.then_some(point);
             };
-            if violated.len() > left {
+            if violated.len() > remaining {
                 return None;
             }
             let change = Change { constraint, activated: !state.active[constraint] };
@@ -101,7 +101,7 @@ impl<M: Clone> TargetPoint<M> {
 
 /// Returns the condition that the control parameter is at a fraction of its target.
 ///
-/// The sign of the control parameter is the one in `state`.
+/// The control parameter has the same sign as in `state`.
 fn at_fraction<S: System>(system: &S, state: &State<S::Mode>, fraction: f64) -> Condition {
     let control = system.controls()[0];
     let side = (state.z[control.index] / control.scale).signum();

@@ -44,7 +44,7 @@ fn coefficients(nodes: usize, solve: Solve<'_>) -> Result<Vec<f64>, Unresolved> 
     let mut solved = thread::scope(|scope| {
         let threads: Vec<_> =
             (0..workers).map(|_| scope.spawn(|| solve_nodes(&next, nodes, solve))).collect();
-        let found = threads.into_iter().map(|thread| thread.join().expect("no panic"));
+        let found = threads.into_iter().map(|thread| thread.join().expect("no thread panics"));
         found.collect::<Result<Vec<_>, _>>().map(|parts| parts.concat())
     })?;
     solved.sort_by_key(|(number, _)| *number);
@@ -57,7 +57,9 @@ fn coefficients(nodes: usize, solve: Solve<'_>) -> Result<Vec<f64>, Unresolved> 
     Ok(coefficients)
 }
 
-/// Solves the next unsolved points until none is left; returns their numbers and values.
+/// Solves unsolved points until all are solved; returns their numbers and values.
+///
+/// `next` is the number of the next unsolved point, shared by all threads.
 fn solve_nodes(
     next: &AtomicUsize,
     nodes: usize,
@@ -114,9 +116,9 @@ fn nearest(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     Ok(normal.into_iter().chain(direct).chain(coupling).collect())
 }
 
-/// Returns the values by which a long row differs from a row of three scales, over `α`.
+/// Returns the differences of a long row from a row of three scales, divided by `α`.
 ///
-/// First `y` and then `φ`, each for the scale itself and for its neighbours; then `c` over
+/// First `y` and then `φ`, each for the scale itself and for its neighbours; then `c` divided by
 /// `√(α_y α_φ)`; then the coefficients of `x` as polynomials in `log(1 − ν)`.
 fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     let long = extrapolated(footprint, NEIGHBOURS, COARSE)?;
@@ -137,7 +139,7 @@ fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     Ok(numbers)
 }
 
-/// Returns the difference of a reaction between a long and a short row, over `α`.
+/// Returns the difference of a reaction between a long and a short row, divided by `α`.
 fn added(long: &[f64], short: &[f64], scale: usize, direction: usize) -> f64 {
     (reaction(long, scale, direction) - reaction(short, scale, direction)) / short[direction]
 }
@@ -175,6 +177,6 @@ fn extrapolated(
 
 /// Extrapolates from two meshes if the error falls with the power `order` of the number of cells.
 fn limit([coarse, fine]: [&[f64]; 2], cells: [usize; 2], order: i32) -> Vec<f64> {
-    let share = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(order) - 1.0);
-    coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
+    let factor = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(order) - 1.0);
+    coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * factor).collect()
 }

@@ -42,7 +42,7 @@ pub struct Unresolved {
 
 /// The two cross terms between the middle rectangle and a neighbour.
 ///
-/// Betti's theorem makes both equal; on a mesh they differ by the error of discretisation.
+/// By Betti's theorem both terms are equal; on a mesh they differ by the discretisation error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossTerms {
     /// Normal force on the neighbour from a unit rotation of the middle rectangle.
@@ -66,9 +66,9 @@ pub struct RowReactions {
 
 /// Computes the reactions (S6) of a row of rectangles on one mesh.
 ///
-/// The row has `neighbours ≥ 1` rectangles on each side of the middle one. The middle one is
-/// displaced and the others are fixed. Half of each neighbour and a quarter of the middle one have
-/// `n × n` cells.
+/// The row has `neighbours ≥ 1` rectangles on each side of the middle rectangle. The middle
+/// rectangle is displaced and the others are fixed. Half of each neighbour and a quarter of the
+/// middle rectangle have `n × n` cells.
 ///
 /// Normal and tangential tractions are solved separately, as in Eqs. (2) and (3) of Shafiei et al.
 /// (doi 10.1016/j.jmps.2020.104176). This is exact at `ν = 0.5`, where normal tractions cause no
@@ -111,8 +111,8 @@ pub fn row_reactions_at(
 impl RowReactions {
     /// Returns all reactions as a list.
     ///
-    /// The list begins with three reactions of the middle rectangle. For each neighbour follow its
-    /// three reactions, its cross force and its cross moment.
+    /// The list contains the three reactions of the middle rectangle and then, for each neighbour,
+    /// three reactions, the cross force and the cross moment.
     pub fn numbers(&self) -> Vec<f64> {
         let neighbours = self.neighbours.iter().zip(&self.cross);
         let neighbours =
@@ -202,19 +202,19 @@ impl Mesh {
     }
 
     /// Returns the axes along `x` in the order of the unknowns, in which `z` varies fastest.
-    pub(crate) fn across(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
+    pub(crate) fn axes_along_x(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
         std::iter::once(&self.middle).chain(&self.neighbours)
     }
 
     pub(crate) fn unknowns(&self) -> usize {
-        self.across().map(GradedAxis::cells).sum::<usize>() * self.depth.cells()
+        self.axes_along_x().map(GradedAxis::cells).sum::<usize>() * self.depth.cells()
     }
 
     /// Returns the displacements imposed at the collocation points, one column for each load.
     pub(crate) fn imposed(&self, loads: &[Load]) -> DMatrix<f64> {
         let depth = self.depth.cells();
         let points: Vec<(usize, f64)> = self
-            .across()
+            .axes_along_x()
             .enumerate()
             .flat_map(|(body, axis)| axis.points().iter().map(move |&x| (body, x)))
             .collect();
@@ -238,7 +238,7 @@ impl Mesh {
         tractions: &[f64],
         arm: impl Fn(f64) -> f64,
     ) -> f64 {
-        let before = self.across().take(k + 1).map(GradedAxis::cells).sum::<usize>();
+        let before = self.axes_along_x().take(k + 1).map(GradedAxis::cells).sum::<usize>();
         2.0 * self.sum(&self.neighbours[k], before * self.depth.cells(), tractions, arm)
     }
 
@@ -277,7 +277,7 @@ impl Equations {
         let shear = vec![zeros.clone(); poisson_ratios.len()];
         let mut equations = Self { shear, normal: zeros.clone(), rotation: zeros };
         let depth = mesh.depth.cells();
-        let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
+        let fields: Vec<f64> = mesh.axes_along_x().flat_map(GradedAxis::points).copied().collect();
         // All field points at the same depth share one line of corners, so that its logarithms are
         // computed once.
         for (k, &z) in mesh.depth.points().iter().enumerate() {
@@ -299,7 +299,8 @@ impl Equations {
         poisson_ratios: &[f64],
     ) {
         for (column, (&right, &left)) in right.iter().zip(left).enumerate() {
-            // `left` is negative, because the edges of a mirror image descend. So this is the sum.
+            // `left` is negative, because the edges of a mirror image descend. The difference is
+            // therefore the sum of both influences.
             let even = right - left;
             for (shear, ratio) in self.shear.iter_mut().zip(poisson_ratios) {
                 shear[(row, column)] = even.tangential(*ratio);
@@ -332,7 +333,7 @@ impl CellColumns {
     /// images descend, so their influence has the opposite sign. `z` varies fastest in the result.
     pub(crate) fn on_side(&mut self, mesh: &Mesh, x: f64, side: f64) -> Vec<Influence> {
         let mut influence = Vec::with_capacity(mesh.unknowns());
-        for axis in mesh.across() {
+        for axis in mesh.axes_along_x() {
             for (column, edge) in axis.edges().iter().enumerate() {
                 std::mem::swap(&mut self.last, &mut self.next);
                 self.line.evaluate(side * edge - x, &mut self.next);

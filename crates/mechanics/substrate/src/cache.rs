@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use crate::Footprint;
 use crate::boundary_element::Unresolved;
 
-/// Result of a footprint, computed by the first thread that needs it.
+/// Slot for the result of a footprint; the first thread that needs the result computes it.
 ///
-/// A thread that holds the slot can still use it after the cache has dropped it.
+/// A thread that holds a slot can still use the slot after the cache has dropped the footprint.
 type Slot<T> = Arc<OnceLock<Result<T, Unresolved>>>;
 
 /// Cache of results by footprint; the first thread that requests a footprint solves it.
@@ -55,7 +55,7 @@ impl<T> Generations<T> {
         if let Some(slot) = self.young.get(footprint) {
             return Arc::clone(slot);
         }
-        // Takes the entry out of `old` before `old` is dropped, so that it is not solved again.
+        // The entry is removed from `old` before `old` is dropped, so that its result is kept.
         let slot = self.old.remove(footprint).unwrap_or_default();
         if self.young.len() >= self.limit {
             self.old = mem::take(&mut self.young);
@@ -101,7 +101,7 @@ mod tests {
             self.solved.load(Ordering::Relaxed)
         }
 
-        fn held(&self) -> usize {
+        fn stored(&self) -> usize {
             let generations = self.cache.0.lock().unwrap();
             generations.young.len() + generations.old.len()
         }
@@ -109,27 +109,29 @@ mod tests {
 
     #[test]
     fn each_footprint_is_solved_once() {
-        let (shared, asked) = (Counted::with_capacity(100), footprints(5));
+        let (shared, requested) = (Counted::with_capacity(100), footprints(5));
         thread::scope(|scope| {
             for start in 0..8 {
-                let (shared, asked) = (&shared, asked.iter().cycle().skip(start).take(asked.len()));
+                let count = requested.len();
+                let (shared, requested) =
+                    (&shared, requested.iter().cycle().skip(start).take(count));
                 scope.spawn(move || {
-                    for footprint in asked {
+                    for footprint in requested {
                         assert_eq!(shared.get(footprint), footprint.gap_over_a());
                     }
                 });
             }
         });
-        assert_eq!((shared.solved(), shared.held()), (5, 5));
+        assert_eq!((shared.solved(), shared.stored()), (5, 5));
     }
 
     #[test]
     fn a_full_cache_drops_footprints_and_solves_them_again() {
-        let (small, asked) = (Counted::with_capacity(4), footprints(9));
+        let (small, requested) = (Counted::with_capacity(4), footprints(9));
         for _ in 0..2 {
-            for footprint in &asked {
+            for footprint in &requested {
                 assert_eq!(small.get(footprint), footprint.gap_over_a());
-                assert!(small.held() <= 4, "{} held", small.held());
+                assert!(small.stored() <= 4, "{} footprints", small.stored());
             }
         }
         assert_eq!(small.solved(), 18);
@@ -137,12 +139,12 @@ mod tests {
 
     #[test]
     fn a_recently_used_footprint_is_not_dropped() {
-        let (small, asked) = (Counted::with_capacity(4), footprints(12));
-        for footprint in &asked {
+        let (small, requested) = (Counted::with_capacity(4), footprints(12));
+        for footprint in &requested {
             small.get(footprint);
-            small.get(&asked[0]);
+            small.get(&requested[0]);
         }
-        assert_eq!(small.solved(), asked.len());
+        assert_eq!(small.solved(), requested.len());
     }
 
     #[test]

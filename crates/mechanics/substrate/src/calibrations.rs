@@ -21,7 +21,7 @@ pub struct Calibrations {
 /// Number of variants of [`Coupling`]; each variant has its own cache.
 const COUPLINGS: usize = 2;
 
-/// Default number of footprints per cache, about 10 MB. A sweep needs fewer at a time.
+/// Default number of footprints per cache, about 10 MB. A sweep uses fewer at the same time.
 const CAPACITY: usize = 1 << 16;
 
 impl Calibrations {

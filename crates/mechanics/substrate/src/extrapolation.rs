@@ -13,6 +13,6 @@ pub(crate) const CAUTION: f64 = 0.3;
 
 /// Extrapolates each value of a list by (S7) from its values on a coarse and on a fine mesh.
 pub(crate) fn extrapolation(cells: [usize; 2], [coarse, fine]: [&[f64]; 2]) -> Vec<f64> {
-    let share = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(ORDER) - 1.0);
-    coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
+    let factor = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(ORDER) - 1.0);
+    coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * factor).collect()
 }

@@ -18,10 +18,10 @@ use crate::RowStiffness;
 /// The last solved scale, 0, then has the stiffness `α − β r` instead of `α`, and the free scales
 /// need not be solved. `r` has the sign of `β`, so rotations alternate in sign. If only `n` free
 /// scales follow, both solutions `r^k` and `r^{−k}` are combined so that no force acts on the last
-/// one:
+/// scale:
 ///
 /// ```text
-/// u_k = r^k (1 − r^{2(n+1−k)})/(1 − r^{2(n+1)}) u_0,     held by α − β u_1/u_0          (S16)
+/// u_k = r^k (1 − r^{2(n+1−k)})/(1 − r^{2(n+1)}) u_0,     stiffness α − β u_1/u_0        (S16)
 /// ```
 ///
 /// If scales couple with `m > 1` neighbours, or forces with rotations, the last `m` solved scales

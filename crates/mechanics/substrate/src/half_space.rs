@@ -96,7 +96,7 @@ impl CornerLine {
     /// Writes the corner functions `A` and `B` of a line at the offset `x` into `corners`.
     ///
     /// `x` is measured from the field point, which must not coincide with a corner. Collocation
-    /// points lie inside cells and never do.
+    /// points lie inside cells, so they do not coincide with corners.
     pub fn evaluate(&self, x: f64, corners: &mut [Influence]) {
         let ln_x = ln_or_zero(x);
         for (corner, &[z, ln_z]) in corners.iter_mut().zip(&self.corners) {

@@ -42,9 +42,8 @@ const FARTHEST: usize = 16;
 /// Number of intervals of the quadrature over `x`.
 ///
 /// The integrands are about 1e-12 at the end of the last interval.
-///
-/// An interval has the width 1/8, a third of a wave of `J(xρ)` at the largest `ρ`.
 const INTERVALS: u32 = 128;
+/// Width of an interval: a third of a wave of `J(xρ)` at the largest tabulated `ρ`.
 const INTERVAL: f64 = 0.125;
 
 /// Gauss points and weights on the interval from −1 to 1.
@@ -57,15 +56,15 @@ const GAUSS: [[f64; 2]; 4] = [
 
 /// Returns the differences of `N`, `½(S + T)`, `½(S − T)` and `C` of (S19) from the half-space.
 pub fn beside_half_space(poisson_ratio: f64, x: f64) -> Integrals {
-    let (left, kappa) = (1.0 - poisson_ratio, 3.0 - 4.0 * poisson_ratio);
-    // Divided by e^(2x), so that differences from the half-space keep their digits.
+    let (deep, kappa) = (1.0 - poisson_ratio, 3.0 - 4.0 * poisson_ratio);
+    // All terms are divided by e^(2x), so that differences from the half-space keep their digits.
     let decay = (-2.0 * x).exp();
     let rest = 5.0 - 12.0 * poisson_ratio + 8.0 * poisson_ratio * poisson_ratio;
     let constant = 2.0 * x * x + rest;
     let d = 0.5 * kappa * (1.0 + decay * decay) + constant * decay;
-    // The differences of N and S from 1 − ν, and of T from 1.
+    // Differences of N and S from 1 − ν; `common` is the part that both differences share.
     let common = -kappa * decay * decay - constant * decay;
-    let [normal, shear] = [-2.0, 2.0].map(|sign| left * (common + sign * x * decay) / d);
+    let [normal, shear] = [-2.0, 2.0].map(|sign| deep * (common + sign * x * decay) / d);
     // tanh x − 1, without cancellation.
     let across = -2.0 * decay / (1.0 + decay);
     let incompressible = 1.0 - 2.0 * poisson_ratio;
@@ -130,9 +129,10 @@ const KEPT: usize = 16;
 impl Layer {
     /// Returns the integrals of a layer with a Poisson's ratio, from the cache if possible.
     ///
-    /// They do not depend on the thickness of the layer.
+    /// As functions of `ρ` the integrals do not depend on the thickness of the layer.
     pub fn with_poisson_ratio(poisson_ratio: f64) -> Arc<Self> {
-        // Computed under the lock, so that other threads that need the same layer wait for it.
+        // A missing layer is computed under the lock, so that other threads wait for the result
+        // instead of computing the same layer.
         let mut cache = RECENT.lock().unwrap_or_else(PoisonError::into_inner);
         let cached = cache.iter().position(|layer| layer.poisson_ratio == poisson_ratio);
         let layer =
@@ -153,13 +153,13 @@ impl Layer {
             }
         }
         let last = FARTHEST * PER_UNIT;
-        // Two values beyond the last tabulated one, because its derivative is a central difference.
+        // Two values beyond the last node are needed for the central difference at the last node.
         let values: Vec<Integrals> =
             (0..=last + 2).map(|k| integrals(&points, k as f64 / PER_UNIT as f64)).collect();
         let nodes = (0..=last).map(|k| {
             std::array::from_fn(|part| {
                 let [near, far] = [1, 2].map(|steps| {
-                    // Even continuation to ρ < 0, but odd for the integral with J₁ (part 3).
+                    // The integrals are even functions of ρ, but the one with J₁ (part 3) is odd.
                     let sign = if k < steps && part == 3 { -1.0 } else { 1.0 };
                     values[k + steps][part] - sign * values[k.abs_diff(steps)][part]
                 });
@@ -169,15 +169,16 @@ impl Layer {
         Self { poisson_ratio, nodes: nodes.collect() }
     }
 
-    /// Returns the displacements by unit loads at the offset `(x, z)`, without the half-space part.
+    /// Returns the displacements on a layer minus the displacements on a half-space.
     ///
-    /// The layer has the given `thickness`; `x` is the offset along the row.
+    /// Unit loads act at a point; the displacements are taken at the offset `(x, z)` from it, with
+    /// `x` along the row. The layer has the given `thickness`, in the unit of `x` and `z`.
     pub fn beside_half_space(&self, thickness: f64, x: f64, z: f64) -> Displacements {
         let square = x * x + z * z;
         let r = square.sqrt();
         let [normal, mean, difference, cross] = self.integrals(r / thickness);
         let unit = 1.0 / (PI * (1.0 - self.poisson_ratio) * thickness);
-        // At zero offset the direction is undefined, but the terms with cos ψ vanish.
+        // At zero offset the angle ψ is undefined, but the terms with cos ψ and cos 2ψ vanish.
         let (cos, cos_twice) = if r > 0.0 { (x / r, (x * x - z * z) / square) } else { (0.0, 0.0) };
         Displacements {
             normal: unit * normal,

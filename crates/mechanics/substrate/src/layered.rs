@@ -28,14 +28,15 @@ const CELLS: [usize; 2] = [4, 6];
 /// derivative.
 const STEP: f64 = 1e-4;
 
-/// Number of values of the scale itself (`OWN`) and of each neighbour (`PER_NEIGHBOUR`).
+/// Number of values of the middle rectangle in [`Added::numbers`].
 const OWN: usize = 4;
+/// Number of values of each neighbour in [`Added::numbers`].
 const PER_NEIGHBOUR: usize = 6;
 
 /// Computes the contribution of the rigid base to the stiffness of a row.
 ///
 /// The footprint `near`, almost equal to `footprint`, determines the number of quadrature points.
-/// Footprints of a finite difference share it, so that their quadratures do not differ.
+/// All footprints of a finite difference use one `near`, so that their quadratures do not differ.
 ///
 /// # Errors
 /// If the gap or a cell vanishes by rounding.
@@ -45,7 +46,7 @@ pub(crate) fn addition(
     coupling: Coupling,
 ) -> Result<RowStiffness, Unresolved> {
     let neighbours = if coupling == Coupling::Full { NEIGHBOURS } else { 1 };
-    // Without a third mesh, the step of the extrapolation serves as the error estimate.
+    // There is no third mesh, so the error estimate is a fraction of the extrapolation step.
     let coarse = added(footprint, near, neighbours, CELLS[0])?;
     let fine = added(footprint, near, neighbours, CELLS[1])?;
     let best = extrapolation(CELLS, [&coarse.numbers, &fine.numbers]);
@@ -57,7 +58,7 @@ pub(crate) fn addition(
     let error = steps.map(|((best, fine), size)| CAUTION * ((best - fine) / size).abs());
     let neighbours = best[OWN..].as_chunks::<PER_NEIGHBOUR>().0.iter().map(|n| Neighbour {
         direct: [n[0], n[1], n[2]],
-        // Eq. (1) has no force due to a rotation, so the term of the layer is dropped, too.
+        // Eq. (1) has no vertical force due to a rotation, so `c` of the layer is dropped, too.
         cross: if coupling == Coupling::Full { n[3] } else { 0.0 },
         lift: n[4],
         roll: n[5],
@@ -177,7 +178,7 @@ impl Tractions<'_> {
         let x = self.mesh.middle_sum(&push[..n], ONE);
         let y = self.mesh.middle_sum(&lift[n..], ONE);
         let moment = self.mesh.middle_sum(&turn[n..], ARM);
-        // Both values of `roll` are equal by reciprocity, up to a small error of collocation.
+        // By reciprocity both values are equal, up to a small error of collocation.
         let roll = f64::midpoint(
             self.mesh.middle_sum(&turn[..n], ONE),
             self.mesh.middle_sum(&push[n..], ARM),
@@ -224,7 +225,7 @@ impl Quadrature {
     /// subcells.
     fn new(mesh: &Mesh, near: &Mesh, footprint: &Footprint) -> Self {
         let largest = 0.5 * footprint.thickness_over_a();
-        let columns = mesh.across().zip(near.across());
+        let columns = mesh.axes_along_x().zip(near.axes_along_x());
         let columns = columns.flat_map(|(axis, near)| gauss_points(axis, near, largest)).collect();
         Self { columns, depth: gauss_points(&mesh.depth, &near.depth, largest) }
     }
@@ -238,14 +239,14 @@ impl Quadrature {
         let layer = Layer::with_poisson_ratio(footprint.poisson_ratio());
         let mut systems = [DMatrix::zeros(2 * n, 2 * n), DMatrix::zeros(2 * n, 2 * n)];
         let depth = mesh.depth.cells();
-        let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
+        let fields: Vec<f64> = mesh.axes_along_x().flat_map(GradedAxis::points).copied().collect();
         for (k, &z) in mesh.depth.points().iter().enumerate() {
             let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
             for (i, &x) in fields.iter().enumerate() {
                 let smooth = self.at(&layer, footprint.thickness_over_a(), [x, z]);
                 let [right, left] = [1.0, -1.0].map(|side| columns.on_side(mesh, x, side));
                 for (column, smooth) in smooth.into_iter().enumerate() {
-                    // Influences of mirror images are negative, because their edges descend.
+                    // `left` has the opposite sign, because the edges of mirror images descend.
                     let closed = [right[column], Influence::default() - left[column]];
                     let [right, left] = [0, 1].map(|side| {
                         smooth[side] + on_half_space(closed[side], footprint.poisson_ratio())

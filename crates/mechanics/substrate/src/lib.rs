@@ -18,7 +18,7 @@
 //! | Item | Content |
 //! |---|---|
 //! | [`Footprint`] | `d/a`, `b/a`, `ν` and thickness of the substrate, checked at construction |
-//! | [`Bases`] | dimensions of the bases, from which a footprint is computed, in any unit |
+//! | [`Bases`] | dimensions of the bases in any unit, from which a footprint is computed |
 //! | [`Springs`] | the six coefficients of Eq. (1) and their estimated error |
 //! | [`calibrate`] | computes the springs of a footprint from a table or by boundary elements |
 //! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | stiffness with more neighbours and cross terms |

@@ -44,8 +44,8 @@ impl GradedAxis {
     /// `U`.
     ///
     /// Collocation points lie at the middle of a cell in `U`, as in cosine-spaced vortex lattices.
-    /// Points at the middle of its length would give an error ten times as large, of second order
-    /// only.
+    /// Points at the middle of the length of a cell would give an error ten times as large, of
+    /// second order only.
     fn between(grading: &Grading, start: f64, cells: usize) -> Self {
         let [edges, points] = [(0.0, cells + 1), (0.5, cells)].map(|(shift, count)| {
             let fractions = (0..count).map(|k| (1.0 - start) * (k as f64 + shift) / cells as f64);
@@ -126,7 +126,7 @@ impl Mesh {
 
     /// Returns true if all gaps and cells have a positive width after rounding.
     pub fn is_resolved(&self) -> bool {
-        let along: Vec<f64> = self.across().flat_map(GradedAxis::edges).copied().collect();
+        let along: Vec<f64> = self.axes_along_x().flat_map(GradedAxis::edges).copied().collect();
         [along.as_slice(), &self.depth.edges]
             .into_iter()
             .all(|edges| edges.is_sorted_by(|a, b| a < b))
@@ -193,5 +193,5 @@ impl Grading {
 
 /// Maximum number of iterations, approximately as many as bisection alone would need.
 ///
-/// Newton's method needs four to eight.
+/// Newton's method needs four to eight iterations.
 const MAX_ITERATIONS: usize = 60;

@@ -29,7 +29,7 @@ impl RowStiffness {
         Ok(row)
     }
 
-    /// Solves for the stiffness of a row on the half-space by boundary elements.
+    /// Solves for the stiffness of a row on the half-space with the neighbours of `coupling`.
     pub(crate) fn solved(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         match coupling {
             Coupling::Nearest => Ok((&Springs::from(&Self::solve(footprint, 1)?)).into()),
@@ -37,7 +37,7 @@ impl RowStiffness {
         }
     }
 
-    /// Solves for the stiffness of a row on the half-space by boundary elements.
+    /// Solves for the stiffness of a row on the half-space by boundary elements on three meshes.
     ///
     /// The middle one of `2 m + 1` rectangles is displaced and the others are fixed, with
     /// `m = neighbours`. The results of three meshes are extrapolated by (S7):
@@ -83,7 +83,7 @@ impl RowStiffness {
         (0..3).map(|k| (last[k] / self.direct[k]).abs()).fold(0.0, f64::max)
     }
 
-    /// Converts values of the table (`part` 0) or their derivatives.
+    /// Converts values of the table (`part` 0) or their derivatives to coefficients of a row.
     ///
     /// `part` 1, 2 and 3 are the derivatives with respect to `d/a`, `b/a` and `ν`.
     pub(crate) fn from_table(row: &[Differentiated], part: usize) -> Self {

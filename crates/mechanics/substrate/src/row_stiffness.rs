@@ -43,7 +43,7 @@ pub const NEIGHBOURS: usize = 8;
 /// for any values of the coefficients.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RowStiffness {
-    /// `K_0`: force along `x`, force along `y` and moment on a scale per its own displacement.
+    /// `K_0`: forces `x`, `y` and moment on a scale due to unit displacements of the same scale.
     pub direct: [f64; 3],
     /// `r_0`: force along the row from a unit rotation of the scale; 0 on the half-space.
     ///
@@ -146,7 +146,9 @@ impl Mul<f64> for RowStiffness {
 impl Add for RowStiffness {
     type Output = Self;
 
-    /// Adds the coefficients of a row with as many neighbours; keeps the error estimates of `self`.
+    /// Adds the coefficients of `other`, which must have the same number of neighbours.
+    ///
+    /// Keeps the error estimates of `self`.
     fn add(mut self, mut other: Self) -> Self {
         self.numbers_mut().zip(other.numbers_mut()).for_each(|(number, more)| *number += *more);
         self

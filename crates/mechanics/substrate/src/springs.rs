@@ -21,7 +21,7 @@ pub struct Springs {
 }
 
 impl From<&RowStiffness> for Springs {
-    /// Keeps the stiffness of a scale and its coupling with the nearest neighbours.
+    /// Keeps the stiffness of a scale and the coupling with its nearest neighbours in Eq. (1).
     fn from(row: &RowStiffness) -> Self {
         let coupling = row.neighbours.first().map_or([0.0; 3], |nearest| nearest.direct);
         Self { direct: row.direct, coupling: coupling.map(|force| -force), error: row.error }

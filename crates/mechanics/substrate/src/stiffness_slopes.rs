@@ -85,7 +85,7 @@ impl StiffnessSlopes {
     pub fn moved(&self, from: &Bases, to: &Bases) -> Result<RowStiffness, Unresolved> {
         use FootprintParameter::{Gap, PoissonRatio, Size, Thickness, Width};
         let a = from.half_width;
-        // Differences of lengths, because differences of ratios lose digits if the change is small.
+        // Use differences of lengths: differences of ratios lose digits if the change is small.
         let changes = [
             (Gap, (to.gap - from.gap) / a),
             (Width, (to.width - from.width) / a),
@@ -118,8 +118,8 @@ fn difference(
     parameter: FootprintParameter,
 ) -> Result<RowStiffness, Unresolved> {
     let step = footprint.step(parameter, STEP);
-    // Uses boundary elements for all four points, also within the range of the table, because the
-    // difference of both methods would appear in the derivative.
+    // All four points use boundary elements, also within the range of the table, because the
+    // difference between table and boundary elements would appear in the derivative.
     let [near, far] = [8.0 / (12.0 * step), -1.0 / (12.0 * step)];
     let terms = [(1.0, near), (-1.0, -near), (2.0, far), (-2.0, -far)];
     let [first, second, third, fourth] = terms.map(|(steps, factor)| {

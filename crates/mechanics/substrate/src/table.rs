@@ -10,8 +10,8 @@
 //! ```
 //!
 //! For a row with coupling to [`NEIGHBOURS`] neighbours the table also holds polynomials for the
-//! changes of `K_0` and `K_1`, for `K_k` of farther neighbours over `α`, and for `c` over
-//! `√(α_y α_φ)`. Values for normal tractions do not depend on `ν`.
+//! changes of `K_0` and `K_1` and for `K_k` of farther neighbours, all divided by `α`, and for `c`
+//! divided by `√(α_y α_φ)`. Values for normal tractions do not depend on `ν`.
 //!
 //! `table.bin` holds the coefficients as 4-byte floats in little-endian order, with the index `j`
 //! varying fastest. `examples/table.rs` generates this file.
@@ -35,15 +35,16 @@ pub const NEAREST: usize = 24;
 /// Fewer polynomials suffice because these values are smaller.
 pub const ROW: usize = 16;
 
-/// Number of polynomials in `log(1 − ν)`, of which `α_x` is a smoother function than of `ν`.
+/// Number of polynomials in `log(1 − ν)`; `α_x` is smoother in this variable than in `ν`.
 pub const RATIOS: usize = 5;
 
-/// Error bound of the springs of Eq. (1) over `α`, checked by tests between the nodes of the table.
+/// Error bound of the springs of Eq. (1) relative to `α`; tests check it between the nodes.
 const ERROR: f64 = 1e-5;
 
-/// Error bound of long rows over `α`, larger because their values stem from coarser meshes.
+/// Error bound of long rows relative to `α`, larger because coarser meshes give their values.
 ///
-/// The coupling beyond [`NEIGHBOURS`] neighbours, which they neglect, is sixty times as large.
+/// Long rows neglect the coupling beyond [`NEIGHBOURS`] neighbours, which is sixty times as large
+/// as this bound.
 const ROW_ERROR: f64 = 1e-4;
 
 /// Returns the error bound of a row, relative to `K_0` of the same direction.
@@ -67,7 +68,7 @@ static TABLE: &[u8] = include_bytes!("table.bin");
 pub(crate) struct Differentiated(pub(crate) [f64; 4]);
 
 impl Differentiated {
-    /// Returns a function of this number by the chain rule, from its value and its slope.
+    /// Applies a function; `value` and `slope` are its value and its derivative at this number.
     fn map(self, value: f64, slope: f64) -> Self {
         let [_, by_gap, by_width, by_ratio] = self.0;
         Self([value, by_gap * slope, by_width * slope, by_ratio * slope])
@@ -111,7 +112,7 @@ pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Diffe
     let [ln_y, ln_turn, y_ratio, turn_ratio] = [(); 4].map(|()| reader.surface(NEAREST));
     let [ln_x, x_ratio] = [(); 2].map(|()| reader.solid(NEAREST));
     let alpha = [ln_x, ln_y, ln_turn].map(Differentiated::exp);
-    // K_0 and K_1 over α. A long row adds corrections for the rectangles beyond a row of three.
+    // K_0 and K_1 divided by α, for a row of three rectangles. Long rows add corrections.
     let mut ratios = vec![[Differentiated([1.0, 0.0, 0.0, 0.0]); 3]];
     ratios.push([x_ratio, y_ratio, turn_ratio].map(|ratio| ratio.map(-ratio.0[0], -1.0)));
     let mut cross = vec![Differentiated::default()];
@@ -154,11 +155,11 @@ impl Reader {
             (low..=high).contains(&value).then(|| chebyshev(position, slope / value, NEAREST))
         });
         // Poisson's ratio needs no range check: a footprint has a ratio from 0 to ½.
-        let left = 1.0 - footprint.poisson_ratio();
+        let rest = 1.0 - footprint.poisson_ratio();
         Some(Self {
             gap: gap?,
             width: width?,
-            ratio: chebyshev(-1.0 - 2.0 * left.log2(), 2.0 / (LN_2 * left), RATIOS),
+            ratio: chebyshev(-1.0 - 2.0 * rest.log2(), 2.0 / (LN_2 * rest), RATIOS),
             coefficients: TABLE.as_chunks().0.iter(),
         })
     }

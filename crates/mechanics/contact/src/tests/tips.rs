@@ -38,21 +38,21 @@ fn soft() -> ContactLaw {
     ContactLaw::new(Law::EXCHANGED, 2.0, 1.0, 3.0).unwrap()
 }
 
-/// Corner and edge at the lower level, and the corresponding ones after a rotation by 180°.
-const ACROSS: [(CornerEdge, CornerEdge); 3] = [
+/// Corner and edge at the lower level, and the corner and edge after a rotation by 180°.
+const ROTATED: [(CornerEdge, CornerEdge); 3] = [
     (CornerEdge::BottomRightOnLeftEdge, CornerEdge::TopLeftOnRightEdge),
     (CornerEdge::BottomLeftOnRightEdge, CornerEdge::TopRightOnLeftEdge),
     (CornerEdge::BottomLeftOnBase, CornerEdge::TopRightOnTop),
 ];
 
-/// Returns the corner and edge at the upper level that correspond to `lower`, as in [`ACROSS`].
-fn across(lower: CornerEdge) -> CornerEdge {
-    ACROSS.into_iter().find(|(edge, _)| *edge == lower).unwrap().1
+/// Returns the corner and edge at the upper level that correspond to `lower`, as in [`ROTATED`].
+fn rotated(lower: CornerEdge) -> CornerEdge {
+    ROTATED.into_iter().find(|(edge, _)| *edge == lower).unwrap().1
 }
 
-/// Returns the values of `f` at the lower level and at the upper level of the rotated pair.
+/// Returns the values of `f` at the lower level of a pair and at the upper level after rotation.
 ///
-/// The lower level is the one of [`under_the_base`].
+/// [`under_the_base`] creates the pair, [`above_the_top`] the pair rotated by 180°.
 fn at_both_levels<T>(
     turned: f64,
     inside: f64,
@@ -63,7 +63,7 @@ fn at_both_levels<T>(
     let (pair, [left, right]) = under_the_base(turned, inside, below);
     let under = f(&Corners::new(Level::Lower, &pair, [&left, &right]), edge);
     let (pair, [left, right]) = above_the_top(turned, inside, below);
-    [under, f(&Corners::new(Level::Upper, &pair, [&left, &right]), across(edge))]
+    [under, f(&Corners::new(Level::Upper, &pair, [&left, &right]), rotated(edge))]
 }
 
 /// The slant is 75°, so the side is parallel to the base after a rotation by 15°.
@@ -81,7 +81,7 @@ fn the_inclination_of_the_side_selects_the_edge_that_a_corner_faces() {
         let [lower, upper] =
             at_both_levels(turned, inside, 0.1, any, |corners, _| corners.facing());
         assert_eq!(lower.map(|(edge, _)| edge), expected);
-        assert_eq!(upper.map(|(edge, _)| edge), expected.map(across));
+        assert_eq!(upper.map(|(edge, _)| edge), expected.map(rotated));
         if let (Some((edge, at_base)), Some((_, at_top))) = (lower, upper) {
             assert_relative_eq!(at_base, at_top, epsilon = 1e-12);
             match edge {
@@ -93,7 +93,7 @@ fn the_inclination_of_the_side_selects_the_edge_that_a_corner_faces() {
 }
 
 /// Returns the angle `β` between side and base of a closed contact, or `None` if it has none.
-fn to_level(edge: CornerEdge, closed: Closed, turned: f64, inside: f64) -> Option<f64> {
+fn flush_angle(edge: CornerEdge, closed: Closed, turned: f64, inside: f64) -> Option<f64> {
     let [lower, upper] = at_both_levels(turned, inside, 0.1, edge, |corners, edge| {
         let response = closed(edge).response(corners, &soft(), [0.0; FORCES]);
         response.conditions[Force::Flush as usize].map(|condition| condition.value)
@@ -109,14 +109,17 @@ fn the_flush_condition_is_the_angle_between_side_and_base() {
     for turned in [5.0, 14.0, 17.0] {
         let short = (15.0_f64 - turned).to_radians();
         for (edge, expected) in [(on_side, short), (on_end, -short)] {
-            let angle = to_level(edge, CornerContact::Edge, turned, 0.3).unwrap();
+            let angle = flush_angle(edge, CornerContact::Edge, turned, 0.3).unwrap();
             assert_relative_eq!(angle, expected, epsilon = 1e-12);
         }
     }
     // Corner on corner and a tip on the neighbour's side have no flush condition.
-    assert_eq!(to_level(on_side, CornerContact::Corner, 14.0, 0.3), None);
-    assert_eq!(to_level(on_end, CornerContact::Corner, 16.0, 0.3), None);
-    assert_eq!(to_level(CornerEdge::BottomLeftOnRightEdge, CornerContact::Edge, 14.0, 0.3), None);
+    assert_eq!(flush_angle(on_side, CornerContact::Corner, 14.0, 0.3), None);
+    assert_eq!(flush_angle(on_end, CornerContact::Corner, 16.0, 0.3), None);
+    assert_eq!(
+        flush_angle(CornerEdge::BottomLeftOnRightEdge, CornerContact::Edge, 14.0, 0.3),
+        None
+    );
 }
 
 /// The length of the base is 2, the length of the side 3.86.
@@ -125,12 +128,12 @@ fn there_is_no_flush_contact_beyond_the_far_end_of_its_edge() {
     let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
     for (edge, within, beyond) in [(on_side, 1.99, 2.01), (on_end, 3.8, 3.9)] {
         // Beyond the near end, at which both corners lie, the flush condition still exists.
-        let [near, within, beyond_end] =
-            [-0.01, within, beyond].map(|inside| to_level(edge, CornerContact::Edge, 15.0, inside));
+        let [near, within, beyond_end] = [-0.01, within, beyond]
+            .map(|inside| flush_angle(edge, CornerContact::Edge, 15.0, inside));
         assert!(near.unwrap().abs() < 1e-12 && within.unwrap().abs() < 1e-12);
         assert_eq!(beyond_end, None);
         // While the flush force acts, its condition exists everywhere.
-        assert!(to_level(edge, CornerContact::Flush, 15.0, beyond).unwrap().abs() < 1e-12);
+        assert!(flush_angle(edge, CornerContact::Flush, 15.0, beyond).unwrap().abs() < 1e-12);
     }
 }
 
@@ -146,7 +149,7 @@ fn the_corner_force_rotates_at_most_to_the_normal_of_the_base() {
     {
         let of_tip = expected.to_radians();
         let normal = Vec2::new(-of_tip.sin(), of_tip.cos());
-        for edge in ACROSS.map(|(edge, _)| edge) {
+        for edge in ROTATED.map(|(edge, _)| edge) {
             let ours = at_both_levels(turned, 0.0, 0.0, edge, |corners, edge| {
                 CornerContact::Corner(edge).forces_on_left(corners, [0.3, 0.2, 0.0])
             });
@@ -208,8 +211,8 @@ fn flush_contacts_share_one_approach() {
     let (pair, [left, right]) = under_the_base(15.0, 0.3, below);
     let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
     for edge in [CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase] {
-        for share in [0.0, 0.2, 1.0] {
-            let forces = [0.5 * share, 0.0, 0.5 * (1.0 - share)];
+        for fraction in [0.0, 0.2, 1.0] {
+            let forces = [0.5 * fraction, 0.0, 0.5 * (1.0 - fraction)];
             let contact = CornerContact::Flush(edge);
             let response = contact.response(&corners, &law, forces);
             let [own, _, flush] = response.conditions.map(Option::unwrap);

@@ -94,8 +94,8 @@ fn a_corner_contact_without_its_own_force_becomes_the_edge_contact_of_the_partne
         (1.0, BottomLeftOnRightEdge, BottomRightOnLeftEdge),
         (-1.0, BottomLeftOnRightEdge, BottomLeftOnBase),
     ] {
-        let left = next(Corner(edge), (Force::Own, VANISHES), short, [0.0, 0.4, 0.0]);
-        assert_eq!(left, Some(to(Edge(partner), [0.4, 0.0, 0.0], Force::Partner)));
+        let changed = next(Corner(edge), (Force::Own, VANISHES), short, [0.0, 0.4, 0.0]);
+        assert_eq!(changed, Some(to(Edge(partner), [0.4, 0.0, 0.0], Force::Partner)));
     }
 }
 
@@ -106,8 +106,8 @@ fn a_corner_contact_without_partner_force_moves_to_the_edge_selected_by_the_incl
         (-1.0, BottomRightOnLeftEdge, BottomLeftOnBase),
         (1.0, BottomLeftOnRightEdge, BottomLeftOnRightEdge),
     ] {
-        let left = next(Corner(edge), (Force::Partner, VANISHES), short, [0.7, 0.0, 0.0]);
-        assert_eq!(left, Some(to(Edge(leaves), [0.7, 0.0, 0.0], Force::Partner)));
+        let changed = next(Corner(edge), (Force::Partner, VANISHES), short, [0.7, 0.0, 0.0]);
+        assert_eq!(changed, Some(to(Edge(leaves), [0.7, 0.0, 0.0], Force::Partner)));
     }
 }
 
@@ -116,8 +116,8 @@ fn a_flush_contact_without_its_own_force_continues_at_the_other_end() {
     for (edge, other) in
         [(BottomLeftOnBase, BottomRightOnLeftEdge), (BottomRightOnLeftEdge, BottomLeftOnBase)]
     {
-        let left = next(Flush(edge), (Force::Own, VANISHES), 0.0, [0.0, 0.0, 0.2]);
-        assert_eq!(left, Some(to(Edge(other), [0.2, 0.0, 0.0], Force::Flush)));
+        let changed = next(Flush(edge), (Force::Own, VANISHES), 0.0, [0.0, 0.0, 0.2]);
+        assert_eq!(changed, Some(to(Edge(other), [0.2, 0.0, 0.0], Force::Flush)));
     }
 }
 
@@ -129,8 +129,8 @@ fn a_flush_contact_that_reaches_the_corner_adds_both_forces() {
 
 #[test]
 fn a_flush_contact_without_the_flush_force_returns_to_its_edge() {
-    let left = next(Flush(BottomLeftOnBase), (Force::Flush, VANISHES), 0.0, [0.7, 0.0, 0.0]);
-    assert_eq!(left, Some(to(Edge(BottomLeftOnBase), [0.7, 0.0, 0.0], Force::Flush)));
+    let changed = next(Flush(BottomLeftOnBase), (Force::Flush, VANISHES), 0.0, [0.7, 0.0, 0.0]);
+    assert_eq!(changed, Some(to(Edge(BottomLeftOnBase), [0.7, 0.0, 0.0], Force::Flush)));
 }
 
 #[test]

@@ -37,7 +37,7 @@ fn equilibrium(gap: &Elastica, right: Right, steps: u32) -> Vec<f64> {
         let mut start: DVector<f64> = 2.0 * &z - &last;
         let (free, load) = match right {
             Right::End(span, end) => {
-                start.rows_mut(gap.interior(), 3).copy_from(&held(span, part * end));
+                start.rows_mut(gap.interior(), 3).copy_from(&scale_pose(span, part * end));
                 (gap.interior(), Vector3::zeros())
             }
             Right::Load(load) => (gap.unknowns(), part * load),
@@ -64,8 +64,10 @@ fn newton(gap: &Elastica, mut z: DVector<f64>, free: usize, load: Vector3<f64>) 
     panic!("no equilibrium under {load:?}");
 }
 
-/// Returns the displacement and rotation of the right scale for `end` of the membrane end.
-fn held(span: Span, end: Vector3<f64>) -> Vector3<f64> {
+/// Returns the displacement and rotation of the right scale at a given end of the membrane.
+///
+/// `end` contains the displacement and the rotation of the right end of the membrane.
+fn scale_pose(span: Span, end: Vector3<f64>) -> Vector3<f64> {
     let (arm, (sin, cos)) = (Vector2::new(-span.half_base, -span.axis_offset), end[2].sin_cos());
     let turned = Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y) - arm;
     Vector3::new(end[0] - turned.x, end[1] - turned.y, end[2])
@@ -108,7 +110,7 @@ fn any_state() -> impl Strategy<Value = (Elastica, Vec<f64>)> {
     })
 }
 
-/// Generates a span and a large displacement of its right end.
+/// Generates a span, and a large displacement and rotation of the right end of the membrane.
 fn pulled() -> impl Strategy<Value = (Span, Vector3<f64>)> {
     (span(), 0.2..2.0, -0.6..0.6, -0.9..0.9).prop_map(|(span, stretch, shift, phi)| {
         (span, Vector3::new(span.gap * stretch, span.gap * shift, phi))
@@ -164,17 +166,17 @@ proptest! {
         let other = elastica(Span { axis_offset: -span.axis_offset, ..span }, 16).unwrap();
         let back = Rotation2::new(-end[2]);
         let rest = Vector2::new(span.gap, 0.0);
-        let seen = back * (rest + end.xy()) - rest;
+        let shift = back * (rest + end.xy()) - rest;
         let ours = equilibrium(&gap, Right::End(span, end), 30);
-        let turned = Vector3::new(seen.x, seen.y, -end[2]);
+        let turned = Vector3::new(shift.x, shift.y, -end[2]);
         let mirrored = Span { axis_offset: -span.axis_offset, ..span };
         let theirs = equilibrium(&other, Right::End(mirrored, turned), 30);
         let [a, b] = [gap.energies(&ours), other.energies(&theirs)];
         prop_assert!((a.axial - b.axial).abs() < 1e-10 * a.axial);
         prop_assert!((a.bending - b.bending).abs() < 1e-10 * a.axial);
         prop_assert!((gap.largest_strain(&ours) - other.largest_strain(&theirs)).abs() < 1e-9);
-        let [force, there] = [load(&gap, &ours), load(&other, &theirs)];
-        prop_assert!((there.xy() - back * force.xy()).amax() < 1e-10 * force.amax());
+        let [force, rotated] = [load(&gap, &ours), load(&other, &theirs)];
+        prop_assert!((rotated.xy() - back * force.xy()).amax() < 1e-10 * force.amax());
     }
 }
 
@@ -206,8 +208,8 @@ fn elements_converge_to_the_elastica_quadratically() -> Result<(), OutOfRange> {
 
 /// A moment bends the free length to a full circle.
 ///
-/// The direction is exact at any order. The position is an integral of its cosine and sine, which
-/// is exact to round-off only at the higher order.
+/// The direction of the axis is exact at any order. The position, an integral of the cosine and
+/// sine of the direction, is exact to round-off only at the higher order.
 #[test]
 fn pure_bending_deforms_a_gap_to_a_circle() -> Result<(), OutOfRange> {
     for (order, tolerance) in [(12, 1e-5), (20, 1e-13)] {
@@ -288,12 +290,12 @@ fn a_state_transferred_to_a_higher_order_keeps_its_energies_and_axis() -> Result
     let span = Span { half_base: 0.5, gap: 1.0, axis_offset: 0.0 };
     let [coarse, fine] = [elastica(span, 32)?, elastica(span, 40)?];
     let z = equilibrium(&coarse, Right::End(span, Vector3::new(0.5, -0.5, 0.4)), 10);
-    let seen = coarse.transferred(&z, &fine);
-    assert_eq!(seen.len(), fine.unknowns());
-    let [a, b] = [coarse.energies(&z), fine.energies(&seen)];
+    let converted = coarse.transferred(&z, &fine);
+    assert_eq!(converted.len(), fine.unknowns());
+    let [a, b] = [coarse.energies(&z), fine.energies(&converted)];
     assert!((a.axial - b.axial).abs() < 1e-9 * a.axial, "{a:?} {b:?}");
     assert!((a.bending - b.bending).abs() < 1e-9 * a.bending, "{a:?} {b:?}");
-    for (ours, theirs) in coarse.axis(&z, 5).iter().zip(fine.axis(&seen, 5)) {
+    for (ours, theirs) in coarse.axis(&z, 5).iter().zip(fine.axis(&converted, 5)) {
         assert!((ours - theirs).amax() < 1e-9);
     }
     Ok(())
@@ -323,11 +325,11 @@ fn invalid_elasticas_are_refused() -> Result<(), OutOfRange> {
     let order = "order of the membrane is 1, expected 2 to 128";
     assert_eq!(elastica(span, 1).unwrap_err().to_string(), order);
     assert!(elastica(span, 129).is_err() && elastica(span, 128).is_ok());
-    let bare = Span { gap: 0.0, ..span };
+    let closed = Span { gap: 0.0, ..span };
     let gap = "gap is 0, expected a positive finite number";
-    assert_eq!(elastica(bare, 4).unwrap_err().to_string(), gap);
+    assert_eq!(elastica(closed, 4).unwrap_err().to_string(), gap);
     let whole = elastica(span, 4)?;
-    assert_eq!(whole.over(bare).unwrap_err().to_string(), gap);
+    assert_eq!(whole.over(closed).unwrap_err().to_string(), gap);
     let other = Span { gap: 0.2, ..span };
     assert_eq!(whole.over(other)?, elastica(other, 4)?);
     assert_eq!((whole.order(), whole.interior(), whole.unknowns()), (4, 5, 8));

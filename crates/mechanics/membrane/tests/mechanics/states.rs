@@ -32,7 +32,7 @@ fn link() -> impl Strategy<Value = Link> {
 /// Returns the poses of the nodes of a deformed chain of elements.
 ///
 /// `rest` is the length of each element at rest.
-fn walk(rest: f64, start: Start, links: &[Link]) -> Vec<[f64; 3]> {
+fn chain_poses(rest: f64, start: Start, links: &[Link]) -> Vec<[f64; 3]> {
     let mut node = [start.0, start.1, start.2];
     let mut nodes = vec![node];
     for &(stretch, [first, second], turns) in links {
@@ -49,7 +49,7 @@ fn walk(rest: f64, start: Start, links: &[Link]) -> Vec<[f64; 3]> {
 /// Generates an element with its ends rotated by up to 2.5 rad from the chord.
 pub fn bent_beam() -> impl Strategy<Value = (CorotationalBeam, Ends)> {
     (beam(), start(), link()).prop_map(|(beam, start, link)| {
-        let nodes = walk(beam.length(), start, &[link]);
+        let nodes = chain_poses(beam.length(), start, &[link]);
         (beam, Ends::from_iterator(nodes.concat()))
     })
 }
@@ -82,10 +82,10 @@ pub fn bent_gap() -> impl Strategy<Value = (GapMembrane, DVector<f64>)> {
     (span, start(), links).prop_filter_map("valid", |(span, start, links)| {
         let section = Section::new(1.0, 0.5).ok()?;
         let gap = GapMembrane::new(section, span, links.len()).ok()?;
-        let mut nodes = walk(span.gap / links.len() as f64, start, &links);
-        hold(&mut nodes[0], span.half_base, span.axis_offset);
+        let mut nodes = chain_poses(span.gap / links.len() as f64, start, &links);
+        to_scale_node(&mut nodes[0], span.half_base, span.axis_offset);
         let last = links.len();
-        hold(&mut nodes[last], -span.half_base, span.axis_offset);
+        to_scale_node(&mut nodes[last], -span.half_base, span.axis_offset);
         Some((gap, DVector::from_vec(nodes.concat()) - gap.rest()))
     })
 }
@@ -93,7 +93,7 @@ pub fn bent_gap() -> impl Strategy<Value = (GapMembrane, DVector<f64>)> {
 /// Replaces the pose of an end of the membrane by the pose of the node of its scale.
 ///
 /// The end is at `(x, −e)` in the frame of the scale, where `e` is `axis_offset`.
-fn hold(pose: &mut [f64; 3], x: f64, axis_offset: f64) {
+fn to_scale_node(pose: &mut [f64; 3], x: f64, axis_offset: f64) {
     let lever = RigidArm::new(Vector2::new(x, -axis_offset)).lever(pose[2]);
     pose[0] -= lever.x;
     pose[1] -= lever.y;

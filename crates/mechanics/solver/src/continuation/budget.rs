@@ -40,9 +40,9 @@ impl Budget {
             tangents: work.tangents - self.at_farthest.tangents,
             unknowns: work.unknowns - self.at_farthest.unknowns,
         };
-        let [of_path, of_rest] = FREE_TANGENTS;
+        let [of_path, of_stall] = FREE_TANGENTS;
         (work.tangents > of_path && work.unknowns > most)
-            || (since.tangents > of_rest && since.unknowns > most / 2)
+            || (since.tangents > of_stall && since.unknowns > most / 2)
     }
 }
 

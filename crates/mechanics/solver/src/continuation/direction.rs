@@ -40,8 +40,8 @@ pub(super) const SHORT: f64 = 1e-7;
 impl<S: System> Continuation<S> {
     /// Returns a direction scaled to unit length in the controls.
     ///
-    /// A hidden direction is scaled to the length [`HIDDEN`] in all coordinates, which is less than
-    /// unit length in the controls.
+    /// A hidden direction is scaled to the length [`HIDDEN`] in all coordinates; its length in the
+    /// controls is then less than 1.
     pub(crate) fn normalised(&self, mut direction: Vec<f64>) -> Vec<f64> {
         let all = self.coordinates.iter().map(|&index| direction[index].powi(2)).sum::<f64>();
         let factor = 1.0 / self.in_controls(&direction).max(all.sqrt() / HIDDEN);
@@ -109,13 +109,13 @@ impl<S: System> Continuation<S> {
         from: &Equilibrium<S::Mode>,
         candidate: &Candidate<S::Mode>,
     ) -> bool {
-        // Computed in one pass over all coordinates, because every step needs these products.
+        // One pass over the coordinates computes all products, because every step needs them.
         let mut products = [[0.0; 3]; 3];
         for &index in &self.coordinates {
             let chord = candidate.state.z[index] - from.state.z[index];
-            let ways = [from.leaving[index], candidate.direction[index], chord];
-            for (row, one) in products.iter_mut().zip(ways) {
-                for (product, other) in row.iter_mut().zip(ways) {
+            let vectors = [from.leaving[index], candidate.direction[index], chord];
+            for (row, one) in products.iter_mut().zip(vectors) {
+                for (product, other) in row.iter_mut().zip(vectors) {
                     *product += one * other;
                 }
             }
@@ -125,7 +125,7 @@ impl<S: System> Continuation<S> {
         let along =
             products[0][2] / (lengths[0] * lengths[2]) + products[1][2] / (lengths[1] * lengths[2]);
         let off_mean = along < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
-        // A hidden direction is longer in all coordinates than in the controls.
+        // `SHORT` is a length in the controls. A hidden direction is longer in all coordinates.
         lengths[2] > SHORT * lengths[0].max(1.0) && (turn < STRAIGHT_IN_ALL || off_mean)
     }
 

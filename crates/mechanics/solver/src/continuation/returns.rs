@@ -1,6 +1,6 @@
 //! Detection of paths without progress, which return to earlier events again and again.
 
-/// Largest number of returns to earlier events.
+/// Largest number of returns to earlier events; a path with more returns makes no progress.
 ///
 /// The count starts at the last maximum of the control parameter. In a system of equal parts, such
 /// as the gaps of a strip, a valid path may return several times to control parameter and load of

@@ -10,10 +10,10 @@ use crate::progress;
 use crate::system::{State, System};
 use crate::termination::Termination;
 
-/// Number of failed steps that would undo the change at a point after which the path jumps.
+/// Number of failed steps, each undoing the last change, after which the path ends as `Jumps`.
 ///
-/// Each step is a third of the previous step. If the first step was merely too long, fewer
-/// reductions suffice.
+/// Each step is a third of the previous step. If the first step was merely too long, a smaller
+/// number of reductions suffices.
 const UNDONE: usize = 5;
 
 /// Step lengths for resuming the path beyond a bifurcation point, in the order of preference.
@@ -61,9 +61,9 @@ impl<S: System> Continuation<S> {
     /// Returns the length of the next step, at most the distance to the target.
     fn distance(&self) -> f64 {
         let drive = self.progress(&self.point.leaving);
-        let left = self.system.target() - drive.signum() * self.progress(&self.point.state.z);
+        let remaining = self.system.target() - drive.signum() * self.progress(&self.point.state.z);
         // The target limits the step only if the control parameter changes along the path.
-        if drive.abs() >= DRIVES { self.step.min(left) } else { self.step }
+        if drive.abs() >= DRIVES { self.step.min(remaining) } else { self.step }
     }
 
     /// Reduces the step size after a failed attempt to step by `distance`.

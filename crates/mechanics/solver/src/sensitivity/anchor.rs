@@ -8,9 +8,9 @@ use crate::system::{State, System};
 /// Condition that selects a point of a path while a parameter changes the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathAnchor {
-    /// The point stays in a fixed section across the path.
+    /// The arc length in the controls is constant, so the point does not move along the path.
     ///
-    /// For the state of rest, and for a smooth maximum, where a motion along the path has no
+    /// Used for the state of rest, and for a smooth maximum, where a motion along the path has no
     /// first-order effect.
     Still,
     /// The control parameter has the magnitude of its scale, the default [`System::target`].
@@ -43,7 +43,7 @@ impl<M: Clone> AnchoredPoint<M> {
 
 impl PathAnchor {
     /// Evaluates the function of the state that the anchor keeps constant.
-    pub(super) fn off<S: System>(self, system: &S, state: &State<S::Mode>) -> f64 {
+    pub(super) fn value<S: System>(self, system: &S, state: &State<S::Mode>) -> f64 {
         let control = system.controls()[0];
         match self {
             Self::Still | Self::Stationary(_) => 0.0,

@@ -1,15 +1,16 @@
-//! Rates of unknowns and directions from differences between two neighbouring systems.
+//! Derivatives of unknowns and path directions from differences of two neighbouring systems.
 
 use crate::newton::Newton;
 use crate::system::{State, System, inactive};
 
-/// Step along the path of difference quotients.
+/// Step along the path in difference quotients.
 pub(super) const ALONG: f64 = 1e-5;
 
 /// Computes `−J⁻¹ d(J v)/dq` (D3) from two states of neighbouring systems.
 ///
-/// `direction` is `v`, and `newton` contains the factors of `J`. The parameter `q` of the systems
-/// `sides` with the states `states` differs by `2 step`.
+/// `direction` is `v`, and `newton` contains the factors of `J`. Between the two systems `sides`,
+/// which have the states `states`, the parameter `q` differs by `2 step`. With the same system
+/// twice and two states of its path, `q` is the distance along the path.
 pub(super) fn turning<S: System>(
     newton: &mut Newton,
     sides: [&S; 2],

@@ -19,7 +19,7 @@ const FARTHEST: f64 = 0.1;
 /// Lower bound of [`reach`], in units of the arc length in the controls.
 const SHORTEST: f64 = 1e-6;
 
-/// Ratio of slope to value of a function below which the function is constant along the path.
+/// Ratio of slope to value of a function up to which the function counts as constant.
 const FLAT: f64 = 1e-9;
 
 /// Maximum number of steps of the secant search.
@@ -81,12 +81,14 @@ impl<M: Clone> AnchoredPoint<M> {
         Some((distance, slope, Self { state, direction, anchor: PathAnchor::Still }))
     }
 
-    /// Returns the point with the unknown of the fastest constraint as its anchor.
+    /// Returns the point, anchored to the unknown with the largest relative rate along the path.
     ///
     /// Any anchor is valid at a stationary point. With this anchor a force that has just begun to
-    /// act, and changes by its own value within a short distance, is kept constant.
+    /// act, and changes by its own value within a short distance, is kept constant. The anchor is
+    /// [`PathAnchor::Still`] if no unknown changes by its own value within the distance 1.
     fn anchored<S: System<Mode = M>>(self, system: &S) -> Self {
-        let fast = fastest(system, &self.state, &self.direction).filter(|(_, way)| *way < 1.0);
+        let fast =
+            fastest(system, &self.state, &self.direction).filter(|(_, distance)| *distance < 1.0);
         let anchor =
             fast.map_or(PathAnchor::Still, |(constraint, _)| PathAnchor::Guard(constraint));
         Self { anchor, ..self }
@@ -126,14 +128,14 @@ fn fastest<S: System>(
     // that depends on the parameter, so leave it out.
     let active =
         constraints.filter(|(number, (_, active))| **active && !system.monotone().contains(number));
-    let ways = active
+    let distances = active
         .map(|(constraint, (&index, _))| (constraint, (state.z[index] / direction[index]).abs()));
-    ways.filter(|(_, way)| way.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+    distances.filter(|(_, distance)| distance.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Returns the distance, at most 1, over which no constraint changes by more than its value.
+/// Returns a distance along the path over which no constraint changes by more than its value.
 ///
-/// Only the unknowns of active constraints count.
+/// Only the unknowns of active constraints count. The distance is limited to [`SHORTEST`] to 1.
 fn reach<S: System>(system: &S, state: &State<S::Mode>, direction: &[f64]) -> f64 {
-    fastest(system, state, direction).map_or(1.0, |(_, way)| way.clamp(SHORTEST, 1.0))
+    fastest(system, state, direction).map_or(1.0, |(_, distance)| distance.clamp(SHORTEST, 1.0))
 }

@@ -343,8 +343,8 @@ fn added_entries_are_returned_at_their_row_and_column() {
     matrix.add_block(6, 6, &[[0.25; 4]; 1]);
     for i in 0..size {
         for j in 0..size {
-            let stands = chain.couples(i, j) && !left_out[i] && !left_out[j];
-            let mut expected = if stands { dense[(i, j)] } else { 0.0 };
+            let is_stored = chain.couples(i, j) && !left_out[i] && !left_out[j];
+            let mut expected = if is_stored { dense[(i, j)] } else { 0.0 };
             expected += if (1..4).contains(&i) && (6..9).contains(&j) { 0.5 } else { 0.0 };
             expected += if i == 6 && (6..10).contains(&j) { 0.25 } else { 0.0 };
             assert_eq!(matrix.get(i, j), expected, "{i} {j}");

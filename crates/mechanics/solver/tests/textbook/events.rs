@@ -97,11 +97,11 @@ fn the_nearer_of_two_walls_becomes_active_first() {
         assert_eq!(stop, Termination::Reached);
         let changes = changes(&points);
         assert_eq!(changes.len(), 2);
-        for ((point, changed), (wall, place)) in
+        for ((point, changed), (wall, position)) in
             changes.iter().zip([(first, 0.5), (1 - first, 0.6)])
         {
             assert_eq!(changed[..], [(wall, true)]);
-            assert_relative_eq!(point.state.z[0], place, max_relative = 1e-10);
+            assert_relative_eq!(point.state.z[0], position, max_relative = 1e-10);
         }
         assert_eq!(points.len(), 3);
     }

@@ -94,8 +94,8 @@ impl System for Block {
             _ => [-1.0, 0.0],
         };
         let entries = [(0, 0, 1.0), (0, 1, 1.0), (0, 4, 8.0 * z[4] - 4.0)];
-        let ways = [(2, 2, 1.0), (2, 0, -1.0), (3, 3, 1.0), (3, 0, 1.0)];
-        for (row, column, value) in entries.into_iter().chain(ways) {
+        let slips = [(2, 2, 1.0), (2, 0, -1.0), (3, 3, 1.0), (3, 0, 1.0)];
+        for (row, column, value) in entries.into_iter().chain(slips) {
             matrix.add(row, column, value);
         }
         matrix.add(1, 0, by_u);
@@ -113,10 +113,10 @@ impl System for Block {
     }
 }
 
-/// Displacement `u = (1 − μ)/(1 + μ c)` at the largest force `f = 1`, where the slip reverses.
-const TURNED: f64 = (1.0 - FRICTION) / (1.0 + FRICTION * WEDGE);
-/// Displacement `u = μ/(1 − μ c)` at the end, at `f = 0`.
-const LEFT: f64 = FRICTION / (1.0 - FRICTION * WEDGE);
+/// Displacement `u = (1 − μ)/(1 + μ c)` at the largest force `f = 1`, at which forward slip ends.
+const FARTHEST: f64 = (1.0 - FRICTION) / (1.0 + FRICTION * WEDGE);
+/// Displacement `u = μ/(1 − μ c)` that remains at the end of the path, at `f = 0`.
+const REMAINING: f64 = FRICTION / (1.0 - FRICTION * WEDGE);
 
 #[test]
 fn a_block_sticks_slips_sticks_and_slips_back() {
@@ -128,12 +128,12 @@ fn a_block_sticks_slips_sticks_and_slips_back() {
         // The block slips from f = μ on, sticks from the maximum f = 1 on, and slips back from
         // f = u₀ − μ (1 + c u₀) on.
         let [slide, slide_back] =
-            [FRICTION, TURNED - limit(TURNED)].map(|push| 0.5 - 0.5 * (1.0 - push).sqrt());
+            [FRICTION, FARTHEST - limit(FARTHEST)].map(|push| 0.5 - 0.5 * (1.0 - push).sqrt());
         assert_relative_eq!(slides.state.z[4], slide, max_relative = 1e-10);
         assert_relative_eq!(stops.state.z[4], 0.5, max_relative = 1e-7);
-        assert_relative_eq!(stops.state.z[0], TURNED, max_relative = 1e-12);
+        assert_relative_eq!(stops.state.z[0], FARTHEST, max_relative = 1e-12);
         assert_relative_eq!(back.state.z[4], 1.0 - slide_back, max_relative = 1e-10);
-        assert_relative_eq!(points.last().unwrap().state.z[0], LEFT, max_relative = 1e-10);
+        assert_relative_eq!(points.last().unwrap().state.z[0], REMAINING, max_relative = 1e-10);
     }
 }
 

@@ -23,9 +23,9 @@ fn deflections_of_a_string_on_the_floor_agree_with_the_closed_form() {
     }
 }
 
-/// Newton's method starts with forces at inactive constraints.
+/// Starts Newton's method with non-zero forces at inactive constraints.
 ///
-/// The load is the one at which the middle node just touches the floor.
+/// At the prescribed load the middle node just touches the floor.
 #[test]
 fn newtons_method_sets_the_forces_of_inactive_constraints_to_zero() {
     let string = StringOverFloor::whole(4, 1.0);

@@ -8,7 +8,7 @@ mod string_over_floor;
 use solver::Control;
 
 pub use bratu::Bratu;
-pub use one_constraint::{OneConstraint, Unwilling, bump, corner, kink, two_laws};
+pub use one_constraint::{InactiveKink, OneConstraint, bump, corner, kink, two_laws};
 pub use smooth::{
     SPRING, Stiff, arch, arch_on_spring, circle, column, jump, parabola, pushed_arch, root, step,
 };

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use solver::{Condition, Continuation, Event, Newton, NewtonFailure, Settings, State, Termination};
 
 use crate::problems::{
-    Stiff, Unwilling, arch, circle, column, jump, kink, parabola, pushed_arch, root, step,
+    InactiveKink, Stiff, arch, circle, column, jump, kink, parabola, pushed_arch, root, step,
 };
 use crate::scaled::Scaled;
 use crate::{extrema, follow, steps};
@@ -90,14 +90,14 @@ fn a_path_ends_as_not_finite_at_the_end_of_the_domain_of_its_equations() {
 
 #[test]
 fn a_path_ends_as_cycling_if_both_directions_violate_a_constraint() {
-    let (points, stop) = follow(Unwilling::Refusing(kink::<5>()), Settings::default());
+    let (points, stop) = follow(InactiveKink::Violated(kink::<5>()), Settings::default());
     assert_eq!(stop, Termination::Cycling);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
 #[test]
 fn a_path_ends_as_singular_if_the_transition_of_a_constraint_fails() {
-    let (points, stop) = follow(Unwilling::Stuck(kink::<5>()), Settings::default());
+    let (points, stop) = follow(InactiveKink::NoTransition(kink::<5>()), Settings::default());
     assert_eq!(stop, Termination::Singular);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::Relief;
 use crate::RowStiffness;
 
-/// Maximum number of iterations; without convergence the displacements do not decay.
+/// Maximum number of iterations for `R`; if they do not converge, displacements do not decay.
 const BLOCKS: usize = 400;
 
 /// Convergence tolerance for the reduction `R`, relative to the largest stiffness of a scale.
@@ -30,7 +30,7 @@ pub(super) struct CoupledRow {
 }
 
 impl CoupledRow {
-    /// Computes the row and its reductions of the stiffness of the last block before it.
+    /// Computes the row, and the reductions of the stiffness of the last solved scales by the row.
     ///
     /// Returns `None` if displacements do not decay along the row.
     pub(super) fn endless(stiffness: &RowStiffness) -> Option<(Self, Vec<Relief>)> {

@@ -1,4 +1,4 @@
-//! The far field of free scales agrees with rows of which all scales are solved.
+//! The far field of free scales agrees with solutions for all scales of a row.
 
 use nalgebra::{DMatrix, DVector};
 use substrate::{Coupling, FarField, Footprint, Neighbour, RowStiffness, Springs};
@@ -17,20 +17,20 @@ fn springs(alpha: f64, ratio: f64) -> RowStiffness {
 fn finite_row(stiffness: &RowStiffness, k: usize, scales: usize) -> (Vec<f64>, f64) {
     let (alpha, beta) = (stiffness.direct[k], -stiffness.neighbours[0].direct[k]);
     let mut ratios = Vec::new();
-    let mut own = alpha;
+    let mut reduced = alpha;
     for _ in 1..scales {
-        ratios.push(beta / own);
-        own = alpha - beta * beta / own;
+        ratios.push(beta / reduced);
+        reduced = alpha - beta * beta / reduced;
     }
     let mut displacements = vec![1.0];
     for ratio in ratios.iter().rev() {
         displacements.push(ratio * displacements[displacements.len() - 1]);
     }
-    (displacements, own)
+    (displacements, reduced)
 }
 
 /// Returns the stiffness of the last solved scale in direction `k`, reduced by the far field.
-fn held(stiffness: &RowStiffness, far: &FarField, k: usize) -> f64 {
+fn reduced_stiffness(stiffness: &RowStiffness, far: &FarField, k: usize) -> f64 {
     let relief = far.relief.iter().find(|r| [r.force, r.displacement] == [0, 0]);
     stiffness.direct[k] - relief.unwrap().by[k][k]
 }
@@ -42,7 +42,7 @@ fn the_far_field_of_an_infinite_row_agrees_with_400_scales() {
         let far = stiffness.far_field(None).unwrap();
         for k in 0..3 {
             let (displacements, force) = finite_row(&stiffness, k, 400);
-            assert!((held(&stiffness, &far, k) / force - 1.0).abs() < 1e-13);
+            assert!((reduced_stiffness(&stiffness, &far, k) / force - 1.0).abs() < 1e-13);
             for (distance, displacement) in displacements.iter().enumerate().take(20).skip(1) {
                 let found = far.displacement(|_| [1.0; 3], distance)[k];
                 assert!(
@@ -62,7 +62,7 @@ fn the_far_field_of_a_finite_row_agrees_with_a_solution_of_all_scales() {
             let far = stiffness.far_field(Some(beyond)).unwrap();
             for k in 0..3 {
                 let (displacements, force) = finite_row(&stiffness, k, beyond + 1);
-                assert!((held(&stiffness, &far, k) / force - 1.0).abs() < 1e-13);
+                assert!((reduced_stiffness(&stiffness, &far, k) / force - 1.0).abs() < 1e-13);
                 let found = far.displacements(|_| [1.0; 3], beyond);
                 for (found, displacement) in found.iter().zip(&displacements[1..]) {
                     let off = found[k] - displacement;
@@ -84,7 +84,7 @@ fn displacements_decay_along_rows_on_a_half_space() {
         assert!(0.0 < x && x < 1.0 && 0.0 < y && y < 1.0, "{x} {y}");
         assert!(-1.0 < rotation && rotation < 0.0, "{rotation}");
         for k in 0..3 {
-            let part = held(&stiffness, &far, k) / stiffness.direct[k];
+            let part = reduced_stiffness(&stiffness, &far, k) / stiffness.direct[k];
             assert!(0.5 < part && part < 1.0, "{k} {part}");
         }
     }
@@ -150,8 +150,8 @@ fn a_row_with_several_neighbours_is_condensed_to_its_last_scales() {
             }
         }
         assert!((&relief - &condensed).amax() < 1e-13 * stiffness.direct[0]);
-        let held = DVector::from_fn(last, |i, _| end(neighbours - 1 - i / 3)[i % 3]);
-        let moved = &follows * held;
+        let displaced = DVector::from_fn(last, |i, _| end(neighbours - 1 - i / 3)[i % 3]);
+        let moved = &follows * displaced;
         for (scale, found) in far.displacements(end, 20).iter().enumerate() {
             for (k, found) in found.iter().enumerate() {
                 assert!((found + moved[3 * scale + k]).abs() < 1e-12, "{scale} {k}");

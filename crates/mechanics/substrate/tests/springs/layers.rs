@@ -65,9 +65,9 @@ fn compliances_agree_with_a_directly_solved_layer() {
         for x in [0.05, 0.3, 1.0, 2.5, 4.0] {
             let [[crossed, normal], [shear, back]] = wave(ratio, x);
             let [n, mean, difference, cross] = beside_half_space(ratio, x);
-            let (left, incompressible) = (1.0 - ratio, 1.0 - 2.0 * ratio);
-            assert_relative_eq!(left + n, normal, epsilon = 1e-9);
-            assert_relative_eq!(left + mean + difference, shear, epsilon = 1e-9);
+            let (deep, incompressible) = (1.0 - ratio, 1.0 - 2.0 * ratio);
+            assert_relative_eq!(deep + n, normal, epsilon = 1e-9);
+            assert_relative_eq!(deep + mean + difference, shear, epsilon = 1e-9);
             assert_relative_eq!(1.0 + mean - difference, x.tanh(), epsilon = 1e-9);
             assert_relative_eq!(cross - 0.5 * incompressible, crossed, epsilon = 1e-9);
             assert_relative_eq!(crossed, back, epsilon = 1e-9);
@@ -133,8 +133,8 @@ fn thick_layers_approach_the_half_space() {
 
 /// Compares with two-digit values of an independent program on coarse meshes.
 ///
-/// First the stiffness of an isolated square over its value on the half-space, then `K_0` along the
-/// row, `r_0` and `l` of three squares.
+/// First the stiffness of an isolated square, divided by its value on the half-space; then `K_0`
+/// along the row, `r_0` and `l` of three squares.
 #[test]
 fn layers_agree_with_an_independent_program() {
     let alone = RowStiffness::compute(&Footprint::new(100.0, 2.0, 0.5).unwrap(), Coupling::Nearest);
@@ -179,10 +179,10 @@ fn the_stiffness_is_positive_definite() {
             assert_eq!(row.neighbours.len(), scales);
             for step in 0..=100 {
                 let q = PI * f64::from(step) / 100.0;
-                let (mut own, mut roll, mut lift, mut cross) = (row.direct, row.roll, 0.0, 0.0);
+                let (mut direct, mut roll, mut lift, mut cross) = (row.direct, row.roll, 0.0, 0.0);
                 for (k, n) in row.neighbours.iter().enumerate() {
                     let (sin, cos) = ((k + 1) as f64 * q).sin_cos();
-                    own = std::array::from_fn(|i| own[i] + 2.0 * cos * n.direct[i]);
+                    direct = std::array::from_fn(|i| direct[i] + 2.0 * cos * n.direct[i]);
                     roll += 2.0 * cos * n.roll;
                     (lift, cross) = (lift + 2.0 * sin * n.lift, cross + 2.0 * sin * n.cross);
                 }
@@ -191,7 +191,7 @@ fn the_stiffness_is_positive_definite() {
                     (0, 1) => lift,
                     (0, 2) => roll,
                     (1, 2) => -cross,
-                    _ => own[i],
+                    _ => direct[i],
                 });
                 let least = matrix.symmetric_eigenvalues().min();
                 assert!(least > 0.0, "{thickness} {coupling:?} {q} {least}");

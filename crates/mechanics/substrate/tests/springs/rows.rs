@@ -69,7 +69,7 @@ fn distant_scales_respond_as_to_point_loads_and_couples() {
         let force = -alone * alone * half_space::point_load(r);
         let couple = -alone * turned * half_space::point_couple(r);
         assert!((neighbour.direct[1] / force - 1.0).abs() < 0.02, "{k} {}", neighbour.direct[1]);
-        // Scales between both carry a part of the load.
+        // Scales between the displaced and the distant scale carry a part of the load.
         assert!((neighbour.cross / couple - 1.0).abs() < 0.03, "{k} {}", neighbour.cross);
     }
 }

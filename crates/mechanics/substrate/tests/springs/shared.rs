@@ -11,12 +11,13 @@ fn footprints(count: u32) -> Vec<Footprint> {
 #[test]
 fn all_threads_get_the_springs_of_their_footprint() {
     // A small cache, which drops footprints during the test.
-    let (shared, asked) = (Calibrations::with_capacity(4), footprints(5));
+    let (shared, requested) = (Calibrations::with_capacity(4), footprints(5));
     thread::scope(|scope| {
         for start in 0..8 {
-            let (shared, asked) = (&shared, asked.iter().cycle().skip(start).take(asked.len()));
+            let count = requested.len();
+            let (shared, requested) = (&shared, requested.iter().cycle().skip(start).take(count));
             scope.spawn(move || {
-                for footprint in asked {
+                for footprint in requested {
                     assert_eq!(shared.get(footprint), calibrate(footprint));
                 }
             });

@@ -19,7 +19,7 @@ fn slopes(gap: f64, width: f64, poisson_ratio: f64, coupling: Coupling) -> Stiff
     slopes
 }
 
-/// Asserts that values agree relative to themselves, small values relative to the largest one.
+/// Asserts that errors are at most `tolerance` times the sum of value and a tenth of the largest.
 fn assert_close(ours: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     let largest = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
     for (ours, expected) in ours.iter().zip(expected) {

@@ -27,8 +27,8 @@ fn solved(footprint: &Footprint, neighbours: usize, cells: [usize; 3]) -> Vec<f6
 }
 
 fn limit([coarse, fine]: [&[f64]; 2], finer: f64, order: i32) -> Vec<f64> {
-    let share = 1.0 / (finer.powi(order) - 1.0);
-    coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
+    let factor = 1.0 / (finer.powi(order) - 1.0);
+    coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * factor).collect()
 }
 
 #[test]
@@ -45,7 +45,7 @@ fn tabulated_springs_agree_with_fine_meshes() {
     }
 }
 
-/// The stated error also is far below the coupling that rows with eight neighbours neglect.
+/// The stated error is also smaller than the neglected coupling beyond eight neighbours.
 #[test]
 fn long_rows_agree_with_boundary_elements() {
     for footprint in footprints(2) {
@@ -63,7 +63,9 @@ fn long_rows_agree_with_boundary_elements() {
     }
 }
 
-/// At the limits of the range the table and boundary elements, which state a larger error, agree.
+/// Compares springs just within and just beyond the limits of the range.
+///
+/// Boundary elements, used beyond the limits, state a larger error than the table.
 #[test]
 fn table_and_boundary_elements_agree_at_the_range_limits() {
     for [gap, width] in [[0.0125, 0.25], [0.0125, 80.0], [100.0, 0.25], [100.0, 80.0]] {

@@ -195,21 +195,21 @@ fn without_mode<M>(state: &State<M>) -> State {
 
 /// Variants of [`kink`] in which the constraint cannot become active.
 #[derive(Clone)]
-pub enum Unwilling {
+pub enum InactiveKink {
     /// Both directions of the path violate the constraint.
-    Refusing(OneConstraint),
+    Violated(OneConstraint),
     /// The transition of the constraint fails.
-    Stuck(OneConstraint),
+    NoTransition(OneConstraint),
 }
 
-impl Unwilling {
+impl InactiveKink {
     fn kink(&self) -> &OneConstraint {
-        let (Self::Refusing(kink) | Self::Stuck(kink)) = self;
+        let (Self::Violated(kink) | Self::NoTransition(kink)) = self;
         kink
     }
 }
 
-impl System for Unwilling {
+impl System for InactiveKink {
     type Mode = ();
 
     fn size(&self) -> usize {
@@ -244,13 +244,13 @@ impl System for Unwilling {
 
     fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
         match self {
-            Self::Refusing(_) => -direction[0].abs(),
-            Self::Stuck(kink) => kink.slope(state, constraint, direction),
+            Self::Violated(_) => -direction[0].abs(),
+            Self::NoTransition(kink) => kink.slope(state, constraint, direction),
         }
     }
 
     fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
         state.active[change.constraint] = false;
-        matches!(self, Self::Refusing(_)).then_some(change.constraint)
+        matches!(self, Self::Violated(_)).then_some(change.constraint)
     }
 }
