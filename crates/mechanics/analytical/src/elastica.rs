@@ -62,9 +62,9 @@ pub fn tip(load: f64) -> Tip {
 
 /// Returns `[x, y, rotation]` of every free node of a strip that an end moment rolls up.
 ///
-/// The strip lies along `x`, has unit length and is clamped at its left end. The moment rotates the
-/// tip of the strip by `angle`. The strip is a polygon of `elements` straight links of equal
-/// length.
+/// The nodes are ordered from the clamp to the tip. The strip lies along `x`, has unit length and
+/// is clamped at its left end. The moment rotates the tip of the strip by `angle`. The strip is a
+/// polygon of `elements` straight links of equal length.
 ///
 /// In pure bending, co-rotational elements form this polygon: the length of an element does not
 /// change, and rotations and moments are exact for any number of elements.

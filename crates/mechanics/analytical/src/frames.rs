@@ -9,10 +9,11 @@
 /// S.-L. Lee, F. S. Manuel, E. C. Rossow, *J. Eng. Mech. Div. ASCE* 94 (1968) 521.
 pub const LEES_FRAME: f64 = 18.552;
 
-/// Returns the limit load of half a shallow toggle, a bar between a hinge and a vertical slide.
+/// Returns the limit load of half a shallow toggle: one inclined bar.
 ///
-/// At rest the slide is `height` above the hinge and `base` away in the horizontal direction. The
-/// axial stiffness `EA` of the bar is `axial`. The load presses the slide down.
+/// The lower end of the bar is a fixed hinge. The upper end can move only vertically and carries
+/// the downward load. At rest the upper end is `height` above the hinge, at the horizontal distance
+/// `base`. The axial stiffness `EA` of the bar is `axial`.
 ///
 /// With the current length `l` of the bar, its length `L` at rest, and the current height `h`, the
 /// load is `P = EA (1/l − 1/L) h`. Its maximum is at `l³ = L b²`, where `b` is `base`.

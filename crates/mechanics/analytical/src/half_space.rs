@@ -66,9 +66,10 @@ pub fn tangential_point_load(r: f64, poisson_ratio: f64) -> f64 {
     1.0 / (PI * r * (1.0 - poisson_ratio))
 }
 
-/// Returns the normal displacement in the plane of a unit couple at distance `r` from it.
+/// Returns the normal displacement of the surface at distance `r` from a unit couple.
 ///
-/// The value is the magnitude of the derivative of [`point_load`] with respect to `r`.
+/// The displacement is taken in the plane of the couple. The value is the magnitude of the
+/// derivative of [`point_load`] with respect to `r`.
 pub fn point_couple(r: f64) -> f64 {
     1.0 / (PI * r * r)
 }

@@ -1,8 +1,8 @@
 //! Closed-form solution for the puncture of a scale without neighbours.
 //!
-//! Only its own springs hold the scale. A downward load `F` acts on the point `r` of the scale,
-//! relative to its node. The scale rotates by `ψ` clockwise, its node moves up by `y`, and the
-//! loaded point moves down by `u`:
+//! The scale is supported by its two springs alone. A downward load `F` acts on a point of the
+//! scale with the position `r` relative to the node. The scale rotates by `ψ` clockwise, its node
+//! moves up by `y`, and the loaded point moves down by `u`:
 //!
 //! ```text
 //! k_y y = −F,    k_φ ψ = F (r_x cos ψ + r_y sin ψ),    k_y = a α_y,  k_φ = a³ α_φ
@@ -12,7 +12,7 @@
 //! These equations give `F(ψ)`, `u(ψ)` and the energies `½ k_y y²` and `½ k_φ ψ²` in closed form.
 //! Forces are in units of `E* t²`, lengths in units of `t`.
 
-/// Punctured scale that only its own two springs hold.
+/// Punctured scale without neighbours, supported by two springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IsolatedScale {
     /// Stiffness `k_y = a α_y` of the spring for vertical displacement.
@@ -65,7 +65,7 @@ mod tests {
         assert!((slope / SCALE.initial_stiffness() - 1.0).abs() < 1e-6, "{slope}");
     }
 
-    /// Checks `dU = F du` with the trapezoidal rule.
+    /// Integrates the work `∫ F du` with the trapezoidal rule.
     #[test]
     fn the_work_of_the_load_equals_the_elastic_energy() {
         let (steps, end) = (2000, 0.4);

@@ -34,7 +34,8 @@ pub mod upright_blocks;
 
 /// Returns the point in `low..high` at which `is_below` changes from true to false.
 ///
-/// Sixty bisections reduce an interval of length 1 to less than the resolution of an `f64`.
+/// Sixty bisections reduce an interval of length 1 to `1e-18`, below the rounding error of an `f64`
+/// of order 1.
 fn bisected([mut low, mut high]: [f64; 2], is_below: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

@@ -1,8 +1,8 @@
 //! Response of a row of scales coupled by the substrate, before the first contact.
 //!
 //! Without contact, the displacements `y_i` and the rotations `φ_i` of the scales are solutions of
-//! two separate tridiagonal systems. Both have the form `α u_i − β (u_{i−1} + u_{i+1}) = f_i`
-//! (Eq. 1 of Shafiei et al. 2021, doi 10.1016/j.jmps.2020.104176).
+//! two separate tridiagonal systems. Both have the form `α u_i − β (u_{i−1} + u_{i+1}) = f_i` with
+//! the load `f_i` on scale `i` (Eq. 1 of Shafiei et al. 2021, doi 10.1016/j.jmps.2020.104176).
 
 /// Displacements due to a unit load on the middle scale of a row (Green's function).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,17 +1,18 @@
 //! Locking of a beam with thin frictional plates on torsional springs.
 //!
 //! Plates of length `l` are attached to a beam at the pitch `d` by torsional springs at their
-//! roots. At rest they are inclined by `θ₀` to the beam. After they touch, they rotate about their
-//! roots to the inclination `θ`. If the beam is bent to an arc with the angle `ψ` between two
-//! roots, the tip of each plate lies on its neighbour for
+//! roots. At rest the plates are inclined by `θ₀` to the beam. After first contact, the plates
+//! rotate about their roots to the inclination `θ`. The bent beam is an arc, with the angle `ψ`
+//! between two neighbouring roots. The tip of each plate touches its neighbour if
 //!
 //! ```text
 //! (l/d) ψ cos(ψ/2) = sin(θ + ψ/2)
 //! ```
 //!
-//! At first contact `θ = θ₀`. The beam locks if the contact force on a tip has no moment about the
-//! root of its plate. The friction coefficient `μ` admits such a force from
-//! `θ + ψ/2 = 90° − arctan μ` on. Plates that are steeper at first contact lock at first contact.
+//! At first contact `θ = θ₀`. The beam locks as soon as friction admits a contact force on a tip
+//! without a moment about the root of the plate. With the friction coefficient `μ` this is at
+//! `θ + ψ/2 = 90° − arctan μ`. If `θ₀ + ψ/2` already exceeds this angle at first contact, the beam
+//! locks at first contact.
 //!
 //! Source: R. Ghosh, H. Ebrahimi, A. Vaziri, *Frictional effects in biomimetic scales engagement*,
 //! EPL 113 (2016) 34003, doi 10.1209/0295-5075/113/34003.
@@ -32,7 +33,7 @@ pub struct Engagement {
 /// Returns the arc angles at which inclined plates first touch and at which the beam locks.
 ///
 /// `length_over_pitch` is `l/d`, `angle` is `θ₀` in radians, and `friction` is `μ`. `None` if the
-/// plates do not touch or lock up to the maximum of `ψ cos(ψ/2)`.
+/// plates do not touch, or the beam does not lock, before `ψ cos(ψ/2)` reaches its maximum.
 pub fn engagement(length_over_pitch: f64, angle: f64, friction: f64) -> Option<Engagement> {
     let touch = root(|arc| arm(length_over_pitch, arc) - (angle + 0.5 * arc).sin())?;
     let lock = root(|arc| arm(length_over_pitch, arc) - (FRAC_PI_2 - friction.atan()).sin())?;
@@ -44,9 +45,9 @@ fn arm(length_over_pitch: f64, arc: f64) -> f64 {
     length_over_pitch * arc * (0.5 * arc).cos()
 }
 
-/// Returns the zero of an increasing function of `ψ`, or `None` if the function has no zero.
+/// Returns the zero of an increasing function of `ψ` below the maximum of `ψ cos(ψ/2)`.
 ///
-/// The search ends at the maximum of `ψ cos(ψ/2)`, where `ψ = 2 cot(ψ/2)`.
+/// The maximum is at the solution `last` of `ψ = 2 cot(ψ/2)`. `None` if the function has no zero.
 fn root(f: impl Fn(f64) -> f64) -> Option<f64> {
     let last = 1.720_667_178_038_76;
     (f(last) >= 0.0).then(|| bisected([0.0, last], |arc| f(arc) < 0.0))

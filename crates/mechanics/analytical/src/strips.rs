@@ -7,8 +7,9 @@
 //! it, where `w = t − sgn t √(t² − 1)` (N. I. Muskhelishvili, *Singular Integral Equations*,
 //! Noordhoff 1953).
 //!
-//! For a rotation of the middle strip the pressure is odd in `x`, so the constant has no effect,
-//! and the ends of a long rectangle disturb the pressure only in their vicinity.
+//! For a rotation of the middle strip the pressure is odd in `x`, so the constant has no effect.
+//! For the same reason the pressure under a long rectangle differs from the pressure under a strip
+//! only near the ends of the rectangle.
 
 use std::f64::consts::PI;
 
@@ -26,14 +27,15 @@ pub const ALONE: f64 = 0.25 * PI;
 pub struct Rocking {
     /// Moment `α_φ` on the middle strip.
     pub direct: f64,
-    /// Moment on an outer strip, as `β_φ` with the sign of Eq. (1) of Shafiei et al. (2021).
+    /// `β_φ`: moment on an outer strip, with the sign convention of Eq. (1) of Shafiei et al.
+    /// (2021).
     pub coupling: f64,
 }
 
 /// Returns `α_φ` and `β_φ` per unit length of three strips with gaps `gap` between them.
 ///
-/// The half-width of each strip is 1. The pressure on each strip consists of the Chebyshev
-/// polynomials below order `2 terms`. `None` if the equations are singular.
+/// The half-width of each strip is 1. The pressure on each strip is a series of Chebyshev
+/// polynomials of orders below `2 * terms`. `None` if the equations are singular.
 pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
     let centre = 2.0 + gap;
     let size = 3 * terms;
@@ -79,7 +81,7 @@ mod tests {
     use super::{ALONE, three_strips};
 
     #[test]
-    fn the_series_has_converged() {
+    fn twenty_and_forty_terms_give_the_same_stiffnesses() {
         let [coarse, fine] = [20, 40].map(|terms| three_strips(0.05, terms).unwrap());
         assert!((coarse.direct - fine.direct).abs() < 1e-6);
         assert!((coarse.coupling - fine.coupling).abs() < 1e-6);

@@ -30,7 +30,8 @@ impl Body {
     pub fn frame(&self, arc: f64) -> Frame {
         let angle = arc * self.curvature;
         let (sin, cos) = angle.sin_cos();
-        // `R sin θ` and `R (cos θ − 1)`, without division by the curvature.
+        // The origin is `(R sin θ, R (cos θ − 1))`. This form does not divide by the curvature,
+        // which is zero for a flat body.
         let half = 0.5 * angle;
         let origin = Vec2::new(arc * sinc(angle), -arc * sinc(half) * half.sin());
         Frame { origin, angle, cos, sin }

@@ -5,44 +5,46 @@
 /// A line that only touches a scale must not count as crossing it, although `tan 45°` is not
 /// exactly 1 in floating point. The value is far above the rounding errors of lengths of order 1
 /// (about 1e-15) and far below any relevant length.
-const TOUCH: f64 = 1e-12;
+const LENGTH_TOLERANCE: f64 = 1e-12;
 
 /// Returns the coverage of a row with shift `S` of the top, base `2a` and pitch `p`.
 ///
 /// The three lengths are in units of `t`. A vertical line runs from the top right corner of a scale
-/// to the base. With positions on this line given as `y tan α`, from 0 at the base to `S` at the
-/// top, neighbour `k = 1, 2 …` covers `[S − k p, S − k p + 2a] ∩ [0, S]`. For `k ≤ S/p` the line
-/// crosses the neighbour completely, because its interval starts above 0 and ends below `S`
-/// (`2a < p`). The line may end inside the next neighbour, which then covers `[0, S − k p + 2a]`.
+/// down to the level of the bases. With positions on this line given as `y tan α`, from 0 at the
+/// bases to `S` at the top, neighbour `k = 1, 2 …` covers `[S − k p, S − k p + 2a] ∩ [0, S]`. For
+/// `k ≤ S/p` the line crosses the neighbour completely, because its interval starts above 0 and
+/// ends below `S` (`2a < p`). The line may end inside the next neighbour, which then covers
+/// `[0, S − k p + 2a]`.
 pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
-    if shift < TOUCH {
+    if shift < LENGTH_TOLERANCE {
         return 0.0;
     }
-    let whole = ((shift + TOUCH) / pitch).floor();
+    let whole = ((shift + LENGTH_TOLERANCE) / pitch).floor();
     let partial = shift - (whole + 1.0) * pitch + base;
-    let partial = if partial > TOUCH { partial } else { 0.0 };
-    // The sum may exceed a short line, because a scale counts as fully crossed even if the line
-    // ends up to `TOUCH` above its lower end.
+    let partial = if partial > LENGTH_TOLERANCE { partial } else { 0.0 };
+    // The covered length may exceed the length of a short line, because a scale counts as
+    // completely crossed even if the line ends up to `LENGTH_TOLERANCE` before it leaves the scale.
     ((whole * base + partial) / shift).min(1.0)
 }
 
-/// Tolerance for a scale that just reaches the end of the line, in units of the pitch.
-const NEAR: f64 = 1e-9;
+/// Distance below which the end of the line counts as a corner of a base, in units of the pitch.
+const PITCH_TOLERANCE: f64 = 1e-9;
 
 /// Returns the one-sided directional derivative of [`coverage`].
 ///
-/// `rates` are the rates of change of shift, base and pitch.
+/// The first argument contains shift, base and pitch in units of `t`, and `rates` contains their
+/// rates of change.
 pub(crate) fn coverage_rate([shift, base, pitch]: [f64; 3], rates: [f64; 3]) -> f64 {
-    if shift < TOUCH {
+    if shift < LENGTH_TOLERANCE {
         // Upright scales: the line runs along the side of its own scale and crosses no neighbour,
         // also after a small change.
         return 0.0;
     }
     let [shifts, bases, pitches] = rates;
     let whole = (shift / pitch).round();
-    let at_pitch = (shift - whole * pitch).abs() <= NEAR * pitch;
-    // If the lower end of a scale coincides with the end of the line, the direction of change
-    // decides whether the line crosses the scale completely.
+    let at_pitch = (shift - whole * pitch).abs() <= PITCH_TOLERANCE * pitch;
+    // If the end of the line coincides with the right corner of the base of a scale, the direction
+    // of change decides whether the line crosses this scale completely.
     let whole = match at_pitch {
         true if shifts >= whole * pitches => whole,
         true => whole - 1.0,
@@ -50,8 +52,9 @@ pub(crate) fn coverage_rate([shift, base, pitch]: [f64; 3], rates: [f64; 3]) -> 
     };
     let partial = shift - (whole + 1.0) * pitch + base;
     let rate = shifts - (whole + 1.0) * pitches + bases;
-    let reaches_in = partial > NEAR * pitch || (partial >= -NEAR * pitch && rate > 0.0);
-    let (partial, rate) = if reaches_in { (partial, rate) } else { (0.0, 0.0) };
+    let tolerance = PITCH_TOLERANCE * pitch;
+    let ends_inside = partial > tolerance || (partial >= -tolerance && rate > 0.0);
+    let (partial, rate) = if ends_inside { (partial, rate) } else { (0.0, 0.0) };
     (whole * bases + rate) / shift - (whole * base + partial) / shift.powi(2) * shifts
 }
 
@@ -92,14 +95,14 @@ mod tests {
         fn coverage_never_exceeds_one_at_round_off(
             whole in 1_u32..9, base in 0.001_f64..0.1, gap in 1e-13_f64..1e-11, part in 0.0_f64..1.0,
         ) {
-            // The line ends up to 1e-12 before it has crossed the last scale completely.
+            // The line ends up to 1e-12 before it leaves the last scale.
             let pitch = base + gap;
             let value = coverage(f64::from(whole) * pitch - part * 1e-12, base, pitch);
             prop_assert!(value <= 1.0, "{value}");
         }
 
         #[test]
-        fn wider_gaps_never_cover_more(
+        fn widening_the_gaps_never_increases_the_coverage(
             slant in 0.0_f64..89.0, base in 0.01_f64..6.0, gap in 0.01_f64..3.0, wider in 1.0_f64..3.0,
         ) {
             let [narrow, wide] =
@@ -109,6 +112,8 @@ mod tests {
     }
 
     /// Returns the one-sided difference quotient of the coverage in the direction `rates`.
+    ///
+    /// `at` contains shift, base and pitch.
     fn difference(at: [f64; 3], rates: [f64; 3]) -> f64 {
         let h = 1e-5;
         let [here, near, far] = [0.0, h, 2.0 * h].map(|h| {

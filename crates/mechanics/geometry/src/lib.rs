@@ -3,9 +3,9 @@
 //! A scale is a parallelogram of height `t`. Its sides are inclined by the slant `α` from the
 //! vertical. Scales with bases `2a` at gaps `d` form a row of pitch `p = 2a + d`. Lengths are in
 //! units of the scale thickness `t`; `y` points up out of the substrate, and angles are
-//! counter-clockwise. The coverage of a row is the fraction of a vertical line from the top right
-//! corner of a scale down to the substrate that lies inside the scales to the right of this scale
-//! (Eq. G2 of `docs/theory/model.md`):
+//! counter-clockwise. A vertical line runs from the top right corner of a scale down to the
+//! substrate. The coverage of a row is the fraction of this line that lies inside the scales to the
+//! right of this scale (Eq. G2 of `docs/theory/model.md`):
 //!
 //! ```text
 //! λ = Σₖ |[S − k p, S − k p + 2a] ∩ [0, S]| / S,     S = t tan α,  k = 1, 2 …

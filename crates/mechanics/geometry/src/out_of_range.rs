@@ -24,16 +24,18 @@ pub struct OutOfRange {
 }
 
 impl OutOfRange {
-    /// Returns an error for `value` if the condition `holds` is false.
+    /// Returns an error that names `quantity` and `value`, unless `valid` is true.
+    ///
+    /// `expected` describes the accepted values.
     ///
     /// # Errors
-    /// If `holds` is false.
+    /// If `valid` is false.
     pub fn unless(
-        holds: bool,
+        valid: bool,
         quantity: &'static str,
         value: f64,
         expected: &'static str,
     ) -> Result<(), Self> {
-        if holds { Ok(()) } else { Err(Self { quantity, value, expected }) }
+        if valid { Ok(()) } else { Err(Self { quantity, value, expected }) }
     }
 }

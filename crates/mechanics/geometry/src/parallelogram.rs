@@ -17,7 +17,7 @@ pub struct Parallelogram {
     slant: f64,
     /// Shift `S = tan α` of the top relative to the base, in units of `t`.
     ///
-    /// Stored because corners are evaluated often.
+    /// Stored so that the tangent is not computed again for every corner.
     shift: f64,
 }
 

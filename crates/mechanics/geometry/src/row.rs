@@ -39,7 +39,7 @@ impl Row {
     /// Returns the coverage `λ = t_s/t` (`docs/theory/model.md`, Eq. G2).
     ///
     /// A vertical line runs from the top right corner of a scale down to the substrate. `t_s` is
-    /// the length of this line inside the scales further to the right.
+    /// the total length of the parts of this line that lie inside the scales further to the right.
     ///
     /// The coverage is 0 if the line crosses no scale, and always below 1.
     pub fn coverage(&self) -> f64 {
@@ -65,11 +65,11 @@ impl Row {
         let corner = self.scale.corner(Corner::TopRight);
         let line = [corner, Vec2::new(corner.x, body.height(corner.x))];
         let length = line[0].y - line[1].y;
-        // The distance to the base of the farthest crossed neighbour is about the shift of the top
-        // corner. Twice this shift is a safe bound.
-        let farthest = (2.0 * corner.x.abs().max(1.0) / self.pitch()).ceil() as usize + 1;
-        let on_body = body.scales_beside(self.pitch()).unwrap_or(farthest);
-        let inside = (1..=farthest.min(on_body)).map(|k| {
+        // The farthest neighbour that the line crosses is at a distance of about `corner.x`. Twice
+        // this distance is a safe bound.
+        let bound = (2.0 * corner.x.abs().max(1.0) / self.pitch()).ceil() as usize + 1;
+        let facing_load = body.scales_beside(self.pitch()).unwrap_or(bound);
+        let inside = (1..=bound.min(facing_load)).map(|k| {
             let frame = body.frame(k as f64 * self.pitch());
             let corners = self.scale.corners().map(|c| frame.origin + frame.outward(c));
             length_inside(line, &corners)

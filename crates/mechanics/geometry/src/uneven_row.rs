@@ -34,7 +34,8 @@ impl UnevenRow {
         for (pair, &gap) in scales.windows(2).zip(&gaps) {
             let narrowest = clearance(&pair[0], &pair[1], gap);
             let clear = narrowest > 0.0 && gap.is_finite();
-            OutOfRange::unless(clear, "gap", narrowest, "neighbours that do not overlap")?;
+            let quantity = "smallest distance between two neighbours";
+            OutOfRange::unless(clear, quantity, narrowest, "a positive finite length")?;
             let pitch = pair[0].half_base() + gap + pair[1].half_base();
             positions.push(positions[positions.len() - 1] + pitch);
         }
@@ -70,14 +71,15 @@ impl UnevenRow {
 /// Returns the smallest horizontal distance between two neighbouring scales, in units of `t`.
 ///
 /// `gap` is the distance between the bases. The smallest distance occurs at the bases, or at the
-/// tops if the scales lean towards each other. Negative if the scales overlap.
+/// tops if the left scale leans further to the right than the right scale. Negative if the scales
+/// overlap.
 pub fn clearance(left: &Parallelogram, right: &Parallelogram, gap: f64) -> f64 {
     gap.min(gap + right.shift() - left.shift())
 }
 
 /// Returns the shortest distance between two polygons that do not overlap.
 ///
-/// `one` and `other` are the corners of the polygons, in the order of their perimeters.
+/// `one` and `other` contain the corners of the two polygons, in order along each perimeter.
 pub fn polygon_distance(one: &[Vec2; 4], other: &[Vec2; 4]) -> f64 {
     let mut least = f64::INFINITY;
     for (corners, edges) in [(one, other), (other, one)] {
@@ -115,13 +117,13 @@ mod tests {
     }
 
     #[test]
-    fn scales_that_lean_into_each_other_are_refused() {
+    fn rows_with_overlapping_tops_or_a_wrong_number_of_gaps_are_refused() {
         // The left scale leans by tan 45° = 1 to the right, so the distance between the tops is
         // smaller by 1 than the distance between the bases.
         close(clearance(&scale(45.0), &scale(0.0), 1.25), 0.25);
         close(clearance(&scale(0.0), &scale(45.0), 1.25), 1.25);
         let error = UnevenRow::new(vec![scale(45.0), scale(0.0)], vec![0.75]).unwrap_err();
-        assert_eq!(error.quantity, "gap");
+        assert_eq!(error.quantity, "smallest distance between two neighbours");
         close(error.value, -0.25);
         let error = UnevenRow::new(vec![scale(0.0)], vec![0.1]).unwrap_err();
         assert_eq!(error.quantity, "number of gaps");
