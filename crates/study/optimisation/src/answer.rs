@@ -1,4 +1,4 @@
-//! Derives the answer to a goal from the space-filling designs.
+//! Searches for the answer to a goal: an optimum, a front or the nearest infeasible design.
 
 use crate::best::{BestDesign, best_design};
 use crate::candidate::{Candidate, Merit, Target, best};
@@ -18,8 +18,8 @@ pub enum Answer {
     Front(Front),
     /// No design meets all requirements.
     ///
-    /// Holds the index, in the history, of the design with the smallest shortfall. `None` if no
-    /// design has a valid judgement.
+    /// The value is the index, in [`Found::history`](crate::Found::history), of the design with the
+    /// smallest shortfall. `None` if no design has a valid judgement.
     Infeasible(Option<usize>),
 }
 
@@ -36,7 +36,8 @@ impl Answer {
 
 /// Searches for the answer to a goal, starting from the designs in `history`.
 ///
-/// Evaluated designs are added to `history`. A front has `points` points.
+/// Evaluated designs are added to `history`. `plan` sets the numbers of local searches. A front has
+/// at most `points` points.
 pub(crate) fn answer(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -55,7 +56,7 @@ pub(crate) fn answer(
         history.extend(restarted(search, history, target, &mut ends, plan.restarts)?);
         agreement = Agreement::of(&ends);
         // Targets without lower bounds have the same feasible designs. If the search for one
-        // objective finds no feasible design, further searches are useless.
+        // objective finds no feasible design, searches for the other objectives are useless.
         if !history.iter().any(|c| matches!(search.merit(c, target), Merit::Met(_))) {
             let merits = history.iter().map(|candidate| search.merit(candidate, target));
             return Ok(Answer::Infeasible(best(merits)));

@@ -1,4 +1,4 @@
-//! Selects the best design, and starts of local searches in different regions.
+//! Selects the best design, and the designs from which local searches start.
 
 use results::DesignRow;
 use sweep::Measure;
@@ -12,10 +12,12 @@ use crate::price::{Binding, bindings};
 use crate::restarts::Agreement;
 use crate::sampled::confirmation::Confirmation;
 
-/// Minimum distance of two starts in one region, as a fraction of the intervals.
-const APART: f64 = 0.12;
+/// Minimum distance of a start from all other starts, as a fraction of the ranges of the variables.
+///
+/// The best designs of different regions may be closer.
+const MIN_DISTANCE: f64 = 0.12;
 
-/// Relative shortfall up to which a start counts as feasible.
+/// Shortfall, relative to the limits, up to which a start counts as feasible.
 ///
 /// If two limits leave almost no feasible space (e.g. `coverage >= 0.6` and `compliance >= 0.4`), a
 /// gradient search ends with a shortfall of about 1e-8.
@@ -24,15 +26,17 @@ const NEARLY: f64 = 1e-6;
 /// A best design: the optimum, or a point of a front.
 #[derive(Clone, Debug)]
 pub struct BestDesign {
-    /// Evaluated design, as the search found it.
+    /// The design, with its nominal result and its judgement by the goal.
     pub candidate: Candidate,
-    /// Design with all measures, as a row of a table.
+    /// Row of the design in the table of best designs, with the values of all columns.
     pub row: DesignRow,
     /// Target of the search that found the design.
     pub target: Target,
     /// Binding limits with their multipliers.
     pub bindings: Vec<Binding>,
-    /// Sentence that states why this design is best; `None` for a point of a front.
+    /// Sentence that names the limits that prevent a better design.
+    ///
+    /// `None` for a point of a front, or if the reason is unknown.
     pub reason: Option<String>,
     /// Check with independent samples; `None` if the goal contains no statistics over samples.
     pub confirmation: Option<Confirmation>,
@@ -66,6 +70,9 @@ pub(crate) fn best_design(
 }
 
 /// Returns the best design in `history`, solved at all load positions.
+///
+/// Some designs in `history` may have been solved at the corners of the top only. If the best of
+/// these designs has another merit at all load positions, the next best design is examined.
 fn best_at_all_positions(
     search: &Search<'_>,
     history: &[Candidate],
@@ -90,28 +97,29 @@ fn best_at_all_positions(
     }
 }
 
-/// Region of the space that a local search cannot leave.
+/// Region of the space that a local search seldom leaves.
 ///
-/// It is given by the indices of the choices, the number of the coverage peak, and whether scales
-/// are in contact in bending.
+/// The elements are the indices of the choices, the number of the coverage peak, and `true` if
+/// scales are in contact at the end of bending.
 pub(crate) type Region = (Vec<usize>, Option<u32>, Option<bool>);
 
 /// Returns the region of a design.
 ///
-/// Coverage peak and contact are `None` if the goal does not depend on coverage or bending.
+/// The coverage peak is `None` if the goal does not depend on coverage. The contact is `None` if
+/// the goal does not depend on bending.
 pub(crate) fn region(search: &Search<'_>, candidate: &Candidate) -> Region {
-    let teeth =
-        search.judge.is_about(Measure::Coverage).then(|| search.space.case(&candidate.point));
-    let peak = teeth.and_then(|case| CoveragePiece::beside(&case).first().map(|piece| piece.peak));
-    let flexure = candidate.result.flexure.filter(|_| search.judge.is_about(Measure::Flexure));
+    let case =
+        search.judge.depends_on(Measure::Coverage).then(|| search.space.case(&candidate.point));
+    let peak = case.and_then(|case| CoveragePiece::beside(&case).first().map(|piece| piece.peak));
+    let flexure = candidate.result.flexure.filter(|_| search.judge.depends_on(Measure::Flexure));
     let contact = flexure.and_then(|flexure| flexure.measures.contact);
     (candidate.point.chosen.clone(), peak, contact)
 }
 
-/// Selects at most `count` starts of local searches from `history`.
+/// Selects at most `count` designs from `history` as starts of local searches.
 ///
-/// First the best design of each region is selected, in the order of merit. Then other designs
-/// follow, with a distance of at least `APART` from all selected designs.
+/// The best designs of the regions are selected first, in the order of merit. Other designs follow
+/// if their distance from all selected designs is at least `MIN_DISTANCE`.
 pub(crate) fn starts<'c>(
     search: &Search<'_>,
     history: impl IntoIterator<Item = &'c Candidate>,
@@ -136,7 +144,7 @@ pub(crate) fn starts<'c>(
         firsts.into_iter().take(count).map(|(_, candidate)| candidate.clone()).collect();
     for (_, candidate) in others {
         if starts.len() < count
-            && starts.iter().all(|start| start.point.distance(&candidate.point) >= APART)
+            && starts.iter().all(|start| start.point.distance(&candidate.point) >= MIN_DISTANCE)
         {
             starts.push(candidate.clone());
         }

@@ -12,7 +12,9 @@ use crate::price::{Binding, Limit};
 use crate::space::Interval;
 use crate::statistic::Statistic;
 
-/// Gap width, divided by the width at rest, for which the price of a gap is stated.
+/// Fraction of its width at rest to which every gap stays open in the stated price.
+///
+/// The required limit is 0, so a price for a change of the limit by some per cent has no meaning.
 const OPEN: f64 = 0.1;
 
 /// Describes the binding limits of a goal and their multipliers in words.
@@ -39,7 +41,7 @@ impl<'a> BindingText<'a> {
                 if self.judge.is_soundness(k)
                     && self.judge.is_statistic(StatisticUse::Requirement(k)) =>
             {
-                "the surface of further samples is about to fold".to_owned()
+                "the surface is about to fold in further samples".to_owned()
             }
             Limit::Requirement(k) if self.judge.is_soundness(k) => {
                 "the surface is about to fold".to_owned()
@@ -96,9 +98,9 @@ impl<'a> BindingText<'a> {
         })
     }
 
-    /// Describes the gain of the objective if interval `j` ended one step farther.
+    /// Describes the gain of the objective if the range of variable `j` is extended by one step.
     ///
-    /// `sense` is "more" for the upper end and "less" for the lower end.
+    /// `sense` is "more" for the upper end and "less" for the lower end of the range.
     fn wider(&self, j: usize, sense: &str, price: f64, objective: &Criterion) -> String {
         let interval = &self.goal.space.intervals()[j];
         let step = step(interval.length());
@@ -108,7 +110,7 @@ impl<'a> BindingText<'a> {
 
     /// Describes the multiplier of requirement `k`, the requirement of an unfolded surface.
     ///
-    /// The text states the cost of keeping gaps open by a part of their width.
+    /// The text states the cost of keeping gaps open by the fraction `OPEN` of their width at rest.
     fn openness(&self, k: usize, price: f64, objective: &Criterion) -> String {
         let of = if self.judge.is_statistic(StatisticUse::Requirement(k)) {
             "the gaps of these samples"
@@ -199,12 +201,12 @@ mod tests {
                     slant_deg = 75\n[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nscale_density_kg_m3 = 1000\n\
                     [goal]\nminimize = 'areal_mass_kg_m2'\nrequire = ['critical_force_N >= 2', 'penetration <= 0.4']";
         let goal = DesignGoal::parse(text, "x.toml", &[]).expect("a goal");
-        let words = BindingText::new(&goal);
+        let binding_text = BindingText::new(&goal);
         let target = Target { objective: 0, floors: Vec::new() };
         let say = |limit: Limit, price| {
             let binding = Binding { limit, price: Some(price) };
-            let limit = words.limit(&binding.limit, &target);
-            format!("{limit}: {}", words.price(&binding, &target).expect("a price"))
+            let limit = binding_text.limit(&binding.limit, &target);
+            format!("{limit}: {}", binding_text.price(&binding, &target).expect("a price"))
         };
         insta::assert_snapshot!(say(Limit::Requirement(0), 0.25), @"critical_force_N >= 2: 0.1 N more critical_force_N adds 0.025 kg/m^2 of areal_mass_kg_m2");
         insta::assert_snapshot!(say(Limit::Requirement(1), 3.0), @"penetration <= 0.4: 0.01 less penetration adds 0.03 kg/m^2 of areal_mass_kg_m2");

@@ -8,21 +8,21 @@ use results::DesignResult;
 use crate::judgement::Judgement;
 use crate::space::SpacePoint;
 
-/// Maximum relative difference of the merits of two solutions of one design.
+/// Relative difference up to which the merits of two solutions of one design agree.
 const SAME: f64 = 1e-6;
 
 /// Stage of a search in which a design was evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchStage {
-    /// Initial design, e.g. a space-filling point.
+    /// Initial design: a space-filling point, or a point on a coverage peak.
     Sample,
     /// Step of the gradient search.
     Gradient,
     /// Step of the ridge search (a bundle method), which follows kinks.
     Ridge,
-    /// Step of the derivative-free search.
+    /// Step of the derivative-free search, or a point of a restart.
     Polish,
-    /// First solution of the samples of a nominal design.
+    /// First evaluation of a design with samples, or with more samples.
     Tolerance,
     /// Design rounded to multiples of a step.
     Rounded,
@@ -57,24 +57,24 @@ pub struct Candidate {
 
 /// Target of a local search: one objective to maximise, with lower bounds on other objectives.
 ///
-/// Targets with bounds serve the ε-constraint method for fronts. Objectives to be minimised change
-/// sign.
+/// Targets with lower bounds are the problems of the ε-constraint method for fronts. The sign of
+/// objectives to be minimised is changed, so that larger values are better.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// Index of the objective to maximise.
     pub objective: usize,
-    /// Index and lower bound of other objectives, after the change of sign.
+    /// Index and lower bound of each bounded objective, after the change of sign.
     pub floors: Vec<(usize, f64)>,
 }
 
 /// Merit of a design for a target; larger is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Merit {
-    /// The design has no valid judgement.
+    /// The design has no valid judgement, e.g. because a measure failed.
     None,
-    /// The design is infeasible. Holds its largest shortfall relative to the limits.
+    /// The design is infeasible. The value is its largest shortfall, relative to the limits.
     Short(f64),
-    /// The design is feasible. Holds its objective, after the change of sign.
+    /// The design is feasible. The value is its objective, after the change of sign.
     Met(f64),
 }
 

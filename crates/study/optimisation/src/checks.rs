@@ -35,10 +35,11 @@ pub enum Check {
     Coupling,
     /// Solutions at other load positions with full substrate coupling.
     ///
-    /// Holds the weakest load position and the outcome of the path there. If a path ended early,
-    /// its position is held instead.
+    /// The values are the weakest load position (0: left corner of the top, 1: right corner) and
+    /// the outcome of the path at this position. If the path at another position ended so early
+    /// that the smallest force is uncertain, the values belong to that position.
     Places(f64, Outcome),
-    /// New samples; holds their number.
+    /// Solution of new samples. The value is the number of samples.
     Samples(usize),
 }
 

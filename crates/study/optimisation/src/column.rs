@@ -10,7 +10,7 @@ use crate::slopes::Slopes;
 /// A column of numbers, computed from the row of a nominal design.
 pub(crate) enum NumberColumn {
     /// A column of `designs.csv`.
-    Known(Column<DesignRow>),
+    Table(Column<DesignRow>),
     /// Fitness (O3), computed from the columns of its criteria.
     Fitness(Vec<(Column<DesignRow>, RescaledCriterion)>),
 }
@@ -21,12 +21,12 @@ impl NumberColumn {
 
     /// Returns the column `name` of `designs.csv`; `None` if there is no such column.
     pub fn named(sweep: &Sweep, name: &str) -> Option<Self> {
-        known(sweep, name).map(Self::Known)
+        known(sweep, name).map(Self::Table)
     }
 
-    /// Creates the fitness column for criteria that are rescaled between these `ends`.
+    /// Creates the fitness column. `ends` are the worst and the best value of each criterion.
     ///
-    /// The column is empty if a weighted criterion lacks ends.
+    /// The column is empty if these values are missing for a weighted criterion.
     pub fn fitness(goal: &FitnessGoal, sweep: &Sweep, ends: &[CriterionEnds]) -> Self {
         let parts = goal.rescaled(ends);
         let parts = parts.filter_map(|(of, part)| Some((known(sweep, &of.column)?, part)));
@@ -36,7 +36,7 @@ impl NumberColumn {
     /// Returns the name of the column.
     pub fn name(&self) -> &str {
         match self {
-            Self::Known(column) => &column.name,
+            Self::Table(column) => &column.name,
             Self::Fitness(_) => Self::FITNESS,
         }
     }
@@ -44,7 +44,7 @@ impl NumberColumn {
     /// Returns the value of the column in `row`; `None` for an empty cell.
     pub fn value(&self, row: &DesignRow) -> Option<f64> {
         match self {
-            Self::Known(column) => column.cell(row).number(),
+            Self::Table(column) => column.cell(row).number(),
             Self::Fitness(parts) => {
                 let parts = parts.iter().map(|(column, of)| of.part(column.cell(row).number()?));
                 parts.sum::<Option<f64>>().map(f64::exp)
@@ -55,10 +55,10 @@ impl NumberColumn {
     /// Returns the one-sided derivatives of the column with respect to `parameter`.
     pub fn slopes(&self, row: &DesignRow, parameter: &Parameter) -> Slopes {
         match self {
-            Self::Known(column) => slopes(column, row, parameter),
+            Self::Table(column) => slopes(column, row, parameter),
             Self::Fitness(parts) => match self.value(row) {
                 None => Slopes::UNKNOWN,
-                // A criterion is at or beyond its worst end, so the fitness is 0 nearby, too.
+                // A criterion is at its worst value or worse, so the fitness is 0 nearby, too.
                 Some(fitness) if fitness <= 0.0 => Slopes::FLAT,
                 Some(fitness) => {
                     let sum = parts
@@ -91,16 +91,16 @@ fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) ->
     })
 }
 
-/// Returns the ends of each criterion of the fitness.
+/// Returns the worst and the best value of each criterion of the fitness.
 ///
-/// The ends are given by the goal. Otherwise they are the worst and best value of the criterion in
-/// those `rows` that cover the substrate.
+/// The goal may state both values of a criterion. Otherwise they are the worst and the best value
+/// in those `rows` that cover the substrate.
 pub(crate) fn ends_over(
     goal: &FitnessGoal,
     sweep: &Sweep,
     rows: &[DesignRow],
 ) -> Vec<CriterionEnds> {
-    // A ranking also rescales over designs with coverage only.
+    // Omit designs with a coverage of 0, as a ranking does.
     let ends = goal.criteria.iter().filter_map(|criterion| {
         let given = goal.ends.iter().find(|ends| ends.column == criterion.column);
         given.cloned().or_else(|| {

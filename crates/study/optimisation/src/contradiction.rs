@@ -21,9 +21,9 @@ use crate::checks::Check;
 use crate::column::NumberColumn;
 use crate::goal::DesignGoal;
 
-/// Safety factor on a tightened limit.
+/// Safety factor by which a limit is tightened further.
 ///
-/// The ratio of the values of both models will be different at the next best design.
+/// The ratio of the values of both models is slightly different at the next best design.
 const SAFETY: f64 = 1.005;
 
 /// A requirement that a check contradicts.
@@ -55,13 +55,15 @@ impl BestDesign {
                 all.push(Contradiction { check, requirement, searched, value });
             }
         }
-        let Some(made) = &self.confirmation else { return all };
-        // If the new samples cannot decide whether a requirement is met, only the text states so.
-        let broken = made.broken.iter().filter(|requirement| !made.is_open(requirement));
+        let Some(confirmation) = &self.confirmation else { return all };
+        // If the confidence interval from the new samples contains values that meet a requirement,
+        // the new samples do not contradict this requirement.
+        let broken =
+            confirmation.broken.iter().filter(|requirement| !confirmation.is_open(requirement));
         all.extend(broken.map(|requirement| {
-            let estimate = made.estimate(&requirement.column);
+            let estimate = confirmation.estimate(&requirement.column);
             Contradiction {
-                check: Check::Samples(made.fresh),
+                check: Check::Samples(confirmation.fresh),
                 requirement: requirement.clone(),
                 searched: estimate.and_then(|of| of.seen),
                 value: estimate.and_then(|of| of.value),
@@ -81,7 +83,7 @@ impl BestDesign {
         Some((Check::Coupling, measure.full.filter(|_| is_valid)))
     }
 
-    /// Returns the check at the weakest load position, and the force there.
+    /// Returns the check at several load positions, and the force at the weakest position.
     ///
     /// `None` unless the requirement is a lower limit of a force that was computed at several load
     /// positions.
@@ -119,11 +121,12 @@ impl fmt::Display for Contradiction {
 pub(crate) fn tighten(limits: &mut DesignGoal, goal: &DesignGoal, best: &BestDesign) -> bool {
     let contradictions = best.contradictions(goal);
     let mut is_tighter = false;
-    for (own, meant) in limits.requirements.iter_mut().zip(&goal.requirements) {
+    for (tightened, stated) in limits.requirements.iter_mut().zip(&goal.requirements) {
         let mut ratios = Vec::new();
         for Contradiction { check, requirement, searched, value } in &contradictions {
-            // New samples are no finer model: the search judges its samples by the same limits.
-            let is_finer = requirement == meant && !matches!(check, Check::Samples(_));
+            // Ignore the check with new samples: the model is the same as in the search, so the
+            // ratio of the values is not a ratio of two models.
+            let is_finer = requirement == stated && !matches!(check, Check::Samples(_));
             if let (true, Some(searched), Some(value)) = (is_finer, searched, value) {
                 ratios.extend(Some(searched / value).filter(|r| r.is_finite() && *r > 0.0));
             }
@@ -131,10 +134,10 @@ pub(crate) fn tighten(limits: &mut DesignGoal, goal: &DesignGoal, best: &BestDes
         if ratios.is_empty() {
             continue;
         }
-        let safety = if meant.direction() > 0.0 { SAFETY } else { SAFETY.recip() };
-        let limit = meant.limit * ratios.iter().product::<f64>() * safety;
-        if own.is_met(limit) && limit != own.limit {
-            own.limit = limit;
+        let safety = if stated.direction() > 0.0 { SAFETY } else { SAFETY.recip() };
+        let limit = stated.limit * ratios.iter().product::<f64>() * safety;
+        if tightened.is_met(limit) && limit != tightened.limit {
+            tightened.limit = limit;
             is_tighter = true;
         }
     }

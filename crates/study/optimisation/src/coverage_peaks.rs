@@ -1,7 +1,7 @@
 //! Selects start points on the coverage peaks (O8).
 //!
-//! Closed forms bound the shortfall of a point without solving its design. Points with the smallest
-//! shortfall are selected.
+//! Closed forms give a lower bound of the shortfall of a point without solving its design. The
+//! points with the smallest bounds are selected.
 
 use std::collections::BTreeMap;
 
@@ -20,11 +20,11 @@ const POINTS: usize = 512;
 /// Maximum number of points selected on each peak.
 const EACH: usize = 6;
 
-/// Known shortfall above which a point is not selected.
-const HOPELESS: f64 = 0.25;
+/// Sum of known shortfalls, relative to the limits, above which a point is not selected.
+const MAX_SHORTFALL: f64 = 0.25;
 
-/// Minimum distance of two points on a peak, as a fraction of the intervals.
-const APART: f64 = 0.05;
+/// Minimum distance of two points on a peak, as a fraction of the ranges of the variables.
+const MIN_DISTANCE: f64 = 0.05;
 
 /// Number of bisections to locate a peak.
 ///
@@ -51,9 +51,9 @@ pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> 
     on_peaks.into_values().flat_map(spread).collect()
 }
 
-/// Returns the numbers of coverage peaks, and points on them, along a line through `point`.
+/// Returns points on coverage peaks along a line through `point`, each with the number of its peak.
 ///
-/// Only the fraction of the interval with index `interval` varies along this line.
+/// Only the continuous variable with index `interval` varies along this line.
 fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<(u32, SpacePoint)> {
     let at =
         |share| coverage_piece::reach_over_pitch(&space.case(&point.with_share(interval, share)));
@@ -97,15 +97,15 @@ fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
     -known.sum::<f64>() - touching
 }
 
-/// Selects points with the smallest shortfall at a distance of at least `APART` from each other.
+/// Selects the points with the smallest shortfall that are at least `MIN_DISTANCE` apart.
 fn spread(mut points: Vec<(f64, SpacePoint)>) -> Vec<SpacePoint> {
     points.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut chosen: Vec<SpacePoint> = Vec::new();
     for (shortfall, point) in points {
         // The points are sorted, so the first of two close points has the smaller shortfall.
-        if shortfall <= HOPELESS
+        if shortfall <= MAX_SHORTFALL
             && chosen.len() < EACH
-            && chosen.iter().all(|other| other.distance(&point) >= APART)
+            && chosen.iter().all(|other| other.distance(&point) >= MIN_DISTANCE)
         {
             chosen.push(point);
         }

@@ -1,7 +1,7 @@
 //! Coverage branches: parts of the space in which the coverage is smooth.
 //!
 //! With the reach `S = tan α`, the pitch `p` and the gap `d`, all divided by `t`, the coverage has
-//! a peak at `S = k p` for each integer `k`. It rises before each peak and falls after it:
+//! a peak at `S = k p` for each integer `k`. The coverage rises before and falls after each peak:
 //!
 //! ```text
 //! λ = 1 − k d/S,   (k − 1) p + d ≤ S ≤ k p;     λ = k (p − d)/S,   k p ≤ S ≤ k p + d     (O8)
@@ -66,7 +66,8 @@ impl CoveragePiece {
     pub fn beside(case: &Case) -> Vec<Self> {
         let Some(lengths) = Lengths::of(case) else { return Vec::new() };
         let whole = lengths.reach_over_pitch().floor() as u32;
-        // A design is between the peaks `whole` and `whole + 1`, so check the branches of both.
+        // A design is between the peaks `whole` and `whole + 1`, so check the branches of both
+        // peaks.
         let near = [whole, whole + 1]
             .into_iter()
             .flat_map(|peak| [true, false].map(|rising| Self { peak, rising }));
@@ -75,7 +76,7 @@ impl CoveragePiece {
 
     /// Returns the distances in `S/p` beyond the lower and the upper border of the branch.
     ///
-    /// Both are negative inside the branch.
+    /// Both distances are negative inside the branch.
     fn borders(self, lengths: Lengths) -> [f64; 2] {
         let (reach, open) = (lengths.reach_over_pitch(), lengths.gap / lengths.pitch);
         let peak = f64::from(self.peak);

@@ -5,7 +5,7 @@ use sweep::Parameter;
 
 use crate::slopes::Slopes;
 
-/// States which objective or requirement of a goal a statistic belongs to.
+/// Use of a statistic in a goal: as an objective or as the column of a requirement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum StatisticUse {
     /// The objective with this index.

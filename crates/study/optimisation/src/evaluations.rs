@@ -1,4 +1,4 @@
-//! Evaluates points and samples. Results are stored in a journal, so nothing is solved twice.
+//! Solves points and samples, and stores the results in a journal, so that none is solved twice.
 
 mod evaluation_journal;
 
@@ -20,19 +20,19 @@ use crate::progress::SearchProgress;
 use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, SpacePoint};
 use evaluation_journal::{EvaluationKey, FarLine, JournalLine, PointKey, SamplesLine, SolvedLine};
-pub(crate) use evaluation_journal::{Known, Positions, read_journal};
+pub(crate) use evaluation_journal::{JournalContent, Positions, read_journal};
 
 /// Offset of the sample numbers in a search.
 ///
 /// `squama tolerance` uses numbers from 1, so its samples are independent of samples of the search.
-const BEFORE: u64 = 1 << 32;
+const SAMPLE_OFFSET: u64 = 1 << 32;
 
 /// Largest critical tilt, degrees, up to which corners represent all load positions.
 ///
 /// In 1,089 random designs with a critical tilt up to this limit, the weakest of eleven positions
-/// was a corner. With a critical tilt of 30°, positions between the corners are weaker in some
-/// designs, and a search by corners ended at such a design.
-const MOST_TILT: f64 = 10.0;
+/// was a corner. With a critical tilt of 30°, the weakest position of some designs lies between the
+/// corners, and a search that solved only the corners returned such a design.
+const MAX_CORNER_TILT_DEG: f64 = 10.0;
 
 /// Number of load positions if only the corners are solved.
 const CORNERS: usize = 2;
@@ -48,7 +48,7 @@ pub(crate) enum Halt {
     Stalled,
 }
 
-/// A point, and the load positions of its puncture.
+/// Key of a path end: the point, and the load positions of its puncture.
 type EndKey = (PointKey, Positions);
 
 /// Solves points of a space and their samples, and stores the results in a journal.
@@ -63,9 +63,9 @@ pub(crate) struct Evaluations<'a> {
     sampler: Sampler,
     /// Ends of puncture paths that were followed from rest.
     ///
-    /// Paths of similar designs can start there.
+    /// Paths of similar designs can start at these ends. `None` if an end is not suitable.
     ends: Mutex<HashMap<EndKey, Option<PunctureEnd>>>,
-    journal: Mutex<Journal<Known>>,
+    journal: Mutex<Journal<JournalContent>>,
     stop: &'a AtomicBool,
     progress: &'a SearchProgress,
 }
@@ -99,7 +99,7 @@ impl<'a> Evaluations<'a> {
 
     /// Returns the indices of the intervals that only change the scale of physical columns.
     ///
-    /// They do not change dimensionless measures.
+    /// The parameters of these intervals do not change dimensionless measures.
     pub fn scaling_intervals(&self) -> Vec<usize> {
         self.space.scaling_intervals()
     }
@@ -111,7 +111,7 @@ impl<'a> Evaluations<'a> {
     fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
         let mut unscaled = point.clone();
         for j in self.scaling_intervals() {
-            // Any constant would be suitable.
+            // Any constant is suitable, because the result does not depend on this variable.
             unscaled.shares[j] = 0.0;
         }
         unscaled
@@ -139,19 +139,19 @@ impl<'a> Evaluations<'a> {
         self.space.sweep().grid().number(index)
     }
 
-    /// Returns the load positions by which a search compares the design at `point` with others.
+    /// Returns the load positions at which the design at `point` is compared with other designs.
     ///
     /// If the goal requests several positions, the weakest one is a corner of the top as long as
     /// the critical tilt is small. A search then compares designs by both corners.
     pub fn compared_positions(&self, point: &SpacePoint) -> Positions {
         let case = self.space.case(point);
         let is_at_corner = case.puncture.places.is_some_and(|places| places > CORNERS)
-            && case.punctured().critical_tilt_deg <= MOST_TILT
+            && case.punctured().critical_tilt_deg <= MAX_CORNER_TILT_DEG
             && self.plain.has_ends(&case);
         if is_at_corner { Positions::Corners } else { Positions::All }
     }
 
-    /// Returns the case at `point`, with the puncture at these load positions.
+    /// Returns the case of the design at `point`, punctured at the load positions `positions`.
     fn case_with(&self, point: &SpacePoint, positions: Positions) -> Case {
         let mut case = self.space.case(point);
         if positions == Positions::Corners {
@@ -261,7 +261,7 @@ impl<'a> Evaluations<'a> {
         changed
     }
 
-    /// Solves sample `sample` of the design at `point` with derivatives.
+    /// Solves sample number `sample` of the design at `point` with derivatives.
     ///
     /// The sample has batch deviations only, without scatter between scales. `None` if no
     /// deviations within the bounds of the parameters are found. See [`Self::solve`] for errors.
@@ -288,7 +288,7 @@ impl<'a> Evaluations<'a> {
     ///
     /// `None` if no deviations within the bounds of the parameters are found.
     pub fn even_case(&self, nominal: &Case, sample: u64) -> Option<Case> {
-        self.sampler.even_case(nominal, BEFORE + sample)
+        self.sampler.even_case(nominal, SAMPLE_OFFSET + sample)
     }
 
     /// Returns the stored result of `case`, or solves it from rest.
@@ -363,7 +363,7 @@ impl<'a> Evaluations<'a> {
             self.has_ends(point).then(|| self.end(&self.unscaled(point), Positions::All)).flatten();
         let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
-            let (number, sample) = (self.number(0), BEFORE + sample);
+            let (number, sample) = (self.number(0), SAMPLE_OFFSET + sample);
             let sampled = uninterrupted(|| {
                 self.progress.slow().track("a sample of the search", || {
                     self.sampler.solve_near(number, &case, sample, end.as_ref())
@@ -401,7 +401,7 @@ impl<'a> Evaluations<'a> {
     /// Locks the journal.
     ///
     /// If another thread panicked while it held the lock, the data are still consistent.
-    fn journal(&self) -> MutexGuard<'_, Journal<Known>> {
+    fn journal(&self) -> MutexGuard<'_, Journal<JournalContent>> {
         self.journal.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

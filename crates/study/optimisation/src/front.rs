@@ -14,12 +14,13 @@ use crate::local::Search;
 use crate::progress::SearchPart;
 use crate::space::SpacePoint;
 
-/// Maximum number of rounds that add points in the widest gaps.
+/// Maximum number of rounds that add points in the widest gaps of the front.
 const REFILLS: usize = 3;
 
-/// Fraction of a gap, at its start, in which earlier lower bounds are ignored.
+/// Fraction of a gap of the front, from its first point, in which earlier lower bounds are ignored.
 ///
-/// Such a bound belongs to the design at the start of the gap, which meets its bound exactly.
+/// A lower bound in this part is the bound with which the first point was found: the design at this
+/// point meets the bound exactly.
 const INSIDE: f64 = 1e-3;
 
 /// Relative difference of objectives up to which two designs are one point of the front.
@@ -33,13 +34,13 @@ const SAME: f64 = 1e-6;
 /// a search cannot step.
 const BESIDE: f64 = 1e-6;
 
-/// Width of a gap, as a fraction of the front, up to which it needs no further point.
+/// Distance of two points, as a fraction of the front, up to which no point is added between them.
 const NARROW: f64 = 1e-3;
 
-/// Number of parts into which the first points divide a front.
+/// Number of parts into which the points that are searched first divide a front.
 const QUARTERS: usize = 4;
 
-/// Ratio of the ends of a front from which points are spaced by equal ratios.
+/// Smallest ratio of the ends of a front for which the points are spaced by equal ratios.
 const DECADE: f64 = 10.0;
 
 /// Pareto front of several objectives.
@@ -47,9 +48,9 @@ const DECADE: f64 = 10.0;
 pub struct Front {
     /// Non-dominated designs, sorted by the first objective, best first.
     pub designs: Vec<BestDesign>,
-    /// Number of points with the best design of another point. The front has a step there.
+    /// Number of points that repeat the design of another point, because the front has a step.
     pub same: usize,
-    /// Number of points with a best design that another design dominates.
+    /// Number of points that the design of another point dominates.
     pub beaten: usize,
     /// Number of points without a feasible design.
     pub empty: usize,
@@ -66,8 +67,8 @@ impl Front {
 
 /// Searches a front with `points` points.
 ///
-/// Half of the points are between the ends of the known front. The other points are in the widest
-/// gaps. Evaluated designs are added to `history`.
+/// The first half of the points divides the known front evenly. The other points fill the widest
+/// gaps between these points. Evaluated designs are added to `history`.
 pub(crate) fn search(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -105,14 +106,15 @@ pub(crate) fn search(
 /// Returns targets for the exact ends of a front of two objectives.
 ///
 /// At each end one objective is maximised. The other objective has its value at this end as a lower
-/// bound, reduced by the fraction `NARROW` of the front. `None` for other numbers of objectives.
+/// bound, reduced by the fraction `NARROW` of the front. `None` unless the front has two objectives
+/// and at least two points.
 fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
-    let first = turned(search, &designs.first()?.candidate)?;
-    let last = turned(search, &designs.last()?.candidate)?;
+    let first = signed_objectives(search, &designs.first()?.candidate)?;
+    let last = signed_objectives(search, &designs.last()?.candidate)?;
     if first.len() != 2 || designs.len() < 2 {
         return None;
     }
-    // Reduce the lower bounds slightly: at the exact end the objective may be smaller.
+    // Reduce the lower bounds slightly: at the exact end the bounded objective may be smaller.
     let floors = [Spacing::between(first[1], last[1]), Spacing::between(last[0], first[0])]
         .map(|spacing| spacing.at(-NARROW));
     Some(
@@ -125,8 +127,9 @@ fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
 
 /// Returns targets for points that are still missing.
 ///
-/// For two objectives they are in the widest gaps of the front `designs`. For more objectives they
-/// are at known designs of `history` far from all points of the front.
+/// For two objectives, the targets are in the widest gaps of the front `designs`. For more
+/// objectives, their lower bounds are the objectives of designs in `history` that are far from all
+/// points of the front.
 fn more_targets(
     search: &Search<'_>,
     history: &[Candidate],
@@ -136,12 +139,12 @@ fn more_targets(
 ) -> Vec<Target> {
     let more = points.saturating_sub(designs.len());
     let front: Vec<Vec<f64>> =
-        designs.iter().filter_map(|design| turned(search, &design.candidate)).collect();
+        designs.iter().filter_map(|design| signed_objectives(search, &design.candidate)).collect();
     if search.judge.objectives() == 2 {
         return between(&front, targets, more);
     }
     let known: Vec<Vec<f64>> =
-        history.iter().filter_map(|candidate| turned(search, candidate)).collect();
+        history.iter().filter_map(|candidate| signed_objectives(search, candidate)).collect();
     let floors = spread(&known, &front, more).into_iter().map(target);
     // A lower bound that was searched before would give the same design.
     floors.filter(|target| !targets.contains(target)).collect()
@@ -149,9 +152,9 @@ fn more_targets(
 
 /// Returns at most `count` targets in the widest gaps of a front of two objectives.
 ///
-/// If one of the earlier `targets` has its lower bound inside a gap, its best design is at the far
-/// end of the gap, i.e. the front has a step there. Only the part of the gap before this bound is
-/// then searched. Narrow gaps are skipped.
+/// If the lower bound of one of the earlier `targets` is inside a gap, the best design of this
+/// target is at the far end of the gap, i.e. the front has a step there. The new target is then
+/// placed in the part of the gap before this bound. Narrow gaps are skipped.
 fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> {
     let (Some(first), Some(last)) = (front.first(), front.last()) else { return Vec::new() };
     let scales = [0, 1].map(|k| Spacing::between(first[k], last[k]));
@@ -161,8 +164,8 @@ fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> 
             let parts = [0, 1].map(|k| scales[k].share(pair[0][k]) - scales[k].share(pair[1][k]));
             let spacing = Spacing::between(pair[0][1], pair[1][1]);
             let floors = targets.iter().flat_map(|target| &target.floors).filter(|(k, _)| *k == 1);
-            let places = floors.map(|(_, floor)| spacing.share(*floor));
-            let untried = places.filter(|place| *place > INSIDE).fold(1.0, f64::min);
+            let bounds = floors.map(|(_, floor)| spacing.share(*floor));
+            let untried = bounds.filter(|bound| *bound > INSIDE).fold(1.0, f64::min);
             (untried * parts[0].hypot(parts[1]), spacing.at(0.5 * untried))
         })
         .collect();
@@ -205,11 +208,12 @@ impl Spacing {
     }
 }
 
-/// Searches the points of a front of two objectives in ever finer intervals.
+/// Searches the points of a front of two objectives by repeated bisection of the front.
 ///
 /// The ends and three points between them are searched first, from the best designs of all regions.
-/// Then each interval is halved. These points are searched from the designs at both ends of the
-/// interval, because the designs change gradually along most of a front.
+/// Then each interval between neighbouring points is halved. The search for the middle point starts
+/// from the designs at both ends of the interval, because the designs change gradually along most
+/// of a front.
 fn improve_by_halves(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -236,14 +240,15 @@ fn improve_by_halves(
     }
 }
 
-/// Returns the targets with the indices `places`.
-fn chosen(targets: &[Target], places: &[usize]) -> Vec<Target> {
-    places.iter().map(|&k| targets[k].clone()).collect()
+/// Returns the targets with these `indices`.
+fn chosen(targets: &[Target], indices: &[usize]) -> Vec<Target> {
+    indices.iter().map(|&k| targets[k].clone()).collect()
 }
 
 /// Runs a search for each target from the designs in `history`, which it extends.
 ///
-/// `front` are the best designs of other targets. Searches also start between two of them.
+/// `front` are the best designs of other targets. Each search also starts at a point between two of
+/// these designs.
 fn improve(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -255,32 +260,33 @@ fn improve(
         targets.iter().map(|target| plan.evaluations() * search.evaluation_units(target)).sum();
     search.progress.begin(SearchPart::Front, targets.len() * plan.tasks(), units);
     // `collect` keeps the order of the targets, so the history does not depend on the threads.
-    let walks = targets.par_iter().map(|target| {
+    let searches = targets.par_iter().map(|target| {
         let point = between_neighbours(search, front, target);
         let start = point.map(|point| search.compared(SearchStage::Gradient, &point, true));
         let start = start.transpose()?.map(|(start, _)| start);
         let start = start.filter(|start| search.merit(start, target) != Merit::None);
-        let walk = improved_from(search, history, target, plan, start.as_ref())?.evaluated;
-        Ok(start.into_iter().chain(walk).collect())
+        let evaluated = improved_from(search, history, target, plan, start.as_ref())?.evaluated;
+        Ok(start.into_iter().chain(evaluated).collect())
     });
-    let walks: Vec<Vec<Candidate>> = walks.collect::<Result<_, Halt>>()?;
-    history.extend(walks.into_iter().flatten());
+    let searches: Vec<Vec<Candidate>> = searches.collect::<Result<_, Halt>>()?;
+    history.extend(searches.into_iter().flatten());
     Ok(())
 }
 
 /// Interpolates between the two designs of `front` that are next to the lower bound of `target`.
 ///
 /// At the returned point the bounded objective would have the value of the bound if it varied
-/// linearly. `None` if the bound is not between two designs with equal choices.
+/// linearly. `None` unless `target` has exactly one lower bound, which lies between two designs
+/// with equal choices.
 fn between_neighbours(
     search: &Search<'_>,
     front: &[Candidate],
     target: &Target,
 ) -> Option<SpacePoint> {
     let [(objective, floor)] = target.floors[..] else { return None };
-    let beyond = front
-        .iter()
-        .filter_map(|candidate| Some((turned(search, candidate)?[objective] - floor, candidate)));
+    let beyond = front.iter().filter_map(|candidate| {
+        Some((signed_objectives(search, candidate)?[objective] - floor, candidate))
+    });
     let above = beyond.clone().filter(|(value, _)| *value >= 0.0);
     let above = above.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
     let below = beyond.filter(|(value, _)| *value < 0.0);
@@ -303,7 +309,7 @@ fn rescaled_front(
 ) -> Result<Front, Halt> {
     let front = designs(search, history, targets)?;
     let scaling = search.evaluations.scaling_intervals();
-    // With samples this would be expensive: the samples of a scaled design must be solved.
+    // With samples this step would be expensive: the samples of a scaled design must be solved.
     if scaling.is_empty() || search.judge.samples().is_some() {
         return Ok(front);
     }
@@ -326,21 +332,23 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
     let found: Vec<Option<BestDesign>> = found.collect::<Result<_, _>>()?;
     let found = found.into_iter().flatten();
     let found: Vec<(BestDesign, Vec<f64>)> = found
-        .filter_map(|design| turned(search, &design.candidate).map(|values| (design, values)))
+        .filter_map(|design| {
+            signed_objectives(search, &design.candidate).map(|values| (design, values))
+        })
         .collect();
     let values: Vec<Vec<f64>> = found.iter().map(|(_, values)| values.clone()).collect();
     let mut front =
         Front { designs: Vec::new(), same: 0, beaten: 0, empty: targets.len() - found.len() };
     let mut kept: Vec<(BestDesign, f64)> = Vec::new();
-    for (k, (design, turned)) in found.into_iter().enumerate() {
+    for (k, (design, signed)) in found.into_iter().enumerate() {
         // `dominates` tolerates round-off. If two limits bind, two points may differ in one
         // objective by round-off only, and exact comparison would keep the worse point.
-        if values.iter().any(|other| dominates(other, &turned)) {
+        if values.iter().any(|other| dominates(other, &signed)) {
             front.beaten += 1;
-        } else if values[..k].iter().any(|other| is_same(other, &turned)) {
+        } else if values[..k].iter().any(|other| is_same(other, &signed)) {
             front.same += 1;
         } else {
-            kept.push((design, turned[0]));
+            kept.push((design, signed[0]));
         }
     }
     kept.sort_by(|(_, a), (_, b)| b.total_cmp(a));
@@ -356,15 +364,16 @@ fn is_same(one: &[f64], other: &[f64]) -> bool {
 /// Returns the objectives of a feasible design; objectives to be minimised change sign.
 ///
 /// `None` for an infeasible design.
-fn turned(search: &Search<'_>, candidate: &Candidate) -> Option<Vec<f64>> {
+fn signed_objectives(search: &Search<'_>, candidate: &Candidate) -> Option<Vec<f64>> {
     let Judgement::Judged(worth) = &candidate.verdict else { return None };
-    let turned = worth.objectives.iter().enumerate().map(|(k, x)| search.judge.sign(k) * x);
-    worth.met.then(|| turned.collect())
+    let signed = worth.objectives.iter().enumerate().map(|(k, x)| search.judge.sign(k) * x);
+    worth.met.then(|| signed.collect())
 }
 
 /// Returns the first targets of a front, derived from the feasible designs in `history`.
 fn first_targets(search: &Search<'_>, history: &[Candidate], points: usize) -> Vec<Target> {
-    let values: Vec<Vec<f64>> = history.iter().filter_map(|c| turned(search, c)).collect();
+    let values: Vec<Vec<f64>> =
+        history.iter().filter_map(|c| signed_objectives(search, c)).collect();
     if search.judge.objectives() == 2 {
         return curve(&values, points);
     }
@@ -383,15 +392,15 @@ fn target(floors: Vec<f64>) -> Target {
     }
 }
 
-/// Returns targets for a front of two objectives: its ends, and equally spaced points between.
+/// Returns targets for a front of two objectives: its ends, and equally spaced points between them.
 ///
 /// `values` are the objectives of the known feasible designs.
 fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     let ends = [0, 1].map(|k| values.iter().max_by(|a, b| a[k].total_cmp(&b[k])));
     let [Some(first), Some(last)] = ends else { return Vec::new() };
     let spacings = [0, 1].map(|k| Spacing::between(first[k], last[k]));
-    // At an end, bound one objective at its optimum and maximise the other objective, because many
-    // designs may share the optimum of one objective.
+    // At each end of the front, bound one objective at its optimum and maximise the other
+    // objective, because many designs may share the optimum of one objective.
     let first_end = Target { objective: 1, floors: vec![(0, spacings[0].at(BESIDE))] };
     let last_end = target(vec![spacings[1].at(1.0 - BESIDE)]);
     let inner =
@@ -399,10 +408,10 @@ fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     [first_end].into_iter().chain(inner).chain([last_end]).collect()
 }
 
-/// Selects up to `count` of the points `values` that are not dominated and far apart.
+/// Selects up to `count` non-dominated points of `values` that are far apart.
 ///
-/// Each point is the farthest from all selected points and from the points `taken`. Returns the
-/// objectives of the points, except the first objective.
+/// Each selected point is as far as possible from the points selected before and from the points
+/// `taken`. Returns all objectives of the selected points except the first objective.
 fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
     let front: Vec<&Vec<f64>> =
         values.iter().filter(|value| !values.iter().any(|other| dominates(other, value))).collect();
@@ -448,7 +457,7 @@ mod tests {
 
     #[test]
     fn dominance_tolerates_round_off_in_one_objective() {
-        // These points are typical if requirements on coverage and on compliance bind.
+        // Such points occur if requirements on coverage and on compliance bind.
         let (poor, good) = ([0.800_000_000_004_8, 0.06], [0.799_999_999_999_9, 0.6]);
         assert!(dominates(&good, &poor) && !dominates(&poor, &good));
         assert!(!dominates(&good, &good) && is_same(&good, &[0.8, 0.6]));

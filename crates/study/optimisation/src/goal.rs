@@ -18,7 +18,7 @@ const MORE: usize = 5;
 /// Goal of an optimisation: design space, objectives and requirements.
 #[derive(Clone, Debug)]
 pub struct DesignGoal {
-    /// Variables, and the values shared by all designs.
+    /// Variables, and the values of all other parameters.
     pub space: DesignSpace,
     /// Columns to maximise or minimise.
     ///
@@ -26,7 +26,7 @@ pub struct DesignGoal {
     pub objectives: Vec<Criterion>,
     /// Bounds on columns that a design must meet.
     pub requirements: Vec<Requirement>,
-    /// Standards named by requirements such as `needle 2`.
+    /// Standards to which the levels in the key `protects` belong, e.g. for `needle 2`.
     pub standards: Vec<&'static Standard>,
     /// Criteria of the fitness, if it is an objective or requirement.
     pub fitness: Option<FitnessGoal>,
@@ -45,7 +45,7 @@ pub struct DesignGoal {
     /// Number of samples of each design, used if the goal contains a quantile or yield.
     ///
     /// The key in the file is `skins`.
-    pub realisations: usize,
+    pub samples_per_design: usize,
     /// Seed of the space-filling points.
     pub seed: u64,
     text: String,
@@ -129,6 +129,6 @@ impl DesignGoal {
     /// Returns the goal with five times as many samples of each design.
     #[must_use]
     pub(crate) fn finer(&self) -> Self {
-        Self { realisations: MORE * self.realisations, ..self.clone() }
+        Self { samples_per_design: MORE * self.samples_per_design, ..self.clone() }
     }
 }

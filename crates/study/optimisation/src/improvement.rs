@@ -10,10 +10,10 @@ use crate::evaluations::Halt;
 use crate::local::{Effort, Search};
 use crate::restarts::met;
 
-/// Distance, as a fraction of the intervals, below which a start is dropped as a duplicate.
+/// Distance, as a fraction of the ranges of the variables, below which two starts are duplicates.
 const DISTINCT: f64 = 1e-3;
 
-/// Number of gradient searches from other designs, if a design near the best is known.
+/// Maximum number of gradient searches from other designs, if a design near the best is known.
 const ELSEWHERE: usize = 2;
 
 /// Numbers of local searches for a target.
@@ -120,30 +120,30 @@ pub(crate) fn improved_from(
         let count = if near.is_some() { count.min(ELSEWHERE) } else { count };
         let starts = starts(search, known, target, count);
         let starts = distinct(near.cloned().into_iter().chain(starts).collect());
-        let walks = starts.par_iter().map(|start| {
+        let searches = starts.par_iter().map(|start| {
             // If some designs are feasible, a search from an infeasible design gets a few steps
             // only.
             let effort = if any_met && !is_met(start) { Effort::PROBE } else { effort };
-            let walk = search.improve(target, start, effort)?;
-            let best = search.best(walk.iter().chain([start]), target);
+            let designs = search.improve(target, start, effort)?;
+            let best = search.best(designs.iter().chain([start]), target);
             let end = best.and_then(|best| met(search, best, target));
-            Ok((walk, end))
+            Ok((designs, end))
         });
-        let walks: Vec<_> = walks.collect::<Result<_, Halt>>()?;
-        // Only the searches of the last stage converge, so `ends` is replaced in each stage. Starts
-        // count too: they are results of gradient searches, i.e. of another method.
-        let both = starts.iter().zip(&walks);
+        let searches: Vec<_> = searches.collect::<Result<_, Halt>>()?;
+        // Only the searches of the last stage converge, so `ends` is replaced in each stage. The
+        // starts of the last stage count too, because a gradient search has found each of them.
+        let both = starts.iter().zip(&searches);
         let both = both.flat_map(|(start, (_, end))| [met(search, start, target), *end]);
         ends = both.flatten().collect();
-        evaluated.extend(walks.into_iter().flat_map(|(walk, _)| walk));
+        evaluated.extend(searches.into_iter().flat_map(|(designs, _)| designs));
     }
     Ok(Improved { evaluated, ends })
 }
 
 /// Drops starts that are very close to an earlier start.
 ///
-/// Two starts may be on both sides of the border of a region. Searches from both would find the
-/// same design.
+/// Two such starts may lie in different regions, on opposite sides of a common border. Searches
+/// from both starts would find the same design.
 fn distinct(starts: Vec<Candidate>) -> Vec<Candidate> {
     let mut kept: Vec<Candidate> = Vec::new();
     for start in starts {

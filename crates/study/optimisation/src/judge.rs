@@ -90,14 +90,14 @@ impl Judge {
     }
 
     /// Returns true if the goal depends on `measure`.
-    pub(crate) fn is_about(&self, measure: Measure) -> bool {
+    pub(crate) fn depends_on(&self, measure: Measure) -> bool {
         self.measures.contains(&measure)
     }
 
     /// Returns true if coverage peaks divide the space into regions that matter for the goal.
     ///
-    /// This holds for each measure: contacts in puncture and bending depend on the same lengths as
-    /// the coverage.
+    /// This is true for a goal with any measure, because contacts in puncture and bending depend on
+    /// the same lengths as the coverage.
     pub(crate) fn has_regions(&self) -> bool {
         !self.measures.is_empty()
     }
@@ -155,7 +155,9 @@ impl Judge {
         }
     }
 
-    /// Judges a design without samples.
+    /// Judges a design without samples by the requirements on columns.
+    ///
+    /// The goal contains statistics over samples, so the objectives are unknown.
     fn nominal_verdict(&self, row: &DesignRow) -> Judgement {
         let bounds = &self.samples.bounds;
         let values: Vec<Option<f64>> = bounds.values(row).collect();
@@ -203,8 +205,8 @@ impl Judge {
                 .clone()
                 .map(|(bound, value)| self.margin(bound, *value, samples))
                 .collect(),
-            // Do not use the margins: the margin of a strict limit is negative slightly inside the
-            // limit.
+            // Do not use the margins: for a strict inequality, the margin of a value that barely
+            // meets the requirement is negative.
             met: bounds.clone().all(|(bound, value)| bound.requirement.is_met(*value)),
             compared: compared.collect(),
             objectives,
@@ -223,7 +225,7 @@ impl Judge {
         of_samples.unwrap_or_else(|| bound.requirement.margin(value))
     }
 
-    /// Returns the value from `source` of a design. The error is the name of an empty column.
+    /// Returns the value of a design from `source`. The error is the name of an empty column.
     fn value(&self, source: &Source, row: &DesignRow, samples: &Samples) -> Result<f64, String> {
         match source {
             Source::Nominal(column) => column.value(row).ok_or_else(|| column.name().to_owned()),

@@ -1,8 +1,9 @@
-//! Optimisation: finds the best designs between the points of a grid.
+//! Optimisation: finds the best designs in ranges of continuous and discrete variables.
 //!
-//! A goal defines variables, objectives and requirements. A search first solves space-filling
-//! points. Gradient searches then improve the best of these points with the exact derivatives of
-//! the measures. Gradient searches stop at kinks of a measure, so a bundle method continues there.
+//! A goal defines variables, objectives and requirements. A search first solves the designs at
+//! space-filling points. Gradient searches then improve the best of these designs with the exact
+//! derivatives of the measures. A gradient search stops at a kink of a measure; a bundle method
+//! then continues the search along the kink.
 //! Several objectives give a Pareto front. The binding limits `g_k ≥ l_k` of a best design have
 //! multipliers `μ_k`, which balance the gradient of the objective `o` and state the cost of each
 //! limit (O1):
@@ -55,7 +56,7 @@
 //! let progress = SearchProgress::default();
 //! let options = SearchOptions { threads: 1, start: Start::New, stop: &stop, progress: &progress };
 //! let program = Program { version: "1.0", revision: "none" };
-//! let found = optimise(&goal, folder.path(), &options, &program)?.expect("nobody stops it");
+//! let found = optimise(&goal, folder.path(), &options, &program)?.expect("no stop request");
 //! let Answer::Optimum(best) = found.answer else { panic!("there is one objective") };
 //! assert!((best.row.case.design.gap - 0.1).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -34,7 +34,7 @@ use samples::SampledPoint;
 /// Maximum number of rounds, each of ridge search, derivative-free search and gradient search.
 const ROUNDS: usize = 4;
 
-/// Distance within which a fraction is set to the end of its interval.
+/// Distance from an end of an interval, as a fraction of the interval, that counts as 0.
 const ROUND_OFF: f64 = 1e-13;
 
 /// Number of grid steps in each round of a search along a scaling interval.
@@ -64,7 +64,7 @@ pub(crate) fn evaluation_units(samples: usize) -> u64 {
 struct Fineness {
     /// Relative gain in a round below which the search ends.
     gain: f64,
-    /// Smallest step of the derivative-free search, as a fraction of the intervals.
+    /// Smallest step of the derivative-free search, as a fraction of the ranges of the variables.
     step: f64,
 }
 
@@ -90,7 +90,8 @@ pub(crate) struct Search<'a> {
 pub(crate) struct Effort {
     /// Maximum number of evaluations of a gradient search for each variable.
     ///
-    /// Smooth problems need fewer evaluations. A search that needs more zigzags across a ridge.
+    /// Smooth problems need fewer evaluations. A search that has not converged after this number of
+    /// evaluations zigzags across a ridge.
     pub gradient_evaluations: u64,
     /// Maximum number of evaluations of a search for a required yield.
     pub yield_evaluations: usize,
@@ -98,7 +99,7 @@ pub(crate) struct Effort {
     pub pieces: usize,
     /// Maximum number of rounds of ridge search, derivative-free search and gradient search.
     pub rounds: usize,
-    /// First step of ridge and derivative-free search, as a fraction of the intervals.
+    /// First step of ridge and derivative-free search, as a fraction of the variables' ranges.
     pub reach: f64,
     /// Maximum number of evaluations of the ridge search in a round, for each variable.
     pub ridge: usize,
@@ -135,8 +136,8 @@ impl Effort {
 
     /// Local search from a design that is probably close to the best design.
     ///
-    /// It has no derivative-free search for jumps: other local searches start on both sides of a
-    /// jump.
+    /// This search omits the derivative-free search beyond jumps, because other local searches
+    /// start on both sides of a jump.
     pub const NEAR: Self =
         Self { rounds: 2, reach: 0.01, polish: 0, evaluations: 40, ..Self::WHOLE };
 
@@ -167,7 +168,9 @@ impl Search<'_> {
         self.evaluate_at(stage, point, differentiated, Positions::All)
     }
 
-    /// Evaluates the design at `point` like [`Self::evaluate`], for comparison with others.
+    /// Evaluates the design at `point` like [`Self::evaluate`], for comparison with other designs.
+    ///
+    /// Only the load positions that the comparison needs are solved.
     pub fn compared(
         &self,
         stage: SearchStage,
@@ -178,7 +181,7 @@ impl Search<'_> {
         self.evaluate_at(stage, point, differentiated, positions)
     }
 
-    /// Evaluates the design at `point` like [`Self::evaluate`], at these load positions.
+    /// Evaluates the design at `point` like [`Self::evaluate`], at the load positions `positions`.
     fn evaluate_at(
         &self,
         stage: SearchStage,
@@ -241,9 +244,10 @@ impl Search<'_> {
         self.merit_within(candidate, target, 0.0)
     }
 
-    /// Returns the merit of a design for `target`, with limits that are relaxed by `slack`.
+    /// Returns the merit of a design for `target` if all limits are relaxed by `slack`.
     ///
-    /// `slack` is relative to the limits: requirements and lower bounds of objectives.
+    /// The limits are requirements and lower bounds of objectives. `slack` is relative to each
+    /// limit.
     pub fn merit_within(&self, candidate: &Candidate, target: &Target, slack: f64) -> Merit {
         let Judgement::Judged(worth) = &candidate.verdict else { return Merit::None };
         let short = target.floors.iter().map(|&(k, floor)| {
@@ -307,7 +311,7 @@ impl Search<'_> {
         if self.judge.samples().is_some() { Fineness::SAMPLED } else { Fineness::NOMINAL }
     }
 
-    /// Returns the best of `candidates` for `target`; `None` without a valid judgement.
+    /// Returns the best of `candidates` for `target`; `None` if none has a valid judgement.
     pub fn best<'c>(
         &self,
         candidates: impl Iterator<Item = &'c Candidate> + Clone,
@@ -329,7 +333,7 @@ impl Search<'_> {
     ) -> Result<Vec<Candidate>, Halt> {
         self.progress.start();
         let units = self.evaluation_units(target);
-        let walk = LocalSearch {
+        let local = LocalSearch {
             search: self,
             target,
             solves_all_positions: Cell::new(false),
@@ -344,17 +348,17 @@ impl Search<'_> {
             return Ok(Vec::new());
         }
         let effort = if self.judge.samples().is_some() { effort.on_samples() } else { effort };
-        walk.run(effort)?;
+        local.run(effort)?;
         // A full search ends if the results at all load positions confirm its best design.
-        // Otherwise it continues and solves all load positions.
-        if effort.rounds > 0 && walk.positions(&walk.best.borrow().point) == Positions::Corners {
-            walk.solves_all_positions.set(true);
-            let is_confirmed = walk.follow_best()?;
+        // Otherwise the search continues and solves all load positions of each design.
+        if effort.rounds > 0 && local.positions(&local.best.borrow().point) == Positions::Corners {
+            local.solves_all_positions.set(true);
+            let is_confirmed = local.follow_best()?;
             if !is_confirmed {
-                walk.run(effort)?;
+                local.run(effort)?;
             }
         }
-        Ok(walk.log.take())
+        Ok(local.log.take())
     }
 }
 
@@ -377,7 +381,7 @@ fn gained(before: Merit, after: Merit, gain: f64) -> bool {
 struct LocalSearch<'a> {
     search: &'a Search<'a>,
     target: &'a Target,
-    /// True if corners do not represent all load positions.
+    /// True if all load positions are solved, because the corners do not represent them.
     solves_all_positions: Cell<bool>,
     best: RefCell<Candidate>,
     log: RefCell<Vec<Candidate>>,
@@ -391,11 +395,11 @@ impl LocalSearch<'_> {
     /// Runs the gradient search, then rounds of ridge search, polish and gradient search.
     fn run(&self, effort: Effort) -> Result<(), Halt> {
         let (mut reach, variables) = (effort.reach, self.best_shares().len());
-        // A full search starts at the end of a gradient search, which may already be an optimum.
+        // A full search starts at the last design of a gradient search, which may be an optimum.
         if effort.rounds > 0 && self.is_certain()? {
             return Ok(());
         }
-        let mut is_converged = self.climb(effort)?;
+        let mut is_converged = self.search_by_derivatives(effort)?;
         for _ in 0..effort.rounds {
             if is_converged || self.is_certain()? {
                 break;
@@ -403,14 +407,14 @@ impl LocalSearch<'_> {
             let before = self.best_merit();
             // The ridge search precedes the direct search: tangents give the direction along the
             // ridge, and the polls of a direct search rarely have this direction.
-            self.follow(reach, effort.ridge * variables)?;
+            self.search_ridge(reach, effort.ridge * variables)?;
             if effort.polish > 0 {
                 self.polish(reach, effort.polish * variables)?;
             }
             if !gained(before, self.best_merit(), self.search.fineness().gain) {
                 break;
             }
-            is_converged = self.climb(effort)?;
+            is_converged = self.search_by_derivatives(effort)?;
             reach *= 0.3;
         }
         self.follow_best()?;
@@ -420,7 +424,7 @@ impl LocalSearch<'_> {
     /// Runs a search by derivatives from the best design.
     ///
     /// Returns true if the search converged to a design that meets a required yield.
-    fn climb(&self, effort: Effort) -> Result<bool, Halt> {
+    fn search_by_derivatives(&self, effort: Effort) -> Result<bool, Halt> {
         if let Some(required) = self.required_yield() {
             let converged = match self.yield_search(required, effort.yield_evaluations) {
                 // The steps have become too small.
@@ -467,9 +471,9 @@ impl LocalSearch<'_> {
 
     /// Solves the design at `point`, if possible starting from the path end of a similar design.
     ///
-    /// This is the nearest design with a path that this local search has followed from rest. Path
-    /// ends of other local searches are not used, so results do not depend on the number of
-    /// threads.
+    /// The similar design is the nearest one with a path that this local search has followed from
+    /// rest. Path ends of other local searches are not used, so results do not depend on the number
+    /// of threads.
     fn solved(&self, point: &SpacePoint, differentiated: bool) -> Result<Arc<DesignResult>, Halt> {
         let (evaluations, positions) = (self.search.evaluations, self.positions(point));
         if !evaluations.has_ends(point) {
@@ -484,7 +488,7 @@ impl LocalSearch<'_> {
         evaluations.solve(point, differentiated, positions)
     }
 
-    /// Evaluates the design at `point`, which is followed from rest.
+    /// Evaluates the design at `point`. The puncture path of the design is followed from rest.
     fn evaluate(
         &self,
         stage: SearchStage,
@@ -519,8 +523,8 @@ impl LocalSearch<'_> {
 
     /// Follows the path of the best design from rest, to verify its result.
     ///
-    /// If the results differ, the design gets its new result, and the design that is then the best
-    /// is verified. Returns true if the first result was confirmed.
+    /// If the new result differs, it replaces the old one, and the best design of the log is
+    /// verified next. Returns true if the first verified design keeps its result.
     fn follow_best(&self) -> Result<bool, Halt> {
         for count in 0.. {
             let best = self.best.borrow().clone();
@@ -549,7 +553,7 @@ impl LocalSearch<'_> {
         self.search.merit(&self.best.borrow(), self.target)
     }
 
-    /// Returns the best design as fractions of the intervals.
+    /// Returns the continuous variables of the best design, as fractions of their intervals.
     fn best_shares(&self) -> Vec<f64> {
         self.best.borrow().point.shares.clone()
     }

@@ -35,10 +35,10 @@ const CERTAIN: f64 = 1e-5;
 
 /// Like [`BALANCED`], for the nominal design of an optimum over samples.
 ///
-/// This design keeps a distance from its limits, so that its samples meet them.
+/// This nominal design keeps a distance from the limits, so that its samples meet the limits.
 const ROUGHLY: f64 = 0.2;
 
-/// Fraction of samples that must miss a requirement for it to count as a limit of the design.
+/// Minimum fraction of samples that miss a requirement if the requirement limits the design.
 const OFTEN: f64 = 0.01;
 
 /// A limit that binds at the best design, with its multiplier.
@@ -48,8 +48,8 @@ pub struct Binding {
     pub limit: Limit,
     /// Loss of the objective for each unit by which the limit is tightened.
     ///
-    /// Objective and limit are in the units of their columns. `None` on a kink, where no
-    /// multipliers balance the gradients.
+    /// Objective and limit are in the units of their columns. `None` for a required yield, and on a
+    /// kink, where no multipliers balance the gradients.
     pub price: Option<f64>,
 }
 
@@ -148,19 +148,20 @@ pub(crate) fn near_limits(
         requirements.filter(|(k, margin)| **margin < near(StatisticUse::Requirement(*k)));
     let mut limits: Vec<Limit> = required.map(|(k, _)| Limit::Requirement(k)).collect();
     for &(k, floor) in &target.floors {
-        let turned = search.judge.sign(k) * worth.objectives[k];
-        if turned - floor < near(StatisticUse::Objective(k)) * floor_size(floor) {
+        let signed = search.judge.sign(k) * worth.objectives[k];
+        if signed - floor < near(StatisticUse::Objective(k)) * floor_size(floor) {
             limits.push(Limit::Floor(k));
         }
     }
     limits.extend(end_limits(&best.point, nearness));
     let case = search.space.case(&best.point);
-    let touches = search.judge.is_about(Measure::Flexure) && contact_margin(&case).abs() < nearness;
+    let touches =
+        search.judge.depends_on(Measure::Flexure) && contact_margin(&case).abs() < nearness;
     limits.extend(touches.then_some(Limit::Touch));
     limits
 }
 
-/// Returns the ends of intervals near `point`.
+/// Returns the ends of the variables' intervals that are near `point`.
 ///
 /// The distance is at most the fraction `nearness` of the interval.
 fn end_limits(point: &SpacePoint, nearness: f64) -> Vec<Limit> {
@@ -219,8 +220,8 @@ pub(crate) fn first_order_gain(
             Limit::Requirement(k) => worth.margins[k],
             Limit::Floor(k) => {
                 let floor = target.floors.iter().find(|(other, _)| *other == k);
-                let turned = search.judge.sign(k) * worth.objectives[k];
-                floor.map_or(0.0, |(_, floor)| turned - floor)
+                let signed = search.judge.sign(k) * worth.objectives[k];
+                floor.map_or(0.0, |(_, floor)| signed - floor)
             }
             Limit::Lower(j) => best.point.shares[j],
             Limit::Upper(j) => 1.0 - best.point.shares[j],
@@ -234,11 +235,11 @@ pub(crate) fn first_order_gain(
     Some((gain / objective, needed.any(|(limit, _)| *limit == Limit::Touch)))
 }
 
-/// Gradients with respect to the fractions of the intervals.
+/// Gradients of an objective and of limits, with respect to the fractions of the intervals.
 struct Gradients {
     /// Gradient of the objective to be maximised.
     objective: DVector<f64>,
-    /// Gradient of the margin to each limit.
+    /// Gradient of the margin to each limit. The margin is positive if the limit is met.
     limits: Vec<DVector<f64>>,
 }
 
@@ -336,7 +337,8 @@ mod tests {
     fn multipliers_balance_the_gradient() {
         // Maximise x + 2 y with x ≤ 1 and x + y ≤ 1.5. At (1, 0.5), both limits bind.
         let columns = [vector([-1.0, -1.0]), vector([1.0, 0.0])];
-        let found = multipliers(&columns, &vector([1.0, 2.0]), BALANCED).expect("balanced");
+        let found =
+            multipliers(&columns, &vector([1.0, 2.0]), BALANCED).expect("balanced multipliers");
         assert!((found[0] - 2.0).abs() < 1e-12 && (found[1] - 1.0).abs() < 1e-12, "{found:?}");
     }
 
@@ -344,7 +346,8 @@ mod tests {
     fn limits_with_negative_multipliers_are_dropped() {
         let away = [vector([1.0, 0.0]), vector([0.0, -1.0])];
         assert_eq!(multipliers(&away, &vector([1.0, 0.0]), BALANCED), None);
-        let found = multipliers(&away, &vector([0.0, 3.0]), BALANCED).expect("balanced");
+        let found =
+            multipliers(&away, &vector([0.0, 3.0]), BALANCED).expect("balanced multipliers");
         assert_eq!(found[0], 0.0);
         assert!((found[1] - 3.0).abs() < 1e-12);
         assert_eq!(multipliers(&[], &vector([0.0, 0.0]), BALANCED), Some(vec![]));

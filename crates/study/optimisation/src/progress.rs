@@ -101,9 +101,9 @@ impl SearchProgress {
     /// The fraction decreases if a part starts that was not expected.
     pub fn share(&self) -> f64 {
         let parts = self.parts();
-        let own = parts.work.get(parts.at).map_or(0, |part| part.1);
+        let current = parts.work.get(parts.at).map_or(0, |part| part.1);
         let done = units(&parts.work[..parts.at.min(parts.work.len())])
-            + self.units.load(Ordering::Relaxed).min(own) as f64;
+            + self.units.load(Ordering::Relaxed).min(current) as f64;
         // Without work the quotient is NaN, and `max` returns 0.
         (done / units(&parts.work)).max(0.0)
     }
@@ -140,9 +140,9 @@ impl SearchProgress {
 
     /// Starts the next part of kind `part` with this number of tasks and total `units` of work.
     ///
-    /// Expected parts before it are dropped. A part that was not expected is added. The part
-    /// `Front` is started several times, and each time the remaining expected units stay for the
-    /// next time.
+    /// Expected parts that precede this part are dropped. A part that was not expected is added.
+    /// The part `Front` starts several times: expected units beyond `units` are kept for its next
+    /// start.
     pub(crate) fn begin(&self, part: SearchPart, tasks: usize, units: u64) {
         let mut parts = self.parts();
         let done = self.units.swap(0, Ordering::Relaxed);
@@ -151,8 +151,8 @@ impl SearchProgress {
         // Before the first part there is no completed part.
         let is_first = parts.tasks == 0;
         let next = if is_first { 0 } else { at + 1 };
-        if let Some(own) = parts.work.get_mut(at).filter(|_| !is_first) {
-            own.1 = own.1.min(done);
+        if let Some(current) = parts.work.get_mut(at).filter(|_| !is_first) {
+            current.1 = current.1.min(done);
         }
         let ahead = parts.work.get(next..).unwrap_or_default();
         // Use an expected restart only if it directly follows the current part. Otherwise it
@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tasks_are_counted_for_each_part_and_units_for_all_parts() {
+    fn tasks_are_counted_in_the_current_part_and_units_in_all_parts() {
         let progress = SearchProgress::default();
         assert_eq!(progress.share(), 0.0);
         progress.expect(vec![
@@ -245,14 +245,15 @@ mod tests {
     }
 
     #[test]
-    fn fraction_adapts_to_parts_that_end_early_or_were_not_expected() {
+    fn completed_fraction_adapts_to_dropped_and_unexpected_parts() {
         let progress = SearchProgress::default();
         progress.expect(vec![(Sample, 10), (LocalSearches, 40), (Restart, 50), (Check, 20)]);
         progress.begin(Sample, 1, 10);
         drop(progress.task(10));
         progress.begin(LocalSearches, 2, 40);
         drop(progress.task(20));
-        // Unnecessary restarts and skipped local searches do not count as work.
+        // The restart is not needed and is dropped. The part of the local searches is reduced to
+        // the 20 completed units.
         progress.begin(Check, 1, 20);
         assert_eq!(progress.share(), 30.0 / 50.0);
         progress.begin(Restart, 1, 30);

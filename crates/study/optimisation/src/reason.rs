@@ -47,9 +47,9 @@ pub(crate) fn reason(
         let sentence = format!("No limit binds: {column} is {extreme} inside the ranges.");
         return (!is_rough).then_some(sentence);
     }
-    let words = BindingText::new(goal);
+    let binding_text = BindingText::new(goal);
     let mut effects: Vec<Effect> =
-        bindings.iter().map(|binding| effect(goal, &words, binding, best, value)).collect();
+        bindings.iter().map(|binding| effect(goal, &binding_text, binding, best, value)).collect();
     if effects.iter().any(|effect| effect.gain.is_some_and(|gain| gain > 0.0)) {
         // Omit limits with a multiplier of 0, which do not affect the objective.
         effects.retain(|effect| effect.gain != Some(0.0));
@@ -85,7 +85,7 @@ pub(crate) fn reason(
 /// `objective` is the absolute value of the objective of the design `best`.
 fn effect(
     goal: &DesignGoal,
-    words: &BindingText<'_>,
+    binding_text: &BindingText<'_>,
     binding: &Binding,
     best: &BestDesign,
     objective: f64,
@@ -105,15 +105,15 @@ fn effect(
         Limit::Lower(j) => {
             let interval = &goal.space.intervals()[j];
             let relaxed = format!("{percent} % less {}", interval.parameter.key);
-            (words.limit(&binding.limit, &best.target), Some(relaxed), interval.from.abs())
+            (binding_text.limit(&binding.limit, &best.target), Some(relaxed), interval.from.abs())
         }
         Limit::Upper(j) => {
             let interval = &goal.space.intervals()[j];
             let relaxed = format!("{percent} % more {}", interval.parameter.key);
-            (words.limit(&binding.limit, &best.target), Some(relaxed), interval.to.abs())
+            (binding_text.limit(&binding.limit, &best.target), Some(relaxed), interval.to.abs())
         }
         Limit::Touch => ("contact in bending".to_owned(), None, 1.0),
-        Limit::Floor(_) => (words.limit(&binding.limit, &best.target), None, 1.0),
+        Limit::Floor(_) => (binding_text.limit(&binding.limit, &best.target), None, 1.0),
     };
     let gain = binding.price.map(|price| price * CHANGE * size / objective);
     Effect {

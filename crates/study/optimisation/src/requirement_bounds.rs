@@ -73,7 +73,7 @@ impl Bounds {
 
     /// Returns the derivatives of the smallest margin with respect to `parameter`.
     ///
-    /// They are the derivatives of the margin to the requirement with the smallest margin.
+    /// Only the requirement with the smallest margin contributes.
     pub fn margin_slopes(&self, row: &DesignRow, parameter: &Parameter) -> Slopes {
         let tightest = self.tightest(self.values(row));
         tightest.map_or(Slopes::UNKNOWN, |(bound, _)| {

@@ -32,13 +32,13 @@ const SETTLED: f64 = 1e-4;
 /// Relative gain of a round below which the box shrinks.
 const GAIN: f64 = 1e-4;
 
-/// Number of points evaluated in a round, for each variable.
+/// Number of points evaluated in each round of a restart, for each variable.
 const EACH: usize = 5;
 
 /// Expected number of evaluations in the boxes of a restart, for each variable.
 const EVALUATIONS: u64 = 100;
 
-/// Half-widths of the first and the smallest box, as fractions of the intervals.
+/// Half-widths of the first and the smallest box, as fractions of the ranges of the variables.
 const WIDTHS: [f64; 2] = [0.1, 1e-5];
 
 /// Ratio of successive half-widths.
@@ -50,14 +50,15 @@ const ROUNDS: usize = 40;
 /// Relative margin at the centre of a box up to which a limit counts as binding.
 const NEAR: f64 = 1e-3;
 
-/// Margin to binding limits that points are moved to, so that they meet the limits despite
-/// round-off.
+/// Relative margin to the binding limits at which moved points are placed.
+///
+/// With this margin the points meet the limits despite round-off.
 const INSIDE: f64 = 1e-6;
 
-/// Maximum number of steps of a point onto limits that require a solution of the design.
+/// Maximum number of steps that move a point onto limits if each step solves the design.
 const SOLVED_STEPS: usize = 3;
 
-/// Maximum number of steps of a point onto limits that are known in closed form.
+/// Maximum number of steps that move a point onto limits that are known in closed form.
 const FREE_STEPS: usize = 30;
 
 /// Agreement of the local searches for a target, a measure of confidence in the best design.
@@ -132,9 +133,9 @@ pub(crate) fn restarted(
         let units = restart_evaluations(best.point.shares.len()) * search.evaluation_units(target);
         // A restart has two tasks: points in boxes, and a full local search.
         search.progress.begin(SearchPart::Restart, 2, units);
-        let walk = Restart { search, target, best, number: restart as u64 }.run()?;
-        ends.extend(search.best(walk.iter(), target).and_then(|end| met(search, end, target)));
-        evaluated.extend(walk);
+        let designs = Restart { search, target, best, number: restart as u64 }.run()?;
+        ends.extend(search.best(designs.iter(), target).and_then(|end| met(search, end, target)));
+        evaluated.extend(designs);
     }
     Ok(evaluated)
 }
@@ -144,12 +145,12 @@ pub(crate) fn restart_evaluations(variables: usize) -> u64 {
     EVALUATIONS * variables as u64 + Effort::WHOLE.evaluations
 }
 
-/// A search by points in shrinking boxes around the best design, then by a full local search.
+/// A restart: evaluates points in shrinking boxes, then runs a full local search.
 struct Restart<'a> {
     search: &'a Search<'a>,
     target: &'a Target,
     best: &'a Candidate,
-    /// Number of the restart, which selects its points.
+    /// Number of the restart, which is the seed of its points.
     number: u64,
 }
 
@@ -180,8 +181,8 @@ impl Restart<'_> {
             let is_first = drawn == count;
             let Some(top) = search.best(evaluated.iter(), target).cloned() else { break };
             let gain = match [&centre, &top].map(|design| met(search, design, target)) {
-                // Always move the box to the best point of the first round. If the restart then
-                // finds the design with which it began, this confirms the design.
+                // Always move the box to the best point of the first round, away from the best
+                // design so far. If the restart finds that design again, the design is confirmed.
                 _ if is_first => f64::INFINITY,
                 [Some(before), Some(after)] if after > before => difference(before, after),
                 [None, Some(_)] => f64::INFINITY,

@@ -42,8 +42,8 @@ pub struct Rounding {
     pub rounded: Option<f64>,
 }
 
-/// Evaluated points of the lattice: factors of the steps, and the design.
-type Known = Vec<(Vec<i64>, Candidate)>;
+/// Evaluated points of the lattice: for each point its factors of the steps, and its design.
+type LatticePoints = Vec<(Vec<i64>, Candidate)>;
 
 /// Replaces `best` by its rounded design if `goal` requests rounding.
 ///
@@ -78,9 +78,10 @@ pub(crate) fn round(
     Ok(Some(Rounding { step, unit, exact, rounded: None }))
 }
 
-/// Verifies a rounded design: solves more samples and independent samples, and runs the checks.
+/// Verifies a rounded design by more samples and by independent samples.
 ///
-/// `None` if the design violates a requirement on the larger number of samples.
+/// With `confirm = true` the checks with finer models are run, too. `None` if the design violates a
+/// requirement on the larger number of samples. The design with more samples is added to `history`.
 fn refined(
     goal: &DesignGoal,
     finer: &Search<'_>,
@@ -116,16 +117,16 @@ fn objective(candidate: &Candidate) -> Option<f64> {
 }
 
 /// Returns the designs of the lattice sorted by merit, the best first.
-fn feasible_first(search: &Search<'_>, known: Known, target: &Target) -> Vec<Candidate> {
+fn feasible_first(search: &Search<'_>, known: LatticePoints, target: &Target) -> Vec<Candidate> {
     let mut designs: Vec<Candidate> = known.into_iter().map(|(_, candidate)| candidate).collect();
     designs.sort_by(|a, b| search.merit(b, target).compare(search.merit(a, target)));
     designs
 }
 
 /// Evaluates points of the lattice around `best`, and returns them.
-fn evaluated(search: &Search<'_>, best: &BestDesign) -> Result<Known, Halt> {
+fn evaluated(search: &Search<'_>, best: &BestDesign) -> Result<LatticePoints, Halt> {
     let (start, target) = (&best.candidate.point, &best.target);
-    let mut known = Known::new();
+    let mut known = LatticePoints::new();
     add(search, start, corners(search, start), &mut known)?;
     let mut at = best_of(search, &known, target);
     for _ in 0..MOVES {
@@ -153,7 +154,7 @@ fn add(
     search: &Search<'_>,
     start: &SpacePoint,
     points: Vec<Vec<i64>>,
-    known: &mut Known,
+    known: &mut LatticePoints,
 ) -> Result<(), Halt> {
     let units = evaluation_units(search.judge.samples().map_or(0, |judge| judge.count));
     search.progress.begin(SearchPart::Round, points.len(), points.len() as u64 * units);
@@ -165,7 +166,7 @@ fn add(
         }
         Ok((factors, search.evaluate(SearchStage::Rounded, &point, false)?.0))
     });
-    let evaluated: Known = evaluated.collect::<Result<_, Halt>>()?;
+    let evaluated: LatticePoints = evaluated.collect::<Result<_, Halt>>()?;
     known.extend(evaluated);
     Ok(())
 }

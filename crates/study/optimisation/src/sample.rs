@@ -100,9 +100,9 @@ impl SampleJudge {
         vec![None; self.bounds.all.len() + self.statistics.len()]
     }
 
-    /// Returns true if a nominal design meets the requirements on its samples.
+    /// Returns true if a nominal design itself meets the requirements that apply to each sample.
     ///
-    /// Other designs are not sampled.
+    /// Only such designs are sampled.
     pub fn admits(&self, row: &DesignRow) -> bool {
         row.result.failures.is_empty() && self.margin(&self.values(row)) >= 0.0
     }
@@ -199,7 +199,7 @@ impl SampleJudge {
             return Some(requirement.margin(self.value(q, samples)?));
         }
         let sorted = self.sorted(q, samples);
-        Some(sorted[needed(requirement, sorted.len())].0)
+        Some(sorted[deciding_index(requirement, sorted.len())].0)
     }
 
     /// Returns the numbers of the samples around the sample that decides a required yield.
@@ -213,7 +213,7 @@ impl SampleJudge {
         spread: usize,
     ) -> Vec<u64> {
         let sorted = self.sorted(q, samples);
-        let deciding = needed(requirement, sorted.len());
+        let deciding = deciding_index(requirement, sorted.len());
         let last = (deciding + spread + 1).min(sorted.len());
         let near = &sorted[deciding.saturating_sub(spread)..last];
         near.iter().map(|(_, index)| *index as u64 + 1).collect()
@@ -232,11 +232,13 @@ impl SampleJudge {
         let sorted = self.sorted(q, samples);
         let parts = match (&self.statistics[q].statistic, requirement) {
             (Statistic::Yield, None) => Vec::new(),
-            (Statistic::Yield, Some(requirement)) => vec![(needed(requirement, sorted.len()), 1.0)],
+            (Statistic::Yield, Some(requirement)) => {
+                vec![(deciding_index(requirement, sorted.len()), 1.0)]
+            }
             (Statistic::Quantile { share, .. }, _) => {
-                let places = quantile_positions(sorted.len(), *share);
+                let positions = quantile_positions(sorted.len(), *share);
                 let both =
-                    places.map(|([below, above], part)| [(below, 1.0 - part), (above, part)]);
+                    positions.map(|([below, above], part)| [(below, 1.0 - part), (above, part)]);
                 both.into_iter().flatten().filter(|(_, part)| *part > 0.0).collect()
             }
         };
@@ -249,7 +251,8 @@ impl SampleJudge {
     /// Returns the column that determines the derivatives of statistic `q` on a sample.
     ///
     /// Derivatives of the column are to be multiplied by the returned factor. For a yield, this is
-    /// the column of the requirement with the smallest margin. `values` are the sample.
+    /// the column of the requirement with the smallest margin. `values` are the values of the
+    /// sample.
     pub fn moving(&self, q: usize, values: &[Option<f64>]) -> Option<(&NumberColumn, f64)> {
         if let Some(column) = &self.statistics[q].column {
             return Some((column, 1.0));
@@ -268,7 +271,7 @@ fn met(margins: &[f64]) -> usize {
 ///
 /// `requirement` is the requirement on the yield. The `count` samples are sorted by margin, so the
 /// index is also the number of samples that may miss a requirement.
-pub(crate) fn needed(requirement: &Requirement, count: usize) -> usize {
+pub(crate) fn deciding_index(requirement: &Requirement, count: usize) -> usize {
     let wanted = requirement.limit * count as f64;
     // The product may differ from an integer by round-off.
     let needed = match requirement.relation {

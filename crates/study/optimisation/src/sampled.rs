@@ -7,7 +7,7 @@
 //! yield ≥ y   ⇔   m₍ₖ₎ ≥ 0,   k = n − ⌈y n⌉ + 1                                          (O6)
 //! ```
 //!
-//! Here `m₍₁₎ ≤ … ≤ m₍ₙ₎` are the sorted margins of the `n` samples. The margin of a sample is its
+//! `m₍₁₎ ≤ … ≤ m₍ₙ₎` are the sorted margins of the `n` samples. The margin of a sample is its
 //! smallest margin over all requirements, relative to their limits. A yield is a step function of
 //! the design, but the margin `m₍ₖ₎` is continuous.
 

@@ -132,7 +132,7 @@ pub fn optimise(
     }
 }
 
-/// Runs the steps of a search.
+/// Runs all parts of a search, and returns its result.
 fn find(
     goal: &DesignGoal,
     evaluations: &Evaluations<'_>,
@@ -140,8 +140,8 @@ fn find(
 ) -> Result<Found, Halt> {
     progress.expect(expected(goal));
     let points = space_filling::points(&goal.space, goal.samples, goal.seed);
-    // Solve these points before the judge is created: the fitness is rescaled between their worst
-    // and best values.
+    // Solve these designs before the judge is created: the criteria of the fitness are rescaled
+    // between the worst and best values of these designs.
     let rows = sample_rows(evaluations, &points, progress)?;
     let rescaled = ends(goal, rows);
     let judge = Judge::rescaling(&goal.nominal(), &rescaled);
@@ -219,7 +219,7 @@ fn region_count(search: &Search<'_>, history: &[Candidate]) -> usize {
     regions.len()
 }
 
-/// Maximum number of searches with tightened limits, after the first search.
+/// Maximum number of further searches, each with tightened limits.
 const TIGHTER: usize = 3;
 
 /// A goal with the limits of the user, and with the tightened limits of the search.
@@ -263,7 +263,7 @@ impl Limits<'_> {
 
     /// Judges the designs in `history` by the limits of `goal`, and continues the search from them.
     ///
-    /// The search is about nominal designs.
+    /// The search evaluates nominal designs only.
     fn nominal_again(
         &self,
         goal: &DesignGoal,
@@ -315,7 +315,7 @@ impl Limits<'_> {
         plan: Plan,
     ) -> Result<Answer, Halt> {
         let goal = &self.tightened;
-        // The judges must rescale between the same ends, because the ends define the fitness.
+        // All judges must rescale the criteria of the fitness alike, otherwise their values differ.
         let judges = [&goal.nominal(), goal, &goal.finer()]
             .map(|goal| Judge::rescaling(goal, self.rescaled));
         let [nominal, sampled, finer] = judges.each_ref().map(|judge| Search { judge, ..*search });
@@ -327,14 +327,15 @@ impl Limits<'_> {
     fn reason(&self, search: &Search<'_>, best: &BestDesign) -> Result<Option<String>, Halt> {
         let goal = &self.tightened;
         // A yield has no multiplier, so use multipliers of the requirements on columns.
-        let Some(made) = best.confirmation.as_ref().filter(|_| goal.requires_yield()) else {
+        let Some(confirmation) = best.confirmation.as_ref().filter(|_| goal.requires_yield())
+        else {
             return Ok(reason(goal, best, &best.bindings, false));
         };
         let goal = goal.nominal();
         let judge = Judge::rescaling(&goal, self.rescaled);
         let search = Search { judge: &judge, ..*search };
         let bindings =
-            price::limits_of_samples(&search, &best.candidate, &best.target, &made.missed)?;
+            price::limits_of_samples(&search, &best.candidate, &best.target, &confirmation.missed)?;
         Ok(reason(&goal, best, &bindings, true))
     }
 
@@ -382,19 +383,19 @@ impl Limits<'_> {
     }
 }
 
-/// Estimates the work of each part of a search, in units of a space-filling point.
+/// Estimates the work of each part of a search. The unit is the work for a space-filling point.
 fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
     let mut parts = vec![(SearchPart::Sample, goal.samples as u64)];
     if !goal.is_about_samples() {
         parts.extend(expected_answer(goal, Plan::NOMINAL, 0, goal.points));
         return parts;
     }
-    let (count, objectives) = (goal.realisations, goal.objectives.len());
+    let (count, objectives) = (goal.samples_per_design, goal.objectives.len());
     parts.extend(expected_answer(goal, Plan::STARTS, 0, goal.points.min(NOMINAL_POINTS)));
     parts.push((SearchPart::Samples, (objectives * SEEDS * count) as u64));
     parts.extend(expected_answer(goal, Plan::SAMPLED, count, goal.points));
     if objectives == 1 {
-        let each = Effort::WHOLE.evaluations * evaluation_units(goal.finer().realisations);
+        let each = Effort::WHOLE.evaluations * evaluation_units(goal.finer().samples_per_design);
         parts.push((SearchPart::Refine, REFINED as u64 * each));
     }
     let best = if objectives > 1 { goal.points } else { 1 };
@@ -453,7 +454,8 @@ fn sample_rows(
 
 /// Determines the ends between which the criteria of the fitness are rescaled.
 ///
-/// `rows` are the space-filling points. Empty if the goal does not use the fitness.
+/// `rows` are the designs at the space-filling points. Returns an empty list if the goal does not
+/// use the fitness.
 fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     let Some(fitness) = &goal.fitness else { return Vec::new() };
     let judge = Judge::rescaling(&goal.nominal(), &fitness.ends);
@@ -491,7 +493,7 @@ impl LeftOutDesigns {
 
 /// Returns an error if a column of the goal is empty for all designs.
 fn check_columns(found: &Found) -> Result<(), OptimisationError> {
-    // It is no error if some designs lack a value. They are counted in `left_out`.
+    // A column that is empty for some designs is no error. `left_out` counts these designs.
     let is_left_out =
         |c: &Candidate| matches!(c.verdict, Judgement::Failed(_) | Judgement::Missing(_));
     if !found.history.iter().all(is_left_out) {

@@ -27,7 +27,7 @@ impl Slopes {
     /// extrapolated by the derivatives on one side.
     pub fn between(size: Option<f64>, at: impl Fn(f64, SlopeSide) -> Option<f64>) -> Self {
         // `at` extrapolates measures linearly to both sides, so a central difference is possible.
-        // It is exact except for the curvature of the formula of a column.
+        // The central difference is exact except for the curvature of the formula of a column.
         let [left, right] = [SlopeSide::Left, SlopeSide::Right].map(|side| {
             let step = STEP * size?;
             Some((at(step, side)? - at(-step, side)?) / (2.0 * step))
@@ -51,7 +51,7 @@ impl Slopes {
     /// Returns the slope on the side on which the value rises most steeply.
     ///
     /// Returns 0 if the value falls on both sides. If the slope of one side is unknown, the slope
-    /// of the other side is returned; `None` if both are unknown.
+    /// of the other side is returned; `None` if both slopes are unknown.
     pub fn uphill(self) -> Option<f64> {
         let (left, right) = (self.left.or(self.right)?, self.right.or(self.left)?);
         let (gain_left, gain_right) = (-left, right);
@@ -64,9 +64,9 @@ impl Slopes {
         })
     }
 
-    /// Returns the derivative if both sides agree; `None` at a kink.
+    /// Returns the derivative if both one-sided derivatives agree; `None` at a kink.
     pub fn smooth(self) -> Option<f64> {
-        // At the end of a range only one side is known, which is returned.
+        // At the end of a range only one of the derivatives is known, which is returned.
         let (left, right) = (self.left.or(self.right)?, self.right.or(self.left)?);
         // Each side is a separate finite difference, so equal slopes differ by round-off.
         let size = left.abs().max(right.abs());

@@ -142,7 +142,7 @@ impl SpacePoint {
 impl DesignSpace {
     /// Returns the indices of the intervals that only change the scale of physical columns.
     ///
-    /// They do not change dimensionless measures.
+    /// The parameters of these intervals do not change dimensionless measures.
     pub(crate) fn scaling_intervals(&self) -> Vec<usize> {
         let measures = self.sweep().measures();
         let intervals = self.intervals().iter().enumerate();

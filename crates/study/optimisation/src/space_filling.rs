@@ -10,7 +10,7 @@ const CORNERED: usize = 6;
 /// The corners of the space are included if they are at most half of the points. The other points
 /// are from a sequence that `seed` shifts.
 ///
-/// This is Roberts's sequence (M. Roberts, *The unreasonable effectiveness of quasirandom
+/// The sequence is Roberts's sequence (M. Roberts, *The unreasonable effectiveness of quasirandom
 /// sequences*, 2018). Coordinate `j` (from 0) of point `k` is the fractional part of
 /// `s_j + k φ^−(j+1)`, with the root `φ` of `φ^(n+1) = φ + 1` for `n` dimensions. For `n = 1` the
 /// root is the golden ratio.

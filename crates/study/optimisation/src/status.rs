@@ -6,7 +6,7 @@ use std::time::Duration;
 use journal::{JournalError, Records as _};
 use results::{Completeness, Derivation, DesignRow, Maker, ResultsFolder, VerifiedFolder};
 
-use crate::evaluations::{Known, read_journal};
+use crate::evaluations::{JournalContent, read_journal};
 use crate::goal::DesignGoal;
 use crate::judge::Judge;
 use crate::judgement::Judgement;
@@ -58,17 +58,17 @@ pub struct EvaluatedDesign {
 impl SearchStatus {
     /// Returns the index of the best design so far in [`Self::evaluations`].
     ///
-    /// This is the best feasible design by the first objective. If no design is feasible, it is the
-    /// design with the smallest shortfall.
+    /// Feasible designs are compared by the first objective. If no design is feasible, the design
+    /// with the smallest shortfall is the best.
     pub fn best(&self) -> Option<usize> {
         let goal = self.definition.as_ref()?;
         let sign = if goal.objectives[0].goal == ranking::Goal::Maximize { 1.0 } else { -1.0 };
         let mut best: Option<(usize, (i32, f64))> = None;
         for (index, design) in self.evaluations.iter().enumerate() {
-            let own =
+            let rank =
                 if design.is_met { (1, sign * design.values[0]) } else { (0, -design.shortfall) };
-            if best.is_none_or(|(_, other)| own > other) {
-                best = Some((index, own));
+            if best.is_none_or(|(_, other)| rank > other) {
+                best = Some((index, rank));
             }
         }
         best.map(|(index, _)| index)
@@ -87,8 +87,8 @@ impl SearchStatus {
     pub fn read(folder: &Path) -> Result<Self, JournalError> {
         let folder = ResultsFolder::new(folder);
         let path = folder.file(ResultsFolder::EVALUATIONS);
-        // Test the lock before reading the journal. A search that ends between both steps is then
-        // reported as in progress, not as stopped.
+        // Test the lock before reading the journal. A search that ends between these two steps is
+        // then reported as in progress, not as stopped.
         let in_use = journal::in_use(&path);
         let known = read_journal(&path)?;
         let known = known.ok_or_else(|| JournalError::Missing(folder.path().to_owned()))?;
@@ -98,11 +98,15 @@ impl SearchStatus {
         let evaluations =
             definition.as_ref().map_or_else(Vec::new, |goal| evaluations(&goal.nominal(), &known));
         let definition = definition.map(|goal| goal.nominal());
-        let made = Derivation::read(&folder, Maker::Search.key());
+        let derivation = Derivation::read(&folder, Maker::Search.key());
         // A checksum is empty if the command was interrupted before it wrote the file.
-        let mut digests = made.iter().flat_map(|made| made.files.values());
-        let is_complete = !in_use && made.is_some() && digests.all(|digest| !digest.is_empty());
-        let names = made.iter().filter(|_| is_complete).flat_map(|made| made.files.keys());
+        let mut digests = derivation.iter().flat_map(|derivation| derivation.files.values());
+        let is_complete =
+            !in_use && derivation.is_some() && digests.all(|digest| !digest.is_empty());
+        let names = derivation
+            .iter()
+            .filter(|_| is_complete)
+            .flat_map(|derivation| derivation.files.keys());
         let problems = match VerifiedFolder::open(folder.path(), Completeness::Partial) {
             Ok(verified) => names.filter_map(|name| verified.file(name).err()).collect(),
             Err(problem) => vec![problem],
@@ -124,9 +128,10 @@ impl SearchStatus {
 }
 
 /// Judges the solved nominal designs of a search by `goal`, the goal for nominal designs.
-fn evaluations(goal: &DesignGoal, known: &Known) -> Vec<EvaluatedDesign> {
-    // A fitness needs ends that are not in the journal. With scaling intervals the journal has one
-    // entry for many designs.
+fn evaluations(goal: &DesignGoal, known: &JournalContent) -> Vec<EvaluatedDesign> {
+    // A fitness needs worst and best values of its criteria, which the journal lacks. With a
+    // variable that only changes the scale of the results, the journal has one entry for many
+    // designs.
     if goal.fitness.is_some() || !goal.space.scaling_intervals().is_empty() {
         return Vec::new();
     }

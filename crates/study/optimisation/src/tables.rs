@@ -43,13 +43,13 @@ type Cells = Vec<Cell>;
 
 /// Returns the columns of `optimum.csv` and `front.csv`.
 ///
-/// They are the columns of `designs.csv`, the fitness (if used), binding limits, prices, failed
-/// checks, and statistics over samples (if used).
+/// The tables have the columns of `designs.csv`, the fitness (if used), binding limits, prices,
+/// failed checks, and statistics over samples (if used).
 pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let known = design_columns(goal.space.sweep()).into_iter();
     let known = known.map(|column| (column.name.to_string(), column.unit, column.meaning));
     let known = known.chain(fitness_column(goal));
-    let own = [
+    let further = [
         (
             "binding",
             "-",
@@ -66,8 +66,8 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
             "requirements that a check contradicts: full substrate coupling, other load positions or new samples",
         ),
     ];
-    let own = own.map(|(name, unit, meaning)| (name.to_owned(), unit, meaning));
-    cells(known.chain(own).chain(statistic_columns(goal)))
+    let further = further.map(|(name, unit, meaning)| (name.to_owned(), unit, meaning));
+    cells(known.chain(further).chain(statistic_columns(goal)))
 }
 
 /// Returns the columns with statistics over independent samples.
@@ -278,7 +278,7 @@ fn refuse_edited(folder: &ResultsFolder, tables: &[FoundTable]) -> Result<(), Jo
 /// Returns the rows of `optimum.csv` or `front.csv`.
 fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
     let sweep = goal.space.sweep();
-    let (words, known) = (BindingText::new(goal), design_columns(sweep));
+    let (binding_text, known) = (BindingText::new(goal), design_columns(sweep));
     designs
         .iter()
         .enumerate()
@@ -290,8 +290,8 @@ fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
             cells.extend(
                 goal.fitness.as_ref().map(|_| value(goal, &best.candidate, NumberColumn::FITNESS)),
             );
-            cells.push(words.bindings(&best.bindings, &best.target).into());
-            cells.push(words.prices(&best.bindings, &best.target).into());
+            cells.push(binding_text.bindings(&best.bindings, &best.target).into());
+            cells.push(binding_text.prices(&best.bindings, &best.target).into());
             let failed = best.contradictions(goal);
             let failed: Vec<String> = failed.iter().map(ToString::to_string).collect();
             cells.push(failed.join("; ").into());

@@ -89,7 +89,7 @@ impl MeasureTolerance {
 
     /// Returns true if the predicted spread differs significantly from the sampled spread.
     ///
-    /// The limit is two standard errors of the sampled spread.
+    /// The difference is significant if it exceeds two standard errors of the sampled spread.
     pub fn is_off(&self) -> bool {
         let sampled = self.sampled.as_ref();
         let error = sampled.map(|sampled| 2.0 * sampled.spread_error / sampled.spread);
@@ -133,10 +133,10 @@ impl<'a> Analysis<'a> {
         Ok(DesignTolerance { nominal: nominal.row, measures, yields, columns, samples })
     }
 
-    /// Solves the design without deviations, and finds the columns of the requirements.
+    /// Solves design `index` without deviations, and finds the columns of the requirements.
     fn nominal(&self, index: u64, store: &SampleStore) -> Result<Nominal, AnalysisError> {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
-        // Only samples have imperfections.
+        // Solve the nominal design without imperfections, which only its samples have.
         let straight = Case { imperfection: Imperfection::default(), ..case };
         let row = uninterrupted(|| {
             let name = format!("design {number}");
@@ -171,8 +171,9 @@ impl<'a> Analysis<'a> {
         let header = header(self.program, &self.sweep.only(nominal.index));
         store.samples((&number, header), columns, self.samples, self.stop, |sample| {
             match self.sampler.solve(design, case, sample) {
-                Some(skin) => [skin.deviations, nominal.measured.values(&skin.row)].concat(),
-                // No deviations within the bounds of the parameters: a failed sample.
+                Some(solved) => [solved.deviations, nominal.measured.values(&solved.row)].concat(),
+                // No deviations within the bounds of the parameters were found, so the sample has
+                // no values.
                 None => vec![None; columns.len()],
             }
         })
@@ -187,8 +188,8 @@ impl<'a> Analysis<'a> {
     ///
     /// The values of a sample start with the deviations, followed by the measured columns.
     fn values(&self, column: usize, samples: &[SolvedSample]) -> Vec<Option<f64>> {
-        let place = self.sweep.deviations().len() + column;
-        samples.iter().map(|sample| sample.values.get(place).copied().flatten()).collect()
+        let index = self.sweep.deviations().len() + column;
+        samples.iter().map(|sample| sample.values.get(index).copied().flatten()).collect()
     }
 
     /// Returns the spread of each column that has derivatives or a requirement.
@@ -211,17 +212,17 @@ impl<'a> Analysis<'a> {
         let single = single.ok_or_else(|| self.stopped())?;
         let gradients = Gradients { design: &scattered, deviations, single: &single };
         let mut measures = Vec::new();
-        for (place, column) in nominal.measured.iter().enumerate() {
+        for (index, column) in nominal.measured.iter().enumerate() {
             let has_derivatives = has_derivatives(&column.name, &nominal.row);
             // Report columns of parameters and counts only if a requirement names them.
-            if !has_derivatives && !nominal.required.contains(&place) {
+            if !has_derivatives && !nominal.required.contains(&index) {
                 continue;
             }
             let value = column.cell(&nominal.row).number();
-            // The spread of a parameter, in any unit, follows directly from the deviations.
+            // The spread of a parameter follows from the deviations without derivatives.
             let is_known = has_derivatives || parameter_of(&column.name).is_some();
             let is_predicted = is_known && value.is_some();
-            let values = self.values(place, samples);
+            let values = self.values(index, samples);
             let known: Vec<f64> = values.iter().copied().flatten().collect();
             measures.push(MeasureTolerance {
                 name: column.name.to_string(),
@@ -254,7 +255,7 @@ impl<'a> Analysis<'a> {
 
 /// Returns true if derivatives predict the spread of the column `name`.
 ///
-/// This holds for the columns of measures with derivatives in `nominal`, and for the areal mass,
+/// Returns true for the columns of measures with derivatives in `nominal`, and for the areal mass,
 /// which is a function of the parameters.
 fn has_derivatives(name: &str, nominal: &DesignRow) -> bool {
     let measure = measure_name(name);

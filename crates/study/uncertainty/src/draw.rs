@@ -26,7 +26,7 @@ pub(crate) fn sample(
     deviations: &[Deviation],
     number: u64,
 ) -> Option<(Case, Vec<Option<f64>>)> {
-    let (mut made, mut drawn) = (*case, Vec::new());
+    let (mut sampled, mut drawn) = (*case, Vec::new());
     for deviation in deviations {
         let Some(batch) = deviation.batch() else {
             drawn.push(None);
@@ -38,13 +38,13 @@ pub(crate) fn sample(
         // to the case that already includes the earlier deviations.
         let (moved, by) = (0..DRAWS).find_map(|_| {
             let by = draw(batch, &mut random);
-            Some((deviation.applied(&made, by)?, by))
+            Some((deviation.applied(&sampled, by)?, by))
         })?;
-        made = moved;
+        sampled = moved;
         drawn.push(Some(by));
     }
-    scatter(&mut made, deviations);
-    Some((made, drawn))
+    scatter(&mut sampled, deviations);
+    Some((sampled, drawn))
 }
 
 /// Sets the imperfection of `case` to the standard deviations from scale to scale.
@@ -60,7 +60,7 @@ pub(crate) fn scatter(case: &mut Case, deviations: &[Deviation]) {
     }
 }
 
-/// Draws a uniformly distributed number from 0 to 1.
+/// Draws a number that is uniformly distributed from 0 to 1.
 ///
 /// The number depends only on the seed of the case, the sample `number` and `key`.
 pub(crate) fn uniform(case: &Case, number: u64, key: &str) -> f64 {
@@ -113,7 +113,7 @@ mod tests {
         let both = drawn("length_over_t = { batch_sd = 0.1 }\ngap_over_t = { batch_sd = 0.01 }", 7);
         assert_eq!(one[0], both[1]);
         assert_ne!(one, drawn("gap_over_t = { batch_sd = 0.01 }", 8));
-        // Twice the standard deviation scales the same random number.
+        // With twice the standard deviation, the same random number gives twice the deviation.
         let twice = drawn("gap_over_t = { batch_sd = 0.02 }", 7);
         assert_eq!(twice[0], one[0].map(|by| 2.0 * by));
     }
@@ -135,16 +135,16 @@ mod tests {
         // The slant is 1° ± 3°, so 37 % of all draws would make it negative.
         let sweep = sweep("slant_deg = { batch_sd = 3 }");
         for n in 1..=1000 {
-            let made = sample(&sweep.grid().case(0), sweep.deviations(), n);
-            assert!(made.expect("a sample").0.design.slant_deg >= 0.0);
+            let sampled = sample(&sweep.grid().case(0), sweep.deviations(), n);
+            assert!(sampled.expect("a sample").0.design.slant_deg >= 0.0);
         }
     }
 
     #[test]
     fn gap_cv_is_relative_to_the_gap_of_the_sample() {
         let sweep = sweep("gap_over_t = { batch_sd = 0.01, scale_sd = 0.02 }");
-        let (made, _) = sample(&sweep.grid().case(0), sweep.deviations(), 3).expect("a sample");
-        assert_ne!(made.design.gap, 0.1);
-        assert_eq!(made.imperfection.gap_cv, 0.02 / made.design.gap);
+        let (sampled, _) = sample(&sweep.grid().case(0), sweep.deviations(), 3).expect("a sample");
+        assert_ne!(sampled.design.gap, 0.1);
+        assert_eq!(sampled.imperfection.gap_cv, 0.02 / sampled.design.gap);
     }
 }

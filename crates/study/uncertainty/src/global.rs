@@ -35,9 +35,9 @@ pub struct GlobalAnalysis<'a> {
 pub struct GlobalSensitivity {
     /// Keys of the variables.
     pub variables: Vec<&'static str>,
-    /// Indices of each measure that varies over the box.
+    /// Indices of each measure that varies within the ranges of the variables.
     pub measures: Vec<MeasureIndices>,
-    /// Column names of the measures that are constant over the box.
+    /// Column names of the measures that are constant within the ranges of the variables.
     pub constant: Vec<String>,
 }
 
@@ -46,7 +46,7 @@ pub struct GlobalSensitivity {
 pub struct MeasureIndices {
     /// Column name.
     pub name: String,
-    /// Standard deviation of the measure over the box of variables.
+    /// Standard deviation of the measure over the ranges of the variables.
     pub spread: f64,
     /// Indices of each variable, in the order of [`GlobalSensitivity::variables`].
     pub indices: Vec<SobolIndices>,
@@ -67,7 +67,7 @@ impl GlobalAnalysis<'_> {
     pub fn solve(&self, store: &SampleStore) -> Result<GlobalSensitivity, AnalysisError> {
         let evaluator = Evaluator::new(self.sweep.measures());
         let (number, case) = (self.sweep.grid().number(0), self.sweep.grid().case(0));
-        // This row only serves to find the columns that contain text.
+        // Solve one design only to find the columns that contain text.
         let middle = uninterrupted(|| evaluator.row(number, &case));
         let middle = middle.ok_or(AnalysisError::Stopped { done: 0, of: self.samples })?;
         let measured = MeasuredColumns::of(self.sweep, &middle);
@@ -118,7 +118,8 @@ impl GlobalAnalysis<'_> {
             let key = variable.parameter().key;
             let from =
                 if point == "B" || point.strip_prefix("A ") == Some(key) { "B" } else { "A" };
-            // The seed contains the key, so adding a variable does not change other variables.
+            // The random number depends on the key, so a new variable does not change the values of
+            // other variables.
             let share = draw::uniform(base, sample, &format!("{from} {key}"));
             variable.set(&mut case, variable.at(share));
         }

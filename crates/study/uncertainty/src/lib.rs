@@ -1,16 +1,17 @@
 //! Effect of manufacturing tolerances: spread of every measure, and yield.
 //!
 //! All scales of a batch share a [`Deviation`](sweep::Deviation), or each scale has its own
-//! deviation. The spread of a measure is its standard deviation, which squama determines in two
-//! ways. First, the derivatives of the measure predict the spread: the variances caused by batch
-//! deviations `s` and by single scales `i` add up (T1). Second, random samples of the design are
-//! solved. The tables contain the predicted spread, the sampled spread and their discrepancy. The
-//! random numbers of a sample depend only on the seed, the number of the sample and the key of the
-//! parameter.
+//! deviation. The spread of a measure is its standard deviation `σ`. First, the derivatives of the
+//! measure predict the spread: the variances caused by batch deviations `s` and by single scales
+//! `i` add up,
 //!
 //! ```text
-//! σ² = Σ_s σ_s² + Σ_i σ_i²
+//! σ² = Σ_s σ_s² + Σ_i σ_i²                                                               (T1)
 //! ```
+//!
+//! Second, random samples of the design are solved. The tables contain the predicted spread, the
+//! sampled spread and their relative difference. The random numbers of a sample depend only
+//! on the seed, the number of the sample and the key of the parameter.
 //!
 //! ```text
 //! deviations ─► derivatives ─► LinearSpread ─┐

@@ -6,7 +6,7 @@ use sweep::{BatchDeviation, Case, Deviation, Parameter};
 
 use crate::moments;
 
-/// Step of finite differences, relative to a standard deviation or a value.
+/// Step of finite differences, relative to the standard deviation of a source or to a measure.
 const STEP: f64 = 1e-5;
 
 /// States which scales share a deviation.
@@ -60,7 +60,7 @@ impl Gradients<'_> {
     pub(crate) fn spread(&self, column: &Column<DesignRow>) -> Option<LinearSpread> {
         let mut sources = Vec::new();
         for deviation in self.deviations {
-            // The next loop handles deviations that only vary from scale to scale.
+            // The next loop adds the sources that only vary from scale to scale.
             let Some(batch) = deviation.batch() else { continue };
             let variance = moments::variance(self.slopes(column, deviation, batch)?, batch);
             let (source, deviation) = (deviation.key(), batch.standard_deviation());

@@ -7,7 +7,7 @@ use text::nearest;
 
 /// Error: the required column does not exist, or contains no numbers.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no column {found} of numbers, {hint}")]
+#[error("there is no numeric column {found}, {hint}")]
 pub struct NoSuchColumn {
     /// Column name in the requirement.
     pub found: String,
@@ -53,12 +53,12 @@ impl MeasuredColumns {
         let index = index.ok_or_else(|| self.no_such_column(name))?;
         let is_whole = Measure::USUAL.iter().all(|measure| measures.contains(measure));
         let has_value = self.0[index].cell(row).number().is_some();
-        // The column may also be empty because the design failed. The requirement is valid then.
+        // A column is also empty if the design failed, although its requirement is valid.
         if has_value || is_whole || row.result.failed() {
             return Ok(index);
         }
         let asked: Vec<_> = measures.iter().map(|measure| measure.key()).collect();
-        let hint = format!("expected one of the measured columns: {}", asked.join(", "));
+        let hint = format!("expected a column of the measures {}", asked.join(", "));
         Err(NoSuchColumn { found: name.to_owned(), hint })
     }
 

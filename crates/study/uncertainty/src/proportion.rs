@@ -11,7 +11,7 @@ pub struct Proportion {
     pub of: usize,
 }
 
-/// Maximum probability that the true value lies beyond one given end of the interval.
+/// Maximum probability that the true value is below the interval, and that it is above.
 const MISS: f64 = 0.025;
 
 impl Proportion {

@@ -14,7 +14,7 @@ pub struct SampledQuantile {
     pub interval: [Option<f64>; 2],
 }
 
-/// Maximum probability that the true value lies beyond one given end of the interval.
+/// Maximum probability that the true value is below the interval, and that it is above.
 const MISS: f64 = 0.025;
 
 impl SampledQuantile {
@@ -57,8 +57,8 @@ mod tests {
         for (count, probability) in
             [(200, 0.05), (1000, 0.05), (1000, 0.5), (1000, 0.95), (73, 0.5)]
         {
-            let [low, high] =
-                interval_indices(count, probability).map(|index| index.expect("an end") as u64 + 1);
+            let [low, high] = interval_indices(count, probability)
+                .map(|index| index.expect("an end of the interval") as u64 + 1);
             let below = Binomial::new(probability, count as u64).expect("a probability");
             // The interval contains the quantile if at least `low` and fewer than `high` values lie
             // below the quantile.

@@ -32,7 +32,8 @@ pub struct SolvedSample {
     pub values: Vec<Option<f64>>,
 }
 
-/// A folder of samples, with a journal and a table for each label and definition.
+/// A folder of samples. Each label, e.g. `global` or a design number, and each definition has a
+/// journal and a table.
 ///
 /// Every sample is appended to its journal as soon as it is solved.
 #[derive(Clone, Debug)]
@@ -182,8 +183,8 @@ impl<S: Fn(u64) -> Vec<Option<f64>> + Sync> Samples<'_, S> {
         missing.retain(|number| !self.lock().records().values.contains_key(number));
         work.leave_out((count - missing.len()) as u64);
         missing.into_par_iter().try_for_each(|number| {
-            // An interruption is no error here: samples in progress are still stored, and the
-            // caller reports how many samples are missing.
+            // An interruption is not an error: samples that are being solved are still stored, and
+            // the caller reports how many samples are missing.
             if self.stop.load(Ordering::Relaxed) {
                 return Ok(());
             }

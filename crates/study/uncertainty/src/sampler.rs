@@ -53,10 +53,10 @@ impl Sampler {
         sample: u64,
         end: Option<&PunctureEnd>,
     ) -> Option<Sample> {
-        let (made, deviations) = draw::sample(case, &self.deviations, sample)?;
-        let end = end.filter(|_| self.evaluator.has_ends(&made));
-        let near = end.and_then(|end| self.evaluator.row_near(number, &made, &[], end));
-        let row = near.unwrap_or_else(|| self.evaluator.solve_sample(number, &made, sample));
+        let (sample_case, deviations) = draw::sample(case, &self.deviations, sample)?;
+        let end = end.filter(|_| self.evaluator.has_ends(&sample_case));
+        let near = end.and_then(|end| self.evaluator.row_near(number, &sample_case, &[], end));
+        let row = near.unwrap_or_else(|| self.evaluator.solve_sample(number, &sample_case, sample));
         Some(Sample { row, deviations })
     }
 
@@ -64,9 +64,9 @@ impl Sampler {
     ///
     /// `None` if no deviations within the bounds of the parameters are found.
     pub fn even_case(&self, case: &Case, sample: u64) -> Option<Case> {
-        let (made, _) = draw::sample(case, &self.deviations, sample)?;
+        let (sample_case, _) = draw::sample(case, &self.deviations, sample)?;
         // Replace the scatter of the sample by the imperfection of `case`: derivatives are computed
         // for rows without scatter.
-        Some(Case { imperfection: case.imperfection, ..made })
+        Some(Case { imperfection: case.imperfection, ..sample_case })
     }
 }

@@ -51,9 +51,10 @@ impl IndexEstimate {
 /// ```
 ///
 /// (Saltelli et al. 2010, doi 10.1016/j.cpc.2009.09.018; Jansen 1999, doi
-/// 10.1016/S0010-4655(98)00154-4). Each index `S` is a ratio of two means over independent
-/// evaluations. Its standard error is the standard error of the mean of `(u − S v)/V`. Here `u` is
-/// the term in the brackets `⟨ ⟩` (halved for `T_i`), and `v` is the term of the variance.
+/// 10.1016/S0010-4655(98)00154-4). Each index `S` (`S_i` or `T_i`) is the ratio `⟨u⟩/⟨v⟩` of two
+/// means over independent evaluations, with `⟨v⟩ = V`. Here `u` is the term in the brackets `⟨ ⟩`
+/// (halved for `T_i`), and `v` is the contribution of an evaluation to the variance. The standard
+/// error of `S` is the standard error of the mean of `(u − S v)/V`.
 pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
     let n = evaluations.len() as f64;
     let mean = evaluations.iter().map(|e| e.first + e.second).sum::<f64>() / (2.0 * n);
@@ -64,15 +65,15 @@ pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
         .map(|e| 0.5 * ((e.first - mean).powi(2) + (e.second - mean).powi(2)))
         .collect();
     let variance = squares.iter().sum::<f64>() / n;
-    // The negated comparison is also true for a variance of NaN.
+    // The comparison is negated, so that it also excludes a variance of NaN.
     if evaluations.len() < 2 || !(variance > 0.0 && variance.is_finite()) {
         return None;
     }
     let ratio = |term: &dyn Fn(&Evaluation) -> f64| {
         let terms: Vec<f64> = evaluations.iter().map(term).collect();
         let value = terms.iter().sum::<f64>() / (n * variance);
-        // Each sample contributes to the numerator and to the variance, so its influence on the
-        // ratio has two terms.
+        // Each evaluation contributes to the numerator and to the variance, so its influence on
+        // the ratio has two terms.
         let influences =
             terms.iter().zip(&squares).map(|(u, v)| ((u - value * v) / variance).powi(2));
         IndexEstimate { value, error: (influences.sum::<f64>() / (n * (n - 1.0))).sqrt() }

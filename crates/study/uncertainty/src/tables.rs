@@ -123,7 +123,7 @@ pub static INDEX_COLUMNS: &[Column<(MeasureIndices, &'static str, SobolIndices)>
         "total index: fraction of the variance caused by the variable, alone and in interactions";
     "total_low", "-", |(.., of)| of.total.interval()[0], "lower end of the 95 % interval of the total index";
     "total_high", "-", |(.., of)| of.total.interval()[1], "upper end of the 95 % interval of the total index";
-    "spread", SAME, |(m, ..)| m.spread, "standard deviation of the measure over the box";
+    "spread", SAME, |(m, ..)| m.spread, "standard deviation of the measure over the ranges of the variables";
     "samples", "-", |(m, ..)| m.samples, "samples with a value at every point";
     "failed", "-", |(m, ..)| m.failed, "samples without a value at some point, which are excluded";
 };

@@ -32,8 +32,8 @@ pub(crate) fn yields(
     let meets =
         |k: usize, n: usize| values[k][n].is_some_and(|value| requirements[k].is_met(value));
     let count = values.first().map_or(0, Vec::len);
-    let of = |holds: &dyn Fn(usize) -> bool| {
-        let met = (0..count).filter(|&n| holds(n)).count();
+    let of = |is_counted: &dyn Fn(usize) -> bool| {
+        let met = (0..count).filter(|&n| is_counted(n)).count();
         (count > 0).then_some(Proportion { met, of: count })
     };
     let every = 0..requirements.len();
@@ -59,7 +59,8 @@ pub(crate) fn yields(
 
 /// Returns the probability that a normally distributed value meets the requirement.
 ///
-/// `value` and `spread` are mean and standard deviation. `None` for an equality.
+/// `value` and `spread` are mean and standard deviation. `None` for an equality, or if `spread` is
+/// 0.
 fn predicted(requirement: &Requirement, value: f64, spread: f64) -> Option<f64> {
     let normal = Normal::new(value, spread).ok()?;
     match requirement.relation {

@@ -26,7 +26,7 @@ pub(crate) enum JournalLine {
     Solved(Box<SolvedLine>),
     /// Samples of a point.
     Samples(SamplesLine),
-    /// A point that must be solved from rest.
+    /// A pair of points: the first point cannot be solved from the path end at the second point.
     Far(FarLine),
 }
 
@@ -34,7 +34,7 @@ pub(crate) enum JournalLine {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Positions {
-    /// The requested positions.
+    /// All load positions that the goal requests.
     #[default]
     All,
     /// The left and the right corner of the top.
@@ -57,9 +57,10 @@ pub(crate) struct SolvedLine {
     /// Load positions of the puncture.
     #[serde(default, skip_serializing_if = "Positions::is_all")]
     pub positions: Positions,
-    /// Fractions of the intervals of the similar design at which the puncture path started.
+    /// Continuous variables of the similar design from which the path started.
     ///
-    /// `None` for a path from rest.
+    /// The path started at the end of the puncture path of this design. The values are fractions of
+    /// the intervals of the variables. `None` for a path from rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near: Option<Vec<f64>>,
     /// Number of the sample; `None` for the nominal design.
@@ -67,11 +68,11 @@ pub(crate) struct SolvedLine {
     /// The sample has only batch deviations, without scatter between scales.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample: Option<u64>,
-    /// Fractions of the intervals.
+    /// Values of the continuous variables, as fractions of their intervals.
     pub shares: Vec<f64>,
-    /// Indices of the choices.
+    /// Index of the value of each discrete variable.
     pub chosen: Vec<usize>,
-    /// Result of the design.
+    /// Result of the design or sample.
     pub result: DesignResult,
 }
 
@@ -79,11 +80,11 @@ pub(crate) struct SolvedLine {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FarLine {
-    /// Fractions of the intervals at the first point.
+    /// Continuous variables at the first point, as fractions of their intervals.
     pub shares: Vec<f64>,
-    /// Fractions of the intervals at the second point.
+    /// Continuous variables at the second point, as fractions of their intervals.
     pub near: Vec<f64>,
-    /// Indices of the choices, equal at both points.
+    /// Index of the value of each discrete variable, equal at both points.
     pub chosen: Vec<usize>,
 }
 
@@ -93,9 +94,9 @@ pub(crate) struct FarLine {
 pub(crate) struct SamplesLine {
     /// Number of the first sample.
     pub first: u64,
-    /// Fractions of the intervals.
+    /// Values of the continuous variables, as fractions of their intervals.
     pub shares: Vec<f64>,
-    /// Indices of the choices.
+    /// Index of the value of each discrete variable.
     pub chosen: Vec<usize>,
     /// Values of each sample in the columns that the goal needs.
     pub values: Samples,
@@ -107,14 +108,16 @@ pub(crate) struct EvaluationKey {
     /// True if the result includes derivatives.
     pub differentiated: bool,
     pub positions: Positions,
-    /// Point of the similar design at which the puncture path started; `None` for a path from rest.
+    /// Point of the similar design at the path end of which the path started.
+    ///
+    /// `None` for a path from rest.
     pub near: Option<PointKey>,
     /// Number of the sample; `None` for the nominal design.
     pub sample: Option<u64>,
     pub point: PointKey,
 }
 
-/// Key that identifies a point by the bits of its fractions and by its choices.
+/// Key that identifies a point: the bits of its fractions, and the indices of its choices.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct PointKey {
     shares: Vec<u64>,
@@ -138,7 +141,7 @@ impl PointKey {
 }
 
 /// Content of the journal: results of points and samples.
-pub(crate) struct Known {
+pub(crate) struct JournalContent {
     header: JournalHeader,
     pub solved: HashMap<EvaluationKey, Arc<DesignResult>>,
     /// Nominal designs in the order in which they were solved; each point is listed once.
@@ -150,15 +153,15 @@ pub(crate) struct Known {
     pub sampled: HashMap<SamplesKey, Arc<Samples>>,
 }
 
-impl Known {
-    /// Returns true if the point in `key` is known to be too far from the path end in `key`.
+impl JournalContent {
+    /// Returns true if the point in `key` cannot be solved from the path end at `key.near`.
     pub fn is_far(&self, key: &EvaluationKey) -> bool {
         let near = key.near.as_ref();
         near.is_some_and(|near| self.far.contains(&[key.point.clone(), near.clone()]))
     }
 }
 
-impl Records for Known {
+impl Records for JournalContent {
     type Line = JournalLine;
 
     type Designs = Subset;
@@ -217,17 +220,19 @@ impl Records for Known {
 /// Reads the journal at `path` without a lock, so a search may be writing to it.
 ///
 /// Returns `None` if the first line is incomplete.
-pub(crate) fn read_journal(path: &Path) -> Result<Option<Known>, JournalError> {
+pub(crate) fn read_journal(path: &Path) -> Result<Option<JournalContent>, JournalError> {
     journal::read(path)
 }
 
-/// Creates or continues the journal in `folder` for the search of `goal`.
+/// Creates or continues the journal of a search in `folder`.
+///
+/// `goal` is the goal in TOML.
 pub(super) fn begin(
     folder: &Path,
     goal: &str,
     program: &Program,
     start: Start,
-) -> Result<Journal<Known>, OptimisationError> {
+) -> Result<Journal<JournalContent>, OptimisationError> {
     let folder = ResultsFolder::new(folder);
     folder.require_own(Maker::Search, start)?;
     // Refuse a folder with files that have the names of results but were not written by a search.
@@ -236,8 +241,8 @@ pub(super) fn begin(
     folder.make()?;
     let path = folder.file(ResultsFolder::EVALUATIONS);
     if start == Start::Fresh {
-        // Remove the tables before the journal. If the process is killed between both steps, the
-        // folder never contains tables of one goal and the journal of another.
+        // Remove the tables before the journal. If the process is killed in between, the folder
+        // never contains tables of one goal and the journal of another.
         let _alone = lock_journal(&path)?;
         Claim::release(&folder, Maker::Search);
     }

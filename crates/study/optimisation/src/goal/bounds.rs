@@ -16,7 +16,7 @@ use crate::space::{DesignSpace, SpacePoint};
 /// Maximum number of continuous variables for which all corners of the space are evaluated.
 const CORNERED: usize = 12;
 
-/// Returns true for a lower bound of one of `columns`.
+/// Returns true if `requirement` is a lower bound on one of `columns`.
 fn is_lower_bound(requirement: &Requirement, columns: &[&str]) -> bool {
     columns.contains(&requirement.column.as_str()) && requirement.direction() > 0.0
 }
@@ -65,8 +65,8 @@ fn rounded(value: f64) -> f64 {
 
 /// Returns the smallest and the largest `d/p` of the designs in `space`.
 ///
-/// Both are at corners of the space, because `d/p` is monotonic in gap and length. `None` if there
-/// are too many corners.
+/// Both values are at corners of the space, because `d/p` is monotonic in gap and length. `None` if
+/// there are too many corners.
 fn open_shares(space: &DesignSpace) -> Option<(f64, f64)> {
     let intervals = space.intervals().len();
     if intervals > CORNERED || space.combinations() > 1 << CORNERED {

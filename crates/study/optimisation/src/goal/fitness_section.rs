@@ -80,6 +80,8 @@ impl FitnessSection {
     }
 
     /// Returns the error for a key that has no effect because the goal has no fitness.
+    ///
+    /// `None` if the goal has neither key.
     fn unused(&self) -> Option<InvalidDefinition> {
         let of_weights = self.weights.iter().map(|(.., place)| ("goal.weights", place));
         let of_ends = self.ends.iter().map(|(_, place)| ("goal.rescale", place));
@@ -119,7 +121,7 @@ fn criterion_ends(entry: &KeyValue) -> Option<(CriterionEnds, Place)> {
     (worst.is_finite() && best.is_finite()).then(|| (ends, entry.place.clone()))
 }
 
-/// Checks that `ends` belong to one of the `criteria`, and that the worst value precedes the best.
+/// Checks that `ends` belong to one of the `criteria`, and that their best value is the better one.
 fn check(
     ends: &CriterionEnds,
     criteria: &[Criterion],

@@ -68,7 +68,7 @@ impl DesignGoal {
 
     /// Creates the goal like [`Self::of_entries`].
     ///
-    /// `entries` already contain the requirements in `required`, which come from the command line.
+    /// `required` are the requirements of the command line. `entries` already contain them.
     fn of_section(
         entries: &KeyValues,
         name: &str,
@@ -119,7 +119,7 @@ impl DesignGoal {
             round: section.round.map(|(round, _)| round),
             samples: section.samples,
             points: section.points,
-            realisations: section.skins,
+            samples_per_design: section.skins,
             seed: section.seed,
             text: to_toml(entries),
         })
@@ -137,8 +137,8 @@ fn require(entries: &mut KeyValues, requirement: &Requirement) {
     let goal = entries.iter_mut().find(|entry| entry.key == "goal");
     // A definition without a section `[goal]` is refused later.
     let Some(KeyValue { value: Value::Table(goal), .. }) = goal else { return };
-    let own = goal.iter_mut().find(|entry| entry.key == name).map(|entry| &mut entry.value);
-    match own {
+    let required = goal.iter_mut().find(|entry| entry.key == name).map(|entry| &mut entry.value);
+    match required {
         Some(Value::List(all)) => all.push(Value::Text(text)),
         Some(one) => *one = Value::List(vec![one.clone(), Value::Text(text)]),
         None => goal.push(KeyValue { key: name.into(), value: Value::Text(text), place }),
@@ -261,9 +261,9 @@ fn named<'a>(goal: &'a GoalSection, fitness: Option<&'a FitnessGoal>) -> Vec<Wri
     named
 }
 
-/// Returns the error for a column that does not exist or is not computed.
+/// Returns the error for a column that does not exist or is not computed; otherwise `None`.
 ///
-/// `known` are the columns of `designs.csv`.
+/// `known` are the names of the columns of `designs.csv`.
 fn missing_column(named: &Written, known: &[&str], sweep: &Sweep) -> Option<InvalidDefinition> {
     let Written { column, key, place } = *named;
     if known.contains(&column) {

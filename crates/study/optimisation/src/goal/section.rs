@@ -58,7 +58,7 @@ const SEEDS: [usize; 2] = [0, 1_000_000_000];
 pub fn goal_schema() -> Json {
     let default = GoalSection::default();
     let protects = format!("levels of standards: {}", Standard::levels());
-    // Schemas in the order of `KEYS`. If one is missing, this array does not compile.
+    // Schemas in the order of `KEYS`. The array has the length of `KEYS`, so none can be missing.
     let about: [Json; KEYS.len()] = [
         texts_schema("columns of designs.csv to be maximised, e.g. \"critical_force\""),
         texts_schema("columns of designs.csv to be minimised"),
@@ -235,8 +235,8 @@ fn wrong(
 
 /// Returns the texts in a value that is a list of texts or a single text.
 ///
-/// The last argument describes an expected text; it appears in the error.
-fn texts<'v>(entry: &'v KeyValue, what: &str) -> Result<Vec<&'v str>, InvalidDefinition> {
+/// `expected` describes an accepted text in the error for other values.
+fn texts<'v>(entry: &'v KeyValue, expected: &str) -> Result<Vec<&'v str>, InvalidDefinition> {
     let items = match &entry.value {
         Value::List(items) => items.as_slice(),
         value => std::slice::from_ref(value),
@@ -245,7 +245,7 @@ fn texts<'v>(entry: &'v KeyValue, what: &str) -> Result<Vec<&'v str>, InvalidDef
         .iter()
         .map(|item| match item {
             Value::Text(text) => Ok(text.as_str()),
-            other => Err(wrong(entry, other, what)),
+            other => Err(wrong(entry, other, expected)),
         })
         .collect()
 }

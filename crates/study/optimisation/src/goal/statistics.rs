@@ -11,15 +11,15 @@ use super::refusal::{no_effect, not_accepted};
 use super::section::{GoalSection, Written};
 use crate::statistic::Statistic;
 
-/// Expected text for a statistic in a goal without deviations.
+/// End of the error for a statistic in a goal without deviations: the text after "expected".
 const DEVIATIONS: &str = "a section [tolerance], e.g. gap_over_t = { batch_sd = 0.02 }";
-/// Expected text for a statistic in a goal with deviations and with a section `[imperfection]`.
+/// End of the error for a statistic in a goal with deviations and a section `[imperfection]`.
 const ONE_SCATTER: &str =
     "scatter from scale to scale as scale_sd in [tolerance], without [imperfection]";
 
-/// Returns the error for a statistic that `sweep` cannot have.
+/// Returns the error for a statistic that cannot be computed for the designs of `sweep`.
 ///
-/// `None` if the sweep has the statistic, or if the column is not a statistic.
+/// `None` if the statistic can be computed, or if the column is not a statistic.
 pub(super) fn unavailable(named: &Written, sweep: &Sweep) -> Option<InvalidDefinition> {
     let Written { column, key, place } = *named;
     let statistic = Statistic::named(column)?;
@@ -83,7 +83,10 @@ pub(super) fn nearly(column: &str, known: &[&str]) -> Option<String> {
     is_nearly.then(|| format!("one of the quantiles {}", quantiles(base)))
 }
 
-/// Returns errors for yields without meaning, and for a number of samples without effect.
+/// Returns errors for invalid keys of statistics.
+///
+/// These are bounds on the yield that are not minimum fractions, a yield to be minimised, a yield
+/// without requirements on columns, and a number of samples without a statistic.
 pub(super) fn meaningless_keys(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let mut refused = Vec::new();
     for (requirement, place) in &goal.requirements {

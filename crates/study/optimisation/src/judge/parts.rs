@@ -14,18 +14,18 @@ use crate::statistic::Statistic;
 impl Judge {
     /// Creates the judge for `goal`.
     ///
-    /// Criteria of a fitness are rescaled between the ends that the goal states.
+    /// Criteria of a fitness are rescaled between the worst and best values that the goal states.
     pub fn new(goal: &DesignGoal) -> Self {
         Self::rescaling(goal, goal.fitness.as_ref().map_or(&[], |fitness| &fitness.ends))
     }
 
-    /// Creates the judge for `goal`. Criteria of a fitness are rescaled between these `ends`.
+    /// Creates the judge for `goal`. `ends` are the worst and best values of the fitness criteria.
     pub fn rescaling(goal: &DesignGoal, ends: &[CriterionEnds]) -> Self {
         JudgeParts { goal, ends }.judge()
     }
 }
 
-/// Builder of a judge: a goal, and the ends of the criteria of its fitness.
+/// Builder of a judge: a goal, and the worst and best values of the criteria of its fitness.
 struct JudgeParts<'a> {
     goal: &'a DesignGoal,
     ends: &'a [CriterionEnds],
@@ -54,7 +54,7 @@ impl JudgeParts<'_> {
         let soundness = open.as_ref().map(|_| requirements.len());
         requirements.extend(open);
         let samples =
-            SampleJudge { bounds: self.bounds(), statistics, count: self.goal.realisations };
+            SampleJudge { bounds: self.bounds(), statistics, count: self.goal.samples_per_design };
         Judge { objectives, requirements, soundness, measures: self.measures(), samples }
     }
 

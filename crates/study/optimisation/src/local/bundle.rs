@@ -12,7 +12,8 @@
 //!
 //! A step is accepted if it achieves a sufficient part of the predicted gain. A rejected step adds
 //! a tangent. If the tangents predict no gain, points of a space-filling sequence are evaluated in
-//! the ball of radius `r` until it contains the points of a simplex; then the radius shrinks.
+//! the ball of radius `r` around `x`, until the ball contains as many points as a simplex has
+//! corners. If the tangents at these points predict no gain either, the radius shrinks.
 //!
 //! This is the bundle method with a trust region (Schramm & Zowe 1992, doi 10.1137/0802008) with
 //! points of gradient sampling (Burke, Lewis & Overton 2005, doi 10.1137/030601296) and linearised
@@ -39,7 +40,7 @@ const NEGLIGIBLE: f64 = 1e-10;
 /// Factor by which the radius shrinks if no step predicts a gain.
 const SHRUNK: f64 = 0.1;
 
-/// Maximum number of points of the bundle, for each corner of a simplex.
+/// Maximum number of tangents in the bundle, divided by the number of corners of a simplex.
 const KEPT: usize = 4;
 
 /// Values and gradients of cost and limits at a point.
@@ -66,7 +67,7 @@ pub(super) trait PiecewiseSmooth {
 /// Radii and evaluation budget of the bundle method.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BundleOptions {
-    /// Initial radius, as a fraction of the intervals.
+    /// Initial radius, as a fraction of the ranges of the variables.
     pub reach: f64,
     /// Radius at which the search ends.
     pub smallest: f64,
@@ -87,7 +88,7 @@ pub(super) fn descend<P: PiecewiseSmooth>(
         seen: Vec::new(),
         centre: 0,
         radius: options.reach,
-        left: options.points,
+        remaining: options.points,
         misses: 0,
         filled: false,
         sequence: Sequence::new(start.len(), 0),
@@ -96,7 +97,7 @@ pub(super) fn descend<P: PiecewiseSmooth>(
     if bundle.evaluate(start.to_vec())?.is_none() {
         return Ok(());
     }
-    while bundle.left > 0 && bundle.radius >= options.smallest {
+    while bundle.remaining > 0 && bundle.radius >= options.smallest {
         bundle.advance()?;
     }
     Ok(())
@@ -117,8 +118,8 @@ struct Bundle<'p, P> {
     centre: usize,
     /// Radius of the ball.
     radius: f64,
-    /// Number of evaluations left.
-    left: usize,
+    /// Number of evaluations that are still allowed.
+    remaining: usize,
     /// Number of rejected steps since the last accepted step or change of radius.
     misses: usize,
     /// True if the ball was filled since the last accepted step or change of radius.
@@ -131,7 +132,7 @@ struct Bundle<'p, P> {
 impl<P: PiecewiseSmooth> Bundle<'_, P> {
     /// Evaluates a point, and returns its index if the cost is defined.
     fn evaluate(&mut self, point: Vec<f64>) -> Result<Option<usize>, P::Error> {
-        self.left = self.left.saturating_sub(1);
+        self.remaining = self.remaining.saturating_sub(1);
         let pieces = self.problem.pieces(&point)?;
         Ok(pieces.map(|pieces| {
             self.seen.push(Seen { point, pieces });
@@ -154,7 +155,7 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         // Fill each ball only once. Points at kinks have no tangents, so tangents may still be
         // missing after filling the ball.
         self.filled = true;
-        (0..lacking.min(self.left)).try_for_each(|_| self.fill())
+        (0..lacking.min(self.remaining)).try_for_each(|_| self.fill())
     }
 
     /// Evaluates the next point of the space-filling sequence in the ball.
@@ -177,8 +178,8 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
 
     /// Evaluates the step to the point `to`, and accepts or rejects it by the `predicted` gain.
     fn attempt(&mut self, to: Vec<f64>, predicted: f64) -> Result<(), P::Error> {
-        // Tangents limit a step that ends inside the ball, so a larger radius would not lengthen
-        // it.
+        // A step that ends inside the ball is limited by tangents, so a larger radius would not
+        // lengthen this step.
         let far = distance(&to, &self.seen[self.centre].point) > 0.9 * self.radius;
         // A point without a cost adds no tangent. Only a smaller radius then avoids the same step.
         let Some(index) = self.evaluate(to)? else {

@@ -12,10 +12,10 @@ use crate::evaluations::Halt;
 use crate::price::first_order_gain;
 use crate::space::SpacePoint;
 
-/// Largest first-order gain of a certain optimum, relative to the objective.
+/// Largest first-order gain at which an optimum counts as proven, relative to the objective.
 const GAIN: f64 = 1e-8;
 
-/// Negative slack (O2) of the design that is evaluated just beyond first contact in bending.
+/// Slack (O2), with changed sign, of the design that is evaluated just beyond first contact.
 const BEHIND: f64 = 1e-4;
 
 /// Relative shortfall up to which the design just beyond first contact counts as feasible.
@@ -29,8 +29,7 @@ impl LocalSearch<'_> {
         if search.judge.samples().is_some() || !matches!(self.best_merit(), Merit::Met(_)) {
             return Ok(false);
         }
-        // This evaluation is cached: the gradient search has evaluated the design at which it
-        // ended.
+        // The result is already stored, because the gradient search has evaluated its last design.
         let (_, row) = self.evaluate(SearchStage::Gradient, &best.point, true)?;
         match first_order_gain(search, &best, &row, self.target) {
             Some((gain, is_beside_contact)) if gain <= GAIN => {
@@ -52,7 +51,7 @@ impl LocalSearch<'_> {
         Ok(!matches!(merit, Merit::Met(_)))
     }
 
-    /// Returns the nearest point at which scales are just in contact at the end of bending.
+    /// Returns the nearest point at which scales barely touch at the end of bending.
     ///
     /// `None` if there is no such point in the space.
     fn behind_contact(&self, best: &Candidate) -> Option<SpacePoint> {

@@ -3,14 +3,15 @@
 use crate::candidate::{Candidate, SearchStage};
 use crate::space::SpacePoint;
 
-/// Maximum distance of two designs for a start from the path end of one of them.
+/// Maximum distance at which a design is solved from the path end of another design.
 ///
-/// The distance is a fraction of the intervals. Starts from farther path ends seldom succeed.
+/// The distance is a fraction of the ranges of the variables. Starts from the path ends of designs
+/// at larger distances seldom succeed.
 const NEAR: f64 = 0.05;
 
 /// Points with punctures that were followed from rest.
 ///
-/// A local search solves designs beside these points from the ends of their paths.
+/// A local search solves the designs near these points from the ends of the followed paths.
 pub(super) struct FollowedPoints(Vec<FollowedPoint>);
 
 /// A point with a puncture that was followed from rest.
@@ -24,7 +25,8 @@ struct FollowedPoint {
 impl FollowedPoints {
     /// Creates the followed points of a local search from `start`.
     ///
-    /// A sample was followed without derivatives. The search computes them at the end of its path.
+    /// If `start` is an initial sample, its path was followed without derivatives. The search then
+    /// computes the derivatives from the end of this path.
     pub fn from_start(start: &Candidate) -> Self {
         let is_sample = start.stage == SearchStage::Sample;
         let start = FollowedPoint { point: start.point.clone(), is_differentiated: false };

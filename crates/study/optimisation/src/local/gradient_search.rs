@@ -44,18 +44,18 @@ impl LocalSearch<'_> {
 
     /// Runs gradient searches in successive coverage branches.
     ///
-    /// The next search starts if the best design is on the border of a branch without a search so
-    /// far. `is_elastic` selects the largest shortfall as the cost (O9).
+    /// Another search follows if the best design is on the border of a branch that has not been
+    /// searched. `is_elastic` selects the largest shortfall as the cost (O9).
     fn search_branches(&self, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
         let mut visited: Vec<Option<CoveragePiece>> = Vec::new();
         while visited.len() < effort.pieces {
-            // The best design may have reached the border of another branch, so find its branches
-            // again.
+            // The best design may have reached the border of another branch, so determine its
+            // branches again.
             let pieces = self.pieces();
             // Visit each branch only once, so that the search does not alternate between two
             // branches.
             let Some(&piece) = pieces.iter().find(|piece| !visited.contains(piece)) else { break };
-            self.climb_in(piece, effort, is_elastic)?;
+            self.search_branch(piece, effort, is_elastic)?;
             visited.push(piece);
         }
         Ok(())
@@ -66,9 +66,9 @@ impl LocalSearch<'_> {
     /// The only element is `None` if the search is not restricted to a branch.
     fn pieces(&self) -> Vec<Option<CoveragePiece>> {
         let judge = self.search.judge;
-        // Branches are not used for a goal without coverage. They are not used with samples either,
-        // because the samples of a design are in several branches.
-        if !judge.is_about(Measure::Coverage) || judge.samples().is_some() {
+        // A goal without coverage does not need branches. With samples the search is not restricted
+        // to a branch, because the samples of a design are in several branches.
+        if !judge.depends_on(Measure::Coverage) || judge.samples().is_some() {
             return vec![None];
         }
         let case = self.search.space.case(&self.best.borrow().point);
@@ -78,7 +78,7 @@ impl LocalSearch<'_> {
     /// Runs one gradient search from the best design, restricted to the coverage branch `piece`.
     ///
     /// `is_elastic` selects the largest shortfall as the cost (O9).
-    fn climb_in(
+    fn search_branch(
         &self,
         piece: Option<CoveragePiece>,
         effort: Effort,

@@ -11,7 +11,7 @@ use basin::{
 /// Weight of the linear cost relative to the quadratic term of the first SLSQP iteration.
 const WEIGHT: f64 = 1e3;
 
-/// Distance from a limit at which steps end, so that small curvature does not violate the limit.
+/// Margin to a limit at which steps end, so that a small curvature does not violate the limit.
 const MARGIN: f64 = 1e-10;
 
 /// Maximum number of SLSQP iterations for the linear program.
@@ -27,9 +27,9 @@ pub(super) struct Piece {
 /// Kind of function to which a tangent belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
-    /// The cost. If the centre is infeasible, this is the excess over a limit.
+    /// The function to minimise: the cost, or the excess over a limit if the centre is infeasible.
     Cost,
-    /// A limit.
+    /// The excess over a limit, which must not exceed 0.
     Limit,
 }
 

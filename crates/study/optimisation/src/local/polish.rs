@@ -14,8 +14,8 @@ use crate::evaluations::Halt;
 impl LocalSearch<'_> {
     /// Improves the best design by a direct search with at most `most` evaluations.
     ///
-    /// The first steps have a length of at most `reach`, as a fraction of the intervals. If the
-    /// best design is infeasible, the search minimises the largest shortfall until a design is
+    /// The first steps have a length of at most `reach`, as a fraction of the variables' ranges. If
+    /// the best design is infeasible, the search minimises the largest shortfall until a design is
     /// feasible. A second search then improves the objective and rejects infeasible designs.
     pub(super) fn polish(&self, reach: f64, most: usize) -> Result<(), Halt> {
         loop {
@@ -27,7 +27,7 @@ impl LocalSearch<'_> {
             }
             let only_short = matches!(before, Merit::Short(_));
             let barrier = Barrier {
-                walk: self,
+                local: self,
                 only_short,
                 lower: vec![0.0; start.len()],
                 upper: vec![1.0; start.len()],
@@ -54,7 +54,7 @@ impl LocalSearch<'_> {
 ///
 /// If `only_short` is true, the cost is the largest shortfall, and infeasible designs are compared.
 struct Barrier<'a> {
-    walk: &'a LocalSearch<'a>,
+    local: &'a LocalSearch<'a>,
     only_short: bool,
     lower: Vec<f64>,
     upper: Vec<f64>,
@@ -67,8 +67,8 @@ impl CostFunction for Barrier<'_> {
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
         // A direct search does not use derivatives, which are expensive.
-        let (candidate, _) = self.walk.at(SearchStage::Polish, shares, false)?;
-        Ok(match self.walk.search.merit(&candidate, self.walk.target) {
+        let (candidate, _) = self.local.at(SearchStage::Polish, shares, false)?;
+        Ok(match self.local.search.merit(&candidate, self.local.target) {
             // A shortfall of 0 cannot be improved, so the search soon ends.
             Merit::Met(_) if self.only_short => 0.0,
             Merit::Met(objective) => -objective,

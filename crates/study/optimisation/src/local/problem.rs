@@ -19,7 +19,7 @@ use crate::evaluations::Halt;
 use crate::judgement::Judgement;
 use crate::slopes::Slopes;
 
-/// Length below which a step counts as stalled, as a fraction of the intervals.
+/// Length below which a step counts as stalled, as a fraction of the ranges of the variables.
 const STILL: f64 = 1e-7;
 
 /// Number of successive stalled steps that ends a gradient search.
@@ -60,7 +60,7 @@ fn is_open(result: &DesignResult) -> bool {
 
 /// Problem of a gradient search or ridge search from the best design of a local search.
 pub(super) struct LocalProblem<'a> {
-    walk: &'a LocalSearch<'a>,
+    local: &'a LocalSearch<'a>,
     stage: SearchStage,
     scale: CostScale,
     /// True if the search is restricted to designs without contact in bending.
@@ -71,7 +71,7 @@ pub(super) struct LocalProblem<'a> {
     piece: Option<CoveragePiece>,
     /// True if the last variable is the largest shortfall, which is also the cost (O9).
     ///
-    /// The variable relaxes requirements and lower bounds of objectives.
+    /// The last variable relaxes requirements and lower bounds of objectives.
     pub is_elastic: bool,
     /// Fractions at the last evaluation, and the number of successive stalled steps.
     still: RefCell<(Vec<f64>, usize)>,
@@ -90,27 +90,27 @@ pub(super) struct EvaluatedPoint {
 }
 
 impl<'a> LocalProblem<'a> {
-    /// Creates the problem for the best design of `walk`.
+    /// Creates the problem for the best design of the local search `local`.
     ///
     /// `missed` is the largest shortfall of this design, if the shortfall is to be minimised (O9).
     /// `None` if the design has no valid judgement.
     pub fn new(
-        walk: &'a LocalSearch<'a>,
+        local: &'a LocalSearch<'a>,
         stage: SearchStage,
         piece: Option<CoveragePiece>,
         missed: Option<f64>,
     ) -> Option<Self> {
-        let best = walk.best.borrow();
+        let best = local.best.borrow();
         let Judgement::Judged(worth) = &best.verdict else { return None };
-        let value = worth.objectives[walk.target.objective];
+        let value = worth.objectives[local.target.objective];
         let count = best.point.shares.len();
         Some(Self {
-            walk,
+            local,
             stage,
             // The scale stays the same during the search, because costs on different scales cannot
             // be compared.
             scale: if value > 0.0 { CostScale::Logarithm } else { CostScale::Linear(value.abs()) },
-            stays_open: walk.search.judge.is_about(Measure::Flexure) && is_open(&best.result),
+            stays_open: local.search.judge.depends_on(Measure::Flexure) && is_open(&best.result),
             piece,
             is_elastic: missed.is_some(),
             still: RefCell::default(),
@@ -124,11 +124,11 @@ impl<'a> LocalProblem<'a> {
     ///
     /// `None` if the design has no valid judgement.
     pub fn evaluate(&self, shares: &[f64]) -> Result<Option<EvaluatedPoint>, Halt> {
-        let shares = &shares[..self.walk.search.space.intervals().len()];
-        let (mut candidate, mut row) = self.walk.at(self.stage, shares, true)?;
+        let shares = &shares[..self.local.search.space.intervals().len()];
+        let (mut candidate, mut row) = self.local.at(self.stage, shares, true)?;
         // Judge feasibility before values are continued beyond a border: a continued value may meet
         // a limit that the design misses.
-        let met = matches!(self.walk.search.merit(&candidate, self.walk.target), Merit::Met(_));
+        let met = matches!(self.local.search.merit(&candidate, self.local.target), Merit::Met(_));
         self.end_if_stalled(shares)?;
         if let Some(piece) = self.piece {
             piece.continue_coverage(&mut row.nominal);
@@ -137,8 +137,9 @@ impl<'a> LocalProblem<'a> {
             continue_compliance(&mut row.nominal);
         }
         // Judge the design again by the continued values. Samples have no continued values.
-        if self.walk.search.judge.samples().is_none() && (self.piece.is_some() || self.stays_open) {
-            candidate.verdict = self.walk.search.judge.verdict(&row.nominal);
+        if self.local.search.judge.samples().is_none() && (self.piece.is_some() || self.stays_open)
+        {
+            candidate.verdict = self.local.search.judge.verdict(&row.nominal);
         }
         let Judgement::Judged(worth) = candidate.verdict else { return Ok(None) };
         Ok(Some(EvaluatedPoint { worth, row, met }))
@@ -158,7 +159,7 @@ impl<'a> LocalProblem<'a> {
         let step = last.iter().zip(shares).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         *count = if !last.is_empty() && step < STILL { *count + 1 } else { 0 };
         shares.clone_into(last);
-        // The ridge search ends when its radius is small enough, so its last steps are short.
+        // Do not stop a ridge search: it ends by its own radius, and its last steps are short.
         if *count >= STALLED && self.stage == SearchStage::Gradient {
             Err(Halt::Stalled)
         } else {
@@ -168,8 +169,8 @@ impl<'a> LocalProblem<'a> {
 
     /// Returns the cost of a design; infinite if the cost is undefined.
     pub fn cost_of(&self, worth: &Worth) -> f64 {
-        let objective = self.walk.target.objective;
-        let sign = self.walk.search.judge.sign(objective);
+        let objective = self.local.target.objective;
+        let sign = self.local.search.judge.sign(objective);
         let cost = -sign * self.scale.cost(worth.objectives[objective]).0;
         // An undefined logarithm means an infinite cost, whether the objective is maximised or
         // minimised.
@@ -183,9 +184,9 @@ impl<'a> LocalProblem<'a> {
 
     /// Returns the number of requirements and lower bounds of objectives.
     ///
-    /// These are the first limits.
+    /// In the list of all limits, these limits are the first.
     pub fn asked_count(&self) -> usize {
-        self.walk.search.judge.requirements().count() + self.walk.target.floors.len()
+        self.local.search.judge.requirements().count() + self.local.target.floors.len()
     }
 
     /// Returns the number of limits.
@@ -204,9 +205,9 @@ impl<'a> LocalProblem<'a> {
         let contact = self.stays_open.then(|| CLEAR - contact_margin(&row.nominal.case));
         let borders = self.borders();
         let borders = borders.filter_map(|(piece, border)| piece.beyond(border, &row.nominal.case));
-        let floors = self.walk.target.floors.iter().map(|&(k, floor)| {
-            let turned = self.walk.search.judge.sign(k) * worth.objectives[k];
-            (floor - turned) / floor_size(floor)
+        let floors = self.local.target.floors.iter().map(|&(k, floor)| {
+            let signed = self.local.search.judge.sign(k) * worth.objectives[k];
+            (floor - signed) / floor_size(floor)
         });
         worth
             .margins
@@ -234,14 +235,16 @@ impl<'a> LocalProblem<'a> {
         evaluated: &EvaluatedPoint,
         pick: Pick,
     ) -> Option<Vec<f64>> {
-        let (judge, objective) = (self.walk.search.judge, self.walk.target.objective);
+        let (judge, objective) = (self.local.search.judge, self.local.target.objective);
         let rate = self.scale.cost(evaluated.worth.objectives[objective]).1;
         let slopes =
             |p: &Parameter| judge.objective_slopes(objective, &evaluated.row, p).scaled(rate);
         self.falling(shares, slopes, pick)
     }
 
-    /// Computes the gradient of the excess over limit `k`, like [`Self::cost_gradient`].
+    /// Computes the gradient of the excess over limit `k`.
+    ///
+    /// See [`Self::cost_gradient`] for `pick` and `None`.
     pub fn limit_gradient(
         &self,
         k: usize,
@@ -249,12 +252,12 @@ impl<'a> LocalProblem<'a> {
         evaluated: &EvaluatedPoint,
         pick: Pick,
     ) -> Option<Vec<f64>> {
-        let (judge, row) = (self.walk.search.judge, &evaluated.row);
+        let (judge, row) = (self.local.search.judge, &evaluated.row);
         let required = judge.requirements().count();
         if k < required {
             return self.falling(shares, |p| judge.margin_slopes(k, row, p), pick);
         }
-        let floors = &self.walk.target.floors;
+        let floors = &self.local.target.floors;
         if let Some((piece, border)) =
             (k - required).checked_sub(floors.len()).and_then(|k| self.borders().nth(k))
         {
@@ -287,7 +290,7 @@ impl<'a> LocalProblem<'a> {
         slopes: impl Fn(&Parameter) -> Slopes,
         pick: Pick,
     ) -> Option<Vec<f64>> {
-        let intervals = self.walk.search.space.intervals().iter().zip(shares);
+        let intervals = self.local.search.space.intervals().iter().zip(shares);
         let falling = intervals.map(|(interval, share)| {
             let Slopes { left, right } = slopes(interval.parameter);
             let slope = match *share {

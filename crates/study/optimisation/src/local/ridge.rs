@@ -9,16 +9,16 @@ use crate::evaluated_row::StatisticUse;
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
 
-/// Smallest radius of the ball of the bundle method, as a fraction of the intervals.
+/// Smallest radius of the ball of the bundle method, as a fraction of the ranges of the variables.
 ///
-/// At this distance the tangents on both sides of a kink are resolved.
+/// At this radius, points on both sides of a kink still have clearly different tangents.
 const SMALLEST: f64 = 1e-6;
 
 impl LocalSearch<'_> {
     /// Searches along the ridge through the best design with at most `most` evaluations.
     ///
-    /// The first radius is `reach`, as a fraction of the intervals.
-    pub(super) fn follow(&self, reach: f64, most: usize) -> Result<(), Halt> {
+    /// The first radius is `reach`, as a fraction of the ranges of the variables.
+    pub(super) fn search_ridge(&self, reach: f64, most: usize) -> Result<(), Halt> {
         // A yield is a step function, and has no tangents.
         if self.search.judge.is_yield(StatisticUse::Objective(self.target.objective)) {
             return Ok(());

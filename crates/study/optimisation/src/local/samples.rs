@@ -44,10 +44,11 @@ impl SampledPoint<'_> {
         Ok(slopes)
     }
 
-    /// Computes the gradient of the quantity behind statistic `q` for each of these `samples`.
+    /// Computes the gradient of the sort key of statistic `q` for each of these `samples`.
     ///
-    /// Gradients are with respect to the fractions of the intervals. Samples that do not exist are
-    /// omitted.
+    /// The sort key is the column of a quantile, or the smallest margin for a yield. Gradients are
+    /// with respect to the fractions of the intervals. Samples without deviations within the bounds
+    /// of the parameters are omitted.
     pub fn gradients(&self, q: usize, samples: &[u64]) -> Result<Vec<Vec<f64>>, Halt> {
         let mut gradients = Vec::new();
         for &sample in samples {

@@ -20,18 +20,18 @@ use super::problem::LocalProblem;
 use crate::candidate::{Merit, SearchStage};
 use crate::evaluated_row::StatisticUse;
 use crate::evaluations::Halt;
-use crate::sample::needed;
+use crate::sample::deciding_index;
 use crate::slopes::Slopes;
 
-/// First trust radius, as a fraction of the intervals.
+/// First trust radius, as a fraction of the ranges of the variables.
 const REACH: f64 = 0.1;
 
-/// Trust radius at which the search ends.
+/// Trust radius below which the search ends, as a fraction of the ranges of the variables.
 const SMALLEST: f64 = 1e-3;
 
 /// Predicted gain at which the search ends, for a cost of about 1.
 ///
-/// With a few hundred samples, the cost of the best design is less certain than this.
+/// With a few hundred samples, the uncertainty of the best cost exceeds this gain.
 const GAIN: f64 = 2e-3;
 
 /// Predicted gain up to which a search that stalls counts as converged.
@@ -48,18 +48,18 @@ const PLENTY: f64 = 0.5;
 /// Penalty on the cost for one unit of excess. Costs and excesses are about 1.
 const PENALTY: f64 = 10.0;
 
-/// Smallest and largest distance inside the limits at which steps aim.
+/// Smallest and largest margin to the limits at which steps aim.
 const MARGINS: [f64; 2] = [1e-6, 1e-3];
 
 /// Initial ratio of the margin to the excess, and factor of this ratio after a rejected step.
 ///
-/// Steps aim at a margin inside the limits, because the samples there have other derivatives than
-/// the nominal design. Without a margin each step would leave about a quarter of the excess.
+/// Steps aim at a margin inside the limits, because samples near a limit have other derivatives
+/// than the nominal design. Without a margin each step would leave about a quarter of the excess.
 const OVERSHOOT: [f64; 2] = [0.5, 4.0];
 
 /// Largest excess for which the linear model is used.
 ///
-/// At a larger excess a value of the samples has usually jumped, e.g. the compliance at contact.
+/// At a larger excess, a measure of the samples has usually jumped, e.g. the compliance at contact.
 const FAR: f64 = 0.5;
 
 /// Number of rounds in which samples are discarded.
@@ -156,13 +156,13 @@ impl YieldModel {
     /// `required` is the index of the requirement on the yield. `None` if the design has no valid
     /// judgement or lacks derivatives.
     fn at(
-        walk: &LocalSearch<'_>,
+        local: &LocalSearch<'_>,
         problem: &LocalProblem<'_>,
         shares: &[f64],
         required: usize,
     ) -> Result<Option<Self>, Halt> {
         let Some(evaluated) = problem.evaluate(shares)? else { return Ok(None) };
-        let judge = walk.search.judge;
+        let judge = local.search.judge;
         let Some(samples) = judge.samples() else { return Ok(None) };
         let excesses = problem.limits(&evaluated);
         let mut limits = Vec::new();
@@ -181,8 +181,8 @@ impl YieldModel {
         let (Some(gradients), Some(gradient)) = (gradients.collect::<Option<_>>(), gradient) else {
             return Ok(None);
         };
-        let point = walk.point(shares);
-        let values = walk.search.evaluations.samples(&point, 1, samples.count, samples)?;
+        let point = local.point(shares);
+        let values = local.search.evaluations.samples(&point, 1, samples.count, samples)?;
         let excess = |values: &Vec<Option<f64>>| {
             let both = bounds.iter().zip(values);
             both.map(|(bound, value)| -bound.requirement.counted_margin(*value)).collect()
@@ -194,7 +194,8 @@ impl YieldModel {
             gradients,
             samples: values.0.iter().map(excess).collect(),
             deciding: excesses[required],
-            discards: requirement.map_or(0, |requirement| needed(requirement, samples.count)),
+            discards: requirement
+                .map_or(0, |requirement| deciding_index(requirement, samples.count)),
         }))
     }
 
@@ -216,19 +217,22 @@ impl YieldModel {
         let mut kept: Vec<usize> = (0..self.samples.len()).collect();
         // Discard samples without a value first.
         kept.retain(|sample| self.samples[*sample].iter().all(|excess| excess.is_finite()));
-        let mut left = (self.discards + kept.len()).checked_sub(self.samples.len())?;
+        let mut remaining = (self.discards + kept.len()).checked_sub(self.samples.len())?;
         let margin = (overshoot * self.excess()).clamp(MARGINS[0], MARGINS[1]);
-        let each = left.div_ceil(ROUNDS).max(1);
-        while left > 0 {
+        let each = remaining.div_ceil(ROUNDS).max(1);
+        while remaining > 0 {
             // Find the requirement for which the merit would improve most if all remaining discards
-            // were used for it. Only the next few discards may improve nothing, because other
-            // samples have the same excess.
+            // were used for it. The few discards of this round alone may not improve the merit,
+            // because other samples have the same excess.
             let gains = (0..self.gradients.len()).filter_map(|k| {
-                Some((self.solve(centre, radius, margin, &self.without(&kept, k, left))?.merit, k))
+                Some((
+                    self.solve(centre, radius, margin, &self.without(&kept, k, remaining))?.merit,
+                    k,
+                ))
             });
             let (_, k) = gains.min_by(|a, b| a.0.total_cmp(&b.0))?;
-            kept = self.without(&kept, k, each.min(left));
-            left -= each.min(left);
+            kept = self.without(&kept, k, each.min(remaining));
+            remaining -= each.min(remaining);
         }
         self.solve(centre, radius, margin, &kept)
     }
@@ -300,7 +304,7 @@ mod tests {
     fn samples_that_restrict_the_objective_most_are_discarded() {
         for (discards, to) in [(0, [0.4, 0.4]), (5, [0.4, 0.5]), (10, [0.5, 0.5])] {
             let step = model(discards).step(&[0.5, 0.5], 0.2, 0.5).expect("a step");
-            // Steps end 0.001 inside the limits.
+            // Steps end at a distance of 0.001 inside the limits.
             assert!(distance(&step.to, &to.map(|x| x - 1e-3)) < 1e-6, "{discards}: {:?}", step.to);
         }
     }

@@ -28,7 +28,9 @@ pub(crate) const REFINED: usize = 2;
 /// Maximum number of steps from a design that misses a requirement on independent samples.
 const CONFIRMED: usize = 4;
 
-/// Ratio of the length of such a step to the length that a linear model predicts.
+/// Increase of the margins at which a step to a safer design aims, divided by the missing margin.
+///
+/// The missing margin is the shortfall of the independent sample that decides the yield.
 const OVERSHOOT: f64 = 1.3;
 
 /// Inverse of the fraction of samples that a step considers on each side of the deciding sample.
@@ -37,7 +39,7 @@ const OVERSHOOT: f64 = 1.3;
 /// requires.
 const NEAR: usize = 10;
 
-/// Number of projections on each gradient.
+/// Number of Kaczmarz projections on each gradient.
 const PROJECTIONS: usize = 100;
 
 /// Searches with different judges.
@@ -54,9 +56,9 @@ pub(crate) struct Searches<'s> {
 impl Searches<'_> {
     /// Searches for the answer to a goal with statistics over samples.
     ///
-    /// `first` is the answer by nominal designs, and `history` contains these designs. A nominal
-    /// design needs one solution, a design with samples one solution for each sample. So nominal
-    /// designs provide the starts.
+    /// `first` is the answer for nominal designs, and `history` contains these designs. A nominal
+    /// design needs one solution, but a design with samples needs one solution for each sample. The
+    /// search with samples therefore starts from nominal designs.
     pub fn answer(
         &self,
         goal: &DesignGoal,
@@ -76,7 +78,7 @@ impl Searches<'_> {
         if !is_admitted {
             return Ok(first);
         }
-        let units = goal.realisations as u64;
+        let units = goal.samples_per_design as u64;
         sampled.progress.begin(SearchPart::Samples, seeds.len(), seeds.len() as u64 * units);
         let evaluated: Vec<Candidate> = seeds
             .into_par_iter()
@@ -149,19 +151,22 @@ fn confirm_another(
     history: &mut Vec<Candidate>,
 ) -> Result<(), Halt> {
     let mut point = best.candidate.point.clone();
-    let mut made = best.confirmation.clone();
+    let mut confirmation = best.confirmation.clone();
     for _ in 0..CONFIRMED {
-        let Some(failed) = made.filter(|made| !made.broken.is_empty()) else { break };
+        let Some(failed) = confirmation.filter(|confirmation| !confirmation.broken.is_empty())
+        else {
+            break;
+        };
         let Some(next) = safer(search, &point, &failed)? else { break };
         let candidate = search.evaluate(SearchStage::Tolerance, &next, false)?.0;
         history.push(candidate.clone());
         if !matches!(search.merit(&candidate, &best.target), Merit::Met(_)) {
             break;
         }
-        made = confirm(search, &next)?;
-        if made.as_ref().is_some_and(|made| made.broken.is_empty()) {
+        confirmation = confirm(search, &next)?;
+        if confirmation.as_ref().is_some_and(|confirmation| confirmation.broken.is_empty()) {
             let found = best_design(search, &[candidate], best.target.clone())?;
-            *best = BestDesign { agreement: best.agreement, confirmation: made, ..found };
+            *best = BestDesign { agreement: best.agreement, confirmation, ..found };
             break;
         }
         point = next;
@@ -230,7 +235,7 @@ fn check(search: &Search<'_>, best: &mut [BestDesign]) -> Result<(), Halt> {
 
 /// Selects the nominal designs that are sampled first.
 ///
-/// They are the designs of the nominal `answer`, then good designs in other regions.
+/// The designs of the nominal `answer` come first, followed by good designs in other regions.
 fn seeds(nominal: &Search<'_>, history: &[Candidate], answer: &Answer) -> Vec<SpacePoint> {
     let best = match answer {
         Answer::Optimum(best) => std::slice::from_ref(best.as_ref()),

@@ -55,8 +55,8 @@ fn best_of_grid(goal: &DesignGoal, ranges: &[[f64; 2]], points: usize) -> GridBe
             (0..points).map(|k| from + (to - from) * k as f64 / (points - 1) as f64).collect()
         })
         .collect();
-    // Each thread has one gap. An evaluator caches the springs, which designs with equal gap and
-    // length share.
+    // Each solver evaluates the designs of one gap, because its evaluators cache the springs, which
+    // depend only on gap and length.
     axes[0]
         .par_iter()
         .map(|gap| {
@@ -173,7 +173,7 @@ fn no_grid_has_a_better_design_than_the_optimum() {
         let best = best_of_grid(&goal, &ranges, points);
         let off = best.objective / optimum - 1.0;
         println!(
-            "{name}: optimum {optimum} at {shares:?}; {} points meet, the best {} at {:?}, {off:+.2e}",
+            "{name}: optimum {optimum} at {shares:?}; {} feasible points, the best {} at {:?}, {off:+.2e}",
             best.met, best.objective, best.shares
         );
         assert!(best.met > 0 && off <= 1e-6, "{name}: {off:+.2e}");
@@ -181,7 +181,7 @@ fn no_grid_has_a_better_design_than_the_optimum() {
     }
 }
 
-/// Objectives and requirements on which no setting of the search was tuned.
+/// Objectives and requirements that were not used to tune the settings of the search.
 const GOALS: [(&str, &str); 12] = [
     ("maximize = 'critical_force_N'", "'coverage >= 0.5', 'compliance >= 0.35'"),
     ("maximize = 'critical_force_N'", "'coverage >= 0.62', 'areal_mass_kg_m2 <= 0.8'"),
@@ -233,7 +233,7 @@ fn no_design_beats_the_optima_of_twelve_goals() {
         });
         let [(one, shares, evaluations), (other, ..)] = &found;
         let space = &goals[0].space;
-        // The range of each variable is 5 % of its optimal value to both sides.
+        // The range of each variable extends by 5 % of its optimal value to both sides.
         let near: Vec<[f64; 2]> = space
             .intervals()
             .iter()
@@ -248,7 +248,7 @@ fn no_design_beats_the_optima_of_twelve_goals() {
         let [everywhere_off, near_off, other_off] =
             [everywhere.objective, near.objective, *other].map(|value| (value - one) / one.abs());
         println!(
-            "{k}: {objective} {required}: {one} at {shares:?} after {evaluations}, seed 1 {other_off:+.1e}; {} of {in_box} meet, best {everywhere_off:+.2e} at {:?}; {} of {near_optimum}, {near_off:+.2e}",
+            "{k}: {objective} {required}: {one} at {shares:?} after {evaluations}, seed 1 {other_off:+.1e}; {} of {in_box} feasible, best {everywhere_off:+.2e} at {:?}; {} of {near_optimum} near the optimum, best {near_off:+.2e}",
             everywhere.met, everywhere.shares, near.met,
         );
         if everywhere_off > 1e-6 || near_off > 1e-6 || other_off.abs() > 1e-6 {

@@ -22,37 +22,41 @@ fn value(column: &Column<DesignRow>, row: &DesignRow) -> Option<f64> {
 }
 
 #[test]
-fn columns_have_the_derivatives_of_solved_designs_by_each_parameter() {
+fn extrapolated_columns_match_solved_designs() {
     let keys = ["gap_over_t", "length_over_t", "slant_deg", "poisson_ratio", "thickness_mm"];
-    columns_have_the_derivatives_of_solved_designs(TEXT, &keys);
+    assert_extrapolation_matches_solutions(TEXT, &keys);
 }
 
-/// Tests lengths in mm. They depend on the thickness, and here the length depends on the pitch.
+/// Tests derivatives with respect to lengths in mm.
+///
+/// The results depend on lengths divided by the thickness, and the length of a scale follows from
+/// pitch and gap.
 #[test]
-fn columns_have_derivatives_by_lengths_in_mm() {
+fn extrapolated_columns_match_solved_designs_for_lengths_in_mm() {
     let text = "name = 'x'\ndesigns = { gap_mm = 0.48, pitch_mm = 1.53, slant_deg = 41 }\n\
         scale.width_mm = 1.5\nflexure.membrane_thickness_mm = 0.2\n\
         [material]\nthickness_mm = 1.3\nsubstrate_modulus_MPa = 0.4\nmembrane_modulus_MPa = 2\nscale_density_kg_m3 = 1100\n";
     let keys = ["gap_mm", "pitch_mm", "width_mm", "membrane_thickness_mm", "thickness_mm"];
-    columns_have_the_derivatives_of_solved_designs(text, &keys);
+    assert_extrapolation_matches_solutions(text, &keys);
 }
 
-/// Tests moduli. The modulus of the scales changes both ratios of moduli.
+/// Tests derivatives with respect to moduli.
 ///
-/// The scales are soft, so that the contact is compliant and the ratios affect the results.
+/// The modulus of the scales changes both ratios of moduli. The scales are soft, so that the
+/// contact is compliant and the ratios affect the results.
 #[test]
-fn columns_have_derivatives_by_moduli_of_soft_scales() {
+fn extrapolated_columns_match_solved_designs_for_moduli_of_soft_scales() {
     let text = format!("{TEXT}scale_modulus_MPa = 8\n");
     let keys = ["substrate_modulus_MPa", "membrane_modulus_MPa", "scale_modulus_MPa"];
-    columns_have_the_derivatives_of_solved_designs(&text, &keys);
+    assert_extrapolation_matches_solutions(&text, &keys);
     let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a sweep");
     assert!(
         keys.iter().all(|key| sweep.has_followers(Parameter::named(key).expect("a parameter")))
     );
 }
 
-/// Asserts that extrapolation changes each column like solving, for a step of each parameter.
-fn columns_have_the_derivatives_of_solved_designs(text: &str, keys: &[&str]) {
+/// Asserts that a step of each parameter in `keys` changes extrapolated and solved columns equally.
+fn assert_extrapolation_matches_solutions(text: &str, keys: &[&str]) {
     let sweep = Sweep::parse(text, "x.toml", &[]).expect("a sweep");
     let case = sweep.grid().case(0);
     let all = Evaluator::new(&Measure::ALL);
@@ -101,8 +105,11 @@ fn values_without_derivatives_are_not_extrapolated() {
         let moved =
             row.extrapolated(&parameter.moved(&case, 1e-3).expect("a case"), SlopeSide::Left);
         let [before, after] = [&row, &moved].map(|row| {
-            let puncture = row.result.puncture.expect("measured").measures;
-            [puncture.critical_force, row.result.flexure.expect("measured").measures.compliance]
+            let puncture = row.result.puncture.expect("a solved path").measures;
+            [
+                puncture.critical_force,
+                row.result.flexure.expect("a solved path").measures.compliance,
+            ]
         });
         assert_eq!(after[0], before[0].filter(|_| !affects_force), "{key}");
         assert_eq!(after[1], before[1].filter(|_| !affects_compliance), "{key}");
@@ -126,5 +133,7 @@ fn compliance_of_upright_scales_has_the_derivative_of_the_closed_form() {
     // The compliance is C = d/p.
     let (gap, length) = (0.37_f64, 0.81);
     let expected = length / (gap + length).powi(2);
-    assert!((derivative.derivative().expect("smooth") - expected).abs() < 1e-9);
+    assert!(
+        (derivative.derivative().expect("a derivative without a kink") - expected).abs() < 1e-9
+    );
 }

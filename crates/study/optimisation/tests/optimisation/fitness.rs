@@ -6,7 +6,8 @@ use sweep::Measure;
 
 use crate::searches::{found_in, goal, objectives, optimum};
 
-/// Goal that maximises a fitness of coverage and mass, which are rescaled between given ends.
+/// Keys of a goal that maximises the fitness of coverage and mass. Both criteria are rescaled
+/// between given worst and best values.
 const FITNESS: &str = "maximize = 'fitness'\nweights = { coverage = 1, areal_mass_kg_m2 = 3 }\n\
     rescale = { coverage = [0.1, 0.9], areal_mass_kg_m2 = [1, 0.5] }";
 
@@ -30,8 +31,8 @@ fn optimum_of_the_fitness_matches_the_closed_form() {
 }
 
 #[test]
-fn missing_ends_are_taken_from_the_space_filling_points() {
-    let (first, _) = FITNESS.rsplit_once('\n').expect("lines");
+fn missing_worst_and_best_values_are_taken_from_the_space_filling_points() {
+    let (first, _) = FITNESS.rsplit_once('\n').expect("several lines");
     let goal = goal(first);
     let folder = tempfile::tempdir().expect("a folder");
     let found = found_in(folder.path(), &goal, 1, Start::New);
@@ -62,11 +63,13 @@ fn derivatives_of_the_fitness_match_finite_differences() {
             let mut moved = point.clone();
             moved.shares[j] += by;
             let row = plain.solve(number, &goal.space.case(&moved)).row;
-            let Judgement::Judged(worth) = judge.verdict(&row) else { panic!("judged") };
+            let Judgement::Judged(worth) = judge.verdict(&row) else { panic!("a valid judgement") };
             worth.objectives[0]
         });
         let difference = (above - below) / (2.0 * step * interval.length());
-        let slope = judge.objective_slope(0, &row, interval.parameter).expect("smooth");
+        let slope = judge
+            .objective_slope(0, &row, interval.parameter)
+            .expect("a derivative without a kink");
         let key = interval.parameter.key;
         assert!(
             (slope - difference).abs() < 1e-4 * difference.abs(),

@@ -26,7 +26,10 @@ fn found(goal: &DesignGoal) -> Found {
 
 /// Returns the estimate of the statistic `name` from independent samples.
 fn estimate<'b>(best: &'b BestDesign, name: &str) -> &'b Estimate {
-    best.confirmation.as_ref().and_then(|made| made.estimate(name)).expect("an estimate")
+    best.confirmation
+        .as_ref()
+        .and_then(|confirmation| confirmation.estimate(name))
+        .expect("an estimate")
 }
 
 /// Returns the reach `S` of scales with a slant of 60°. Their coverage is `(S − d)/S`.
@@ -41,7 +44,8 @@ const Z10: f64 = 1.281_551_565_544_600_4;
 
 /// Returns the standard error of a quantile of `n` normal numbers, in standard deviations.
 ///
-/// It is `√(p (1 − p)/n)/φ(z)` with the probability `p` (`share`) and the normal density `φ`.
+/// The standard error is `√(p (1 − p)/n)/φ(z)` with the probability `p` (`share`), the exact
+/// quantile `z` and the normal density `φ`.
 fn quantile_error(share: f64, z: f64, n: f64) -> f64 {
     let density = (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt();
     (share * (1.0 - share) / n).sqrt() / density
@@ -62,9 +66,9 @@ fn required_yield_reduces_the_gap_by_a_quantile_of_its_deviation() {
     assert!((shift - Z10).abs() < 3.0 * error, "{shift}");
     assert!(best.bindings.iter().any(|binding| binding.limit == Limit::Requirement(1)));
     let of = estimate(best, "yield");
-    // The yield of the samples of the search exceeds the required yield by at most one sample.
+    // Among the samples of the search, at most one more than required meets the limits.
     assert!(of.seen.is_some_and(|seen| (0.9..0.9 + 2.0 / 2000.0).contains(&seen)), "{of:?}");
-    let [low, high] = of.interval.map(|end| end.expect("an end"));
+    let [low, high] = of.interval.map(|end| end.expect("an end of the interval"));
     assert!(low < high && (low..=high).contains(&of.value.expect("a yield")));
     assert!((of.value.expect("a yield") - 0.9).abs() < 4.0 * (0.09_f64 / 1000.0).sqrt() + 0.01);
     // The reason uses the multiplier of the coverage: 1 % of the limit changes the mass by 1 % ·
@@ -101,7 +105,7 @@ fn required_quantile_binds_with_the_exact_multiplier() {
     let of = estimate(best, "coverage_p05");
     assert!((of.seen.expect("a quantile") - 0.5).abs() < 1e-6);
     let exact = 1.0 - (gap + 0.02 * Z05) / reach();
-    let [low, high] = of.interval.map(|end| end.expect("an end"));
+    let [low, high] = of.interval.map(|end| end.expect("an end of the interval"));
     assert!((low..=high).contains(&exact), "{low} {exact} {high}");
 }
 
@@ -121,9 +125,9 @@ fn quantile_of_the_best_design_matches_the_closed_form() {
         assert!((value.expect("a quantile") - exact).abs() < 3.5 * error, "{of:?} {exact}");
     }
     // The width of the 95 % interval matches the standard error of the quantile.
-    let [low, high] = of.interval.map(|end| end.expect("an end"));
+    let [low, high] = of.interval.map(|end| end.expect("an end of the interval"));
     assert!((0.7..1.4).contains(&((high - low) / (2.0 * 1.96 * error))), "{low} {high} {error}");
-    // The yield is reported too. It is 0.5, because the gap of half of the samples is below 0.3.
+    // The yield is reported too. It is 0.5, because half of the samples have a gap below 0.3.
     let half = estimate(best, "yield").value.expect("a yield");
     assert!((half - 0.5).abs() < 3.5 * (0.25_f64 / 1000.0).sqrt(), "{half}");
 }
@@ -140,7 +144,7 @@ fn largest_yield_is_in_the_middle_between_two_bounds() {
     let exact = normal_share(half) - normal_share(-half);
     let gap = best.row.case.design.gap;
     let yielded = estimate(best, "yield");
-    let [from, to] = yielded.interval.map(|end| end.expect("an end"));
+    let [from, to] = yielded.interval.map(|end| end.expect("an end of the interval"));
     assert!((from..=to).contains(&exact), "{from} {exact} {to}, at {gap}");
     assert!(objectives(best)[0] >= exact - 0.03, "{:?}", objectives(best));
     assert!((gap - 0.5 * (low + high)).abs() < 0.012, "{gap} between {low} and {high}");
@@ -205,11 +209,13 @@ fn samples_do_not_depend_on_threads_or_interruptions() {
 fn goals_with_an_infeasible_yield_report_the_nearest_sampled_design() {
     let text = "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54', 'yield >= 0.99']";
     let found = found(&goal(text));
-    let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
+    let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("an infeasible goal") };
     assert!(nearest > 64, "the nearest design is not one of the first 64, which have no samples");
     // The gap of a sample must be between 0.852 and 0.866, but its standard deviation is 0.02. Each
     // sample misses at most one of the two limits.
-    let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("sampled") };
+    let Judgement::Judged(worth) = &found.history[nearest].verdict else {
+        panic!("a design with samples")
+    };
     let missed: f64 = found.missed.iter().map(|missed| missed.share).sum();
     assert!((missed - (1.0 - worth.required[2])).abs() < 1e-12, "{:?}", found.missed);
     let names = found.missed.iter().filter_map(|m| Some(m.requirement.as_ref()?.column.as_str()));

@@ -14,7 +14,8 @@ use run::{Program, Start};
 
 const PROGRAM: Program = Program { version: "1.0", revision: "none" };
 
-/// Start of a goal with gap and slant as variables, in which only the coverage is measured.
+/// Text of a goal without its section `[goal]`. The variables are gap and slant, and only the
+/// coverage is measured.
 const COVERED: &str = "name = 'covered'\nmeasures = 'coverage'\n[variables]\n\
     gap_over_t = { from = 0.1, to = 1 }\nslant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n\
     [material]\nthickness_mm = 1\nscale_density_kg_m3 = 1000\n";
@@ -23,7 +24,7 @@ const COVERED: &str = "name = 'covered'\nmeasures = 'coverage'\n[variables]\n\
 pub(crate) fn found_in(folder: &Path, goal: &DesignGoal, threads: usize, start: Start) -> Found {
     let (stop, progress) = (AtomicBool::new(false), SearchProgress::default());
     let options = SearchOptions { threads, start, stop: &stop, progress: &progress };
-    optimise(goal, folder, &options, &PROGRAM).expect("a search").expect("an end")
+    optimise(goal, folder, &options, &PROGRAM).expect("a search").expect("no stop request")
 }
 
 /// Returns the goal `COVERED` with further lines of its section `[goal]`.
@@ -62,7 +63,8 @@ fn search_does_not_continue_at_an_optimum_that_derivatives_prove() {
     let best = optimum(found);
     assert!((objectives(best)[0] - 2.141_936_6).abs() < 2e-6, "{:?}", objectives(best));
     // One of the three full searches starts away from the optimum, and needs one round of ridge
-    // search and polish (47 evaluations). Confirmations would need as many in each of the others.
+    // search and polish (47 evaluations). Without the proof by derivatives, each of the other two
+    // full searches would need as many evaluations.
     let stages = found.history.iter().map(|candidate| candidate.stage);
     let confirming =
         stages.filter(|s| matches!(s, SearchStage::Ridge | SearchStage::Polish)).count();
@@ -94,7 +96,8 @@ fn reference_search() -> &'static (Found, Vec<[f64; 2]>) {
                 seen.push([progress.designs() as f64, progress.share()]);
                 std::thread::sleep(std::time::Duration::from_millis(2));
             }
-            let found = search.join().expect("no panic").expect("a search").expect("an end");
+            let found = search.join().expect("a search without panic").expect("a search");
+            let found = found.expect("no stop request");
             seen.push([progress.designs() as f64, progress.share()]);
             (found, seen)
         })
@@ -115,7 +118,7 @@ pub(crate) fn optimum(found: &Found) -> &BestDesign {
 
 /// Returns the values of the objectives of a best design.
 pub(crate) fn objectives(best: &BestDesign) -> &[f64] {
-    let Judgement::Judged(worth) = &best.candidate.verdict else { panic!("judged") };
+    let Judgement::Judged(worth) = &best.candidate.verdict else { panic!("a valid judgement") };
     &worth.objectives
 }
 
@@ -156,7 +159,7 @@ fn rounded_design_meets_the_requirements() {
     let design = best.row.case.design;
     assert_eq!((design.gap, design.slant_deg), (0.8, 60.0));
     let Some(Rounding { step, unit, exact, rounded: Some(rounded) }) = found.rounding else {
-        panic!("rounded")
+        panic!("a rounded design")
     };
     assert_eq!((step, unit), (0.1, "mm"));
     assert!((exact - 1.0 / (1.0 + 0.5 * 60_f64.to_radians().tan())).abs() < 1e-9);
@@ -200,7 +203,7 @@ fn search_follows_a_ridge_to_its_end() {
         let (pitch, shift) = (design.length + 0.1, design.slant_deg.to_radians().tan());
         assert!((shift / pitch - 1.0).abs() < 1e-7, "{design:?}");
         assert!((objectives(best)[0] / (design.length / pitch) - 1.0).abs() < 1e-7);
-        let puncture = best.row.result.puncture.expect("measured").measures;
+        let puncture = best.row.result.puncture.expect("a solved path").measures;
         let stretch = puncture.gap_stretch_min.expect("a gap");
         assert_eq!(design.length < 1.0, sound);
         assert!(!sound || (-1e-9..1e-7).contains(&stretch), "{stretch}");
@@ -219,10 +222,11 @@ fn different_seeds_find_the_same_optimum() {
 
 /// Tests the largest stiffness of a path, which jumps if a contact appears on the path.
 ///
-/// It is a step function, and gradient searches end on any of many steps (e.g. at 4.464, 4.349,
-/// 3.854 and 4.320). `SQUAMA_CAMPAIGNS=endless` runs twelve seeds, `long` runs three seeds.
+/// The largest stiffness is a step function of the variables, and gradient searches end on any of
+/// many steps (e.g. at 4.464, 4.349, 3.854 and 4.320). The test runs one seed. It runs three seeds
+/// with `SQUAMA_CAMPAIGNS=long`, and twelve seeds with `SQUAMA_CAMPAIGNS=endless`.
 #[test]
-fn seeds_agree_on_an_objective_that_jumps() {
+fn searches_with_different_seeds_agree_on_an_objective_that_jumps() {
     let text = "name = 'stiff'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
         gap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.05, to = 1 }\n\
         slant_deg = { from = 0, to = 75 }\n[goal]\nmaximize = 'max_stiffness'\n\
@@ -239,16 +243,16 @@ fn seeds_agree_on_an_objective_that_jumps() {
         let best = optimum(&found);
         // The best result of searches with twenty seeds is 4.4879.
         assert!(objectives(best)[0] > 4.4879 * 0.999, "{seed}: {:?}", objectives(best));
-        let agreement = best.agreement.expect("of one objective");
+        let agreement = best.agreement.expect("an agreement");
         assert!(agreement.agreeing >= 2 && agreement.searches > 3, "{seed}: {agreement:?}");
     }
 }
 
 #[test]
-fn searches_that_agree_need_no_restart() {
+fn local_searches_that_agree_cause_no_restart() {
     let found = found(&goal("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'"));
-    let agreement = optimum(&found).agreement.expect("of one objective");
-    assert!(agreement.spread.expect("several searches") < 1e-8, "{agreement:?}");
+    let agreement = optimum(&found).agreement.expect("an agreement");
+    assert!(agreement.spread.expect("the spread of several searches") < 1e-8, "{agreement:?}");
     // Without restarts there are 33 local searches: 24 short searches, 6 gradient searches and 3
     // full searches.
     assert!(agreement.agreeing >= 2 && found.starts == 33, "{agreement:?}");
@@ -298,8 +302,8 @@ fn points_of_a_front_match_the_closed_form() {
 
 #[test]
 fn ends_of_a_front_are_optimal_in_the_second_objective_too() {
-    // The largest coverage is 0.8. Many designs have it: all designs with d/p = 0.2 on a coverage
-    // peak. The longest scales among them have the widest gap, 0.25.
+    // The largest coverage is 0.8. All designs with d/p = 0.2 on a coverage peak have this
+    // coverage. Among these designs, the design with the longest scales has the widest gap, 0.25.
     let text = "name = 'x'\nmeasures = ['coverage', 'flexure']\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
                 length_over_t = { from = 0.025, to = 1 }\nslant_deg = { from = 0, to = 75 }\n[goal]\n\
                 maximize = ['coverage', 'gap_over_t']\nrequire = 'compliance >= 0.2'\nsamples = 64\npoints = 5";
@@ -316,7 +320,7 @@ fn front_of_three_objectives_has_the_requested_number_of_points() {
     let Answer::Front(front) = &found.answer else { panic!("a front") };
     assert_eq!(front.designs.len(), 24, "{} {}", front.same, front.beaten);
     for best in &front.designs {
-        let [coverage, gap, slant] = *objectives(best) else { panic!("three") };
+        let [coverage, gap, slant] = *objectives(best) else { panic!("three objectives") };
         // The designs are on the first coverage peak or at smaller slants. Their coverage is (S −
         // d)/S, at most 1/(1 + d).
         let reach = slant.to_radians().tan();
@@ -331,8 +335,10 @@ fn infeasible_goals_report_the_nearest_design() {
         let found = found(&goal(&format!(
             "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.9', 'areal_mass_kg_m2 <= 0.8']\nseed = {seed}",
         )));
-        let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
-        let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
+        let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("an infeasible goal") };
+        let Judgement::Judged(worth) = &found.history[nearest].verdict else {
+            panic!("a valid judgement")
+        };
         // The coverage cannot exceed the mass. At the nearest design both are equal, and so are
         // both shortfalls s: 0.9 (1 − s) = 0.8 (1 + s).
         let shortfall = 0.1 / 1.7;
@@ -357,8 +363,8 @@ fn strongest(required: &str, seed: usize, most: usize) -> f64 {
 
 /// Tests the number of evaluations of a search with a narrow feasible set.
 ///
-/// The search is fast only if gradient searches avoid the jump of the compliance, also without a
-/// requirement on coverage, and if full searches start at feasible designs.
+/// The search needs few evaluations only if full searches start at feasible designs, and if
+/// gradient searches avoid the jump of the compliance although the goal requires no coverage.
 #[test]
 fn search_in_a_narrow_feasible_set_needs_few_evaluations() {
     let text = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
@@ -375,7 +381,7 @@ fn search_in_a_narrow_feasible_set_needs_few_evaluations() {
 #[test]
 fn completed_fraction_is_proportional_to_evaluations() {
     let (_, seen) = reference_search();
-    let all = seen.last().expect("an end")[0];
+    let all = seen.last().expect("a last entry")[0];
     let inner = seen.iter().filter(|[designs, _]| (0.15..0.85).contains(&(designs / all)));
     let ratios: Vec<f64> = inner.map(|[designs, share]| designs / share / all).collect();
     assert!(ratios.len() > 20, "{}", ratios.len());
@@ -386,7 +392,7 @@ fn completed_fraction_is_proportional_to_evaluations() {
 #[test]
 fn search_finds_a_design_that_is_feasible_only_on_coverage_peaks() {
     // The coverage is at most 1 − d/p and the compliance at most d/p. The sum of both limits is 1,
-    // so only designs on coverage peaks are feasible. A search near few of the peaks finds 0.493.
+    // so only designs on coverage peaks are feasible. A search near only a few peaks finds 0.493.
     assert!(strongest("'coverage >= 0.7', 'compliance >= 0.3'", 0, 600) >= 1.538);
 }
 
@@ -449,7 +455,7 @@ fn points_of_a_front_over_two_decades_have_similar_ratios() {
 #[test]
 fn results_do_not_depend_on_threads_or_interruptions() {
     let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 4");
-    let places = |found: &Found| {
+    let stages_and_points = |found: &Found| {
         found.history.iter().map(|c| (c.stage.word(), c.point.clone())).collect::<Vec<_>>()
     };
     let folder = tempfile::tempdir().expect("a folder");
@@ -460,7 +466,7 @@ fn results_do_not_depend_on_threads_or_interruptions() {
         // Simulate an interruption: cut the journal in the middle of a line.
         std::fs::write(&journal, &bytes[..bytes.len() / share]).expect("writable");
         let again = found_in(folder.path(), &goal, 3, Start::Resume);
-        assert_eq!(places(&again), places(&whole));
+        assert_eq!(stages_and_points(&again), stages_and_points(&whole));
         assert_eq!(again.evaluations, whole.evaluations);
     }
     assert!(refused(folder.path(), &goal, Start::New).contains("--resume"));
@@ -492,7 +498,7 @@ fn damaged_journals_are_refused_and_kept() {
         for start in [Start::New, Start::Resume] {
             let message = refused(folder.path(), &goal, start);
             assert!(message.contains(what), "{message}");
-            assert_eq!(std::fs::read_to_string(&journal).expect("text"), damaged);
+            assert_eq!(std::fs::read_to_string(&journal).expect("readable text"), damaged);
         }
     }
     // The error for a journal of format 1 names the program that wrote the journal.
@@ -529,7 +535,7 @@ fn fresh_search_removes_the_tables_of_the_previous_search() {
 
 #[cfg(unix)]
 #[test]
-fn links_in_place_of_the_journal_are_refused() {
+fn symbolic_links_in_place_of_the_journal_are_refused() {
     let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 2");
     let folder = tempfile::tempdir().expect("a folder");
     let journal = folder.path().join(results::ResultsFolder::EVALUATIONS);
@@ -540,7 +546,7 @@ fn links_in_place_of_the_journal_are_refused() {
         let message = refused(folder.path(), &goal, start);
         assert!(message.contains("is not a regular file"), "{message}");
     }
-    assert_eq!(std::fs::read_to_string(&target).expect("text"), "a stranger's");
+    assert_eq!(std::fs::read_to_string(&target).expect("readable text"), "a stranger's");
     std::fs::remove_file(&journal).expect("a link");
     std::os::unix::fs::symlink("/dev/zero", &journal).expect("a link");
     assert!(refused(folder.path(), &goal, Start::Resume).contains("is not a regular file"));
@@ -555,12 +561,14 @@ fn nearest_design_does_not_depend_on_the_seed() {
              require = ['coverage >= 0.8', 'critical_force >= 10']\nsamples = 32\nseed = {seed}"
         );
         let found = found(&DesignGoal::parse(&text, "x.toml", &[]).expect("a goal"));
-        let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
-        let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
+        let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("an infeasible goal") };
+        let Judgement::Judged(worth) = &found.history[nearest].verdict else {
+            panic!("a valid judgement")
+        };
         worth.shortfall()
     });
     // At the nearest design the limits of the critical force, of the unfolded surface and of an
-    // interval bind. A derivative-free search alone reaches it only to 5e-11.
+    // interval bind. A derivative-free search alone determines the shortfall only to 5e-11.
     assert!((one / other - 1.0).abs() < 1e-13, "{one} {other}");
 }
 
@@ -591,11 +599,13 @@ fn search_beats_the_reference_grid() {
         })
         .filter_map(|row| value(row, "critical_force"));
     let best = forces.fold(0.0, f64::max);
-    assert!(best > 0.5 && found > 3.0 * best, "{found} between the points, {best} on them");
+    assert!(best > 0.5 && found > 3.0 * best, "optimum {found}, best design of the grid {best}");
 }
 
-/// Up to a critical tilt of 10°, a search compares designs by the two corners of the top. Just
-/// above this limit it solves all load positions.
+/// Tests a critical tilt of 10°, and a critical tilt just above 10°.
+///
+/// Up to 10° a search compares designs by the two corners of the top. Above 10° the search solves
+/// all load positions.
 #[test]
 fn corners_and_all_load_positions_lead_to_the_same_optimum() {
     let searches = [10.0, 10.000_001].map(|tilt| {

@@ -7,9 +7,10 @@ use uncertainty::{GlobalAnalysis, SampleStore};
 
 use crate::PROGRAM;
 
-/// Tests `λ = 1 − d cot α`, the coverage (G2) if a vertical line crosses at most one neighbour.
+/// Tests the indices of the coverage `λ = 1 − d cot α`.
 ///
-/// The term `d cot α` is a product of two independent variables, so its indices are known.
+/// This formula is valid (G2) if a vertical line crosses at most one neighbour. The term `d cot α`
+/// is a product of two independent variables, so its indices have a closed form.
 #[test]
 fn indices_of_coverage_match_the_closed_form() {
     let text = "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 0.5 }\n\

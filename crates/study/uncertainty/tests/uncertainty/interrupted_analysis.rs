@@ -1,4 +1,4 @@
-//! Interrupted analyses resume from stored samples.
+//! Tests that interrupted analyses resume from stored samples.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,22 +30,23 @@ fn an_interrupted_analysis_resumes_from_stored_samples() {
         |folder: &Path| fs::read(folder.join(table.file_name().expect("a name"))).expect("a table");
     assert_eq!(file(&whole), file(&parts));
     // An edited table is replaced: its samples are solved again and agree with the journal.
-    let damaged = String::from_utf8(file(&parts)).expect("text").replacen("0.2", "0.3", 1);
-    fs::write(&table, damaged).expect("written");
+    let damaged = String::from_utf8(file(&parts)).expect("readable text").replacen("0.2", "0.3", 1);
+    fs::write(&table, damaged).expect("writable");
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!(again.samples, at_once.samples);
     assert_eq!(file(&whole), file(&parts));
     // A damaged line followed by intact lines is an error, and the journal remains unchanged.
     let [journal] = files(&parts, "jsonl").try_into().expect("one journal");
-    let sound = fs::read_to_string(&journal).expect("text");
+    let sound = fs::read_to_string(&journal).expect("readable text");
     let third = sound.lines().nth(2).expect("a line");
     let damaged = sound.replace(third, &third.replace("\"number\"", "\"numbar\""));
-    fs::write(&journal, &damaged).expect("written");
-    let refused = analysed(&sweep, &[], 250, &parts, false).expect_err("damaged").to_string();
+    fs::write(&journal, &damaged).expect("writable");
+    let refused =
+        analysed(&sweep, &[], 250, &parts, false).expect_err("a damaged journal").to_string();
     assert!(refused.contains(".jsonl:3: damaged line"), "{refused}");
-    assert_eq!(fs::read_to_string(&journal).expect("text"), damaged);
+    assert_eq!(fs::read_to_string(&journal).expect("readable text"), damaged);
     // If the last line is incomplete, its sample is solved again.
-    fs::write(&journal, &sound[..sound.len() - 20]).expect("written");
+    fs::write(&journal, &sound[..sound.len() - 20]).expect("writable");
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!(again.samples, at_once.samples);
 }
@@ -69,7 +70,10 @@ fn each_definition_has_its_own_samples() {
     assert_ne!(first, sampled("0.02"));
     // Returning to the first definition reuses its samples.
     let kept = || -> Vec<Vec<u8>> {
-        files(place.path(), "jsonl").iter().map(|path| fs::read(path).expect("bytes")).collect()
+        files(place.path(), "jsonl")
+            .iter()
+            .map(|path| fs::read(path).expect("a readable journal"))
+            .collect()
     };
     let before = kept();
     assert_eq!(before.len(), 2);

@@ -27,7 +27,8 @@ fn sweep(measures: &str, design: &str, lines: &str) -> Sweep {
 
 /// Analyses the first design of `sweep`, and stores its samples in `folder`.
 ///
-/// `require` are the requirements. If `stop` is true, no samples are solved.
+/// `require` are the requirements, and `samples` is the number of samples. If `stop` is true, the
+/// analysis is interrupted before it solves samples.
 fn analysed(
     sweep: &Sweep,
     require: &[&str],
@@ -35,7 +36,8 @@ fn analysed(
     folder: &Path,
     stop: bool,
 ) -> Result<DesignTolerance, AnalysisError> {
-    let requirements: Vec<_> = require.iter().map(|r| r.parse().expect("valid")).collect();
+    let requirements: Vec<_> =
+        require.iter().map(|r| r.parse().expect("a valid requirement")).collect();
     let stop = AtomicBool::new(stop);
     let analysis = Analysis::new(sweep, &requirements, samples, PROGRAM, &stop);
     analysis.design(0, &SampleStore::new(folder))

@@ -17,7 +17,7 @@ fn measure<'d>(design: &'d DesignTolerance, name: &str) -> &'d MeasureTolerance 
 fn assert_agree(measure: &MeasureTolerance) {
     let sampled = measure.sampled.as_ref().expect("samples");
     let allowed = 0.01 + 4.0 * sampled.spread_error / sampled.spread;
-    let off = measure.discrepancy().expect("both");
+    let off = measure.discrepancy().expect("a predicted and a sampled spread");
     assert!(off.abs() < allowed, "{}: off by {off}, {measure:?}", measure.name);
 }
 
@@ -31,7 +31,7 @@ fn batch_spreads_agree_with_the_linear_prediction() {
                  scale_density_kg_m3 = { batch_sd = 1 }\nc1 = { batch_sd = 1e-3 }";
     let design = tolerance(&sweep(ALL, DESIGN, lines), &[], 300);
     let compared: Vec<_> = design.measures.iter().filter(|m| m.discrepancy().is_some()).collect();
-    // These are dimensionless columns, columns in mm and N, and the areal mass.
+    // The compared columns are dimensionless columns, columns in mm and N, and the areal mass.
     assert!(compared.len() > 25, "{}", compared.len());
     for measure in compared {
         assert_agree(measure);
