@@ -31,7 +31,7 @@ impl OutputError {
         Self { path: path.to_owned(), reason: reason(error), advice: "check free space" }
     }
 
-    /// Creates the error for a file that squama did not write and does not replace.
+    /// Creates the error for an existing file that squama did not write and therefore keeps.
     pub fn strange(path: &Path) -> Self {
         let advice = "move the file, or choose another folder with --out DIR";
         let reason = "there is a file of that name that squama has not written".to_owned();
@@ -60,7 +60,7 @@ pub struct AtomicFile {
 }
 
 impl AtomicFile {
-    /// Starts the file `name` in `folder`.
+    /// Creates a temporary file in `folder`; [`Self::finish`] renames it to `name`.
     ///
     /// # Errors
     ///
@@ -100,7 +100,7 @@ impl Write for AtomicFile {
     }
 }
 
-/// Creates `folder` and its parents, and removes partial files that killed processes left there.
+/// Creates `folder` and its parents, and removes the partial files of killed processes in `folder`.
 ///
 /// # Errors
 ///
@@ -115,7 +115,7 @@ pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
 ///
 /// # Errors
 ///
-/// If the file cannot be read, or is a pipe or device: reading these may never end.
+/// If the file cannot be read or is not a regular file. Reading a pipe or device may never end.
 pub fn read_text(path: &Path) -> io::Result<String> {
     if fs::metadata(path)?.is_file() {
         fs::read_to_string(path)
@@ -136,7 +136,7 @@ pub fn write_text(folder: &Path, name: &str, text: &str) -> Result<String, Outpu
     file.finish()
 }
 
-/// Flushes the names of the files in `folder` to the disk.
+/// Flushes the entries (file names) of `folder` to the disk.
 pub fn sync_folder(folder: &Path) {
     // Ignore errors: not all systems can flush a folder, and the files are already on the disk.
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
@@ -153,8 +153,8 @@ mod tests {
         let mut file = AtomicFile::create(folder.path(), "x.csv").expect("writable");
         file.write_all(b"new").expect("writable");
         drop(file);
-        assert_eq!(fs::read_to_string(folder.path().join("x.csv")).expect("there"), "old");
-        assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 1);
+        assert_eq!(fs::read_to_string(folder.path().join("x.csv")).expect("readable"), "old");
+        assert_eq!(fs::read_dir(folder.path()).expect("readable").count(), 1);
     }
 
     #[test]
@@ -165,11 +165,11 @@ mod tests {
             file.write_all(text.as_bytes()).expect("writable");
             Some(file)
         });
-        let read = || fs::read_to_string(folder.path().join("x.csv")).expect("there");
+        let read = || fs::read_to_string(folder.path().join("x.csv")).expect("readable");
         for (file, text) in files.iter_mut().zip(["one", "other"]) {
             let digest = file.take().expect("a file").finish().expect("writable");
             assert_eq!((read().as_str(), digest), (text, crate::sha256(text)));
         }
-        assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 1);
+        assert_eq!(fs::read_dir(folder.path()).expect("readable").count(), 1);
     }
 }

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 
 use sha2::{Digest as _, Sha256};
 
-/// Number of bytes in each read from a source.
+/// Maximum number of bytes in one read from a source.
 const PIECE: usize = 1 << 16;
 
 /// Returns the SHA-256 of `bytes`.
@@ -44,7 +44,7 @@ pub(crate) fn digits(hasher: Sha256) -> String {
 mod tests {
     use super::*;
 
-    /// Tests the example of a message with one block for FIPS 180-4.
+    /// Tests the published example of a one-block message, "abc", for FIPS 180-4.
     #[test]
     fn sha256_matches_the_published_example() {
         let known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";

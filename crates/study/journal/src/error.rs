@@ -25,7 +25,7 @@ pub enum JournalError {
     NoJournal {
         /// Folder.
         folder: PathBuf,
-        /// Name of the first table.
+        /// Name of the first table that was found.
         file: String,
     },
     /// The folder contains no journal.
@@ -46,7 +46,7 @@ pub enum JournalError {
         line: String,
         /// Name of the table that was written from the journal.
         table: String,
-        /// Advice on how to solve everything again.
+        /// Option that solves everything again, e.g. `with --fresh`.
         again: &'static str,
     },
     /// Lines at the end of the journal are missing.
@@ -54,7 +54,7 @@ pub enum JournalError {
     LinesLost {
         /// Path of the journal.
         path: PathBuf,
-        /// Text with the number of missing lines and the number of expected lines.
+        /// Text that states the number of missing lines and the number of expected lines.
         lost: String,
     },
     /// The journal cannot be read.

@@ -94,7 +94,7 @@ impl<D: Designs> JournalHeader<D> {
         Seal::over(&[&self.definition_sha256, &self.version, &self.revision])
     }
 
-    /// Returns one SHA-256 of definition, subset of the designs and program.
+    /// Returns the SHA-256 of a text that combines definition, subset of the designs and program.
     pub fn digest(&self) -> String {
         sha256(format!("{} {}\n{}\n{}", self.version, self.revision, self.subset, self.definition))
     }
@@ -182,7 +182,7 @@ fn other_format(object: &[u8], key: &str) -> Option<(u64, String)> {
     (found != FORMAT).then_some((found, program))
 }
 
-/// Lists the keys in which the definition of a journal, `here`, differs from `there`.
+/// Lists the keys with different values in `here`, the definition of a journal, and in `there`.
 fn changes(here: &str, there: &str) -> String {
     let (here, there) = (keys(here), keys(there));
     let names: BTreeSet<_> = here.keys().chain(there.keys()).collect();

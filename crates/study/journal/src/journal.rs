@@ -6,10 +6,10 @@
 //!
 //! Damaged lines at the end of a journal come from a crash. They are copied to another file and cut
 //! off, and their designs are solved again. A damaged line before an intact line is an error,
-//! because more lines may be missing there.
+//! because more lines may be missing between them.
 //!
-//! A writer locks the journal before reading and as long as the file is open. The system releases
-//! the lock when the process ends.
+//! A writer locks the journal before it reads the lines, and holds the lock until it closes the
+//! file. The operating system releases the lock when the process ends.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Write as _};
@@ -25,18 +25,18 @@ use crate::tail;
 
 /// Time between two flushes of the journal to the disk.
 ///
-/// A power failure costs this much work. A flush takes about ten milliseconds.
+/// A power failure loses the results of about this time. A flush takes about ten milliseconds.
 const SYNC: Duration = Duration::from_secs(1);
 
 /// Maximum time to wait for a lock.
 ///
-/// A process that only checks whether the journal is in use holds a lock for a moment.
+/// A process that only checks whether the journal is in use releases its lock sooner.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Expectation, in the error message, if definition, subset or program of the journal differ.
+/// End of the error message if definition, subset or program of a journal differ.
 const ADVICE: &str = "no difference, or --fresh to discard the results";
 
-/// States whether to continue, refuse or discard existing results.
+/// Action if results exist already: refuse, continue or discard them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
     /// Starts a new journal. Existing results are an error.
@@ -70,8 +70,8 @@ impl<R: Records> Journal<R> {
     ///
     /// # Errors
     ///
-    /// If the journal is in use, is damaged, or has another header, or if it contains results and
-    /// `start` is `New`.
+    /// If the journal is in use or cannot be written. Unless `start` is `Fresh`, also if the journal
+    /// is damaged. With `New`, if it contains results; with `Resume`, if it has another header.
     pub fn begin(
         path: &Path,
         header: JournalHeader<R::Designs>,
@@ -87,7 +87,7 @@ impl<R: Records> Journal<R> {
             }
             Some((records, length)) if start == Start::Resume => {
                 records.header().require(&header, path, ADVICE)?;
-                Self::at_end(records, length, path, file)
+                Self::truncated(records, length, path, file)
             }
             _ => {
                 let cut = tail::keep(path, 0)?;
@@ -97,7 +97,7 @@ impl<R: Records> Journal<R> {
         }
     }
 
-    /// Continues the existing journal at `path`, whatever its header is.
+    /// Continues the existing journal at `path`, with the header that it has.
     ///
     /// # Errors
     ///
@@ -109,13 +109,13 @@ impl<R: Records> Journal<R> {
         }
         let file = lock_journal(path)?;
         let (records, length) = intact(path)?.ok_or_else(missing)?;
-        Self::at_end(records, length, path, file)
+        Self::truncated(records, length, path, file)
     }
 
-    /// Opens an existing journal, and cuts it off after `length` bytes.
+    /// Creates the writer of the journal in `file`, and truncates the file to `length` bytes.
     ///
-    /// The bytes that are cut off are first copied to another file.
-    fn at_end(records: R, length: u64, path: &Path, file: File) -> Result<Self, JournalError> {
+    /// The bytes after the first `length` are copied to another file before.
+    fn truncated(records: R, length: u64, path: &Path, file: File) -> Result<Self, JournalError> {
         let notes = tail::keep(path, length)?.into_iter().collect();
         file.set_len(length).map_err(|error| OutputError::file(path, &error))?;
         Ok(Self { records, path: path.to_owned(), file, length, synced: Instant::now(), notes })
@@ -138,7 +138,7 @@ impl<R: Records> Journal<R> {
         let length = bytes.len() as u64;
         let records = R::begin(header, length, path)
             .map_err(|problem| JournalError::NoHeader { path: path.to_owned(), problem })?;
-        Self::at_end(records, length, path, file)
+        Self::truncated(records, length, path, file)
     }
 
     /// Returns messages about lines that were cut off or lost.
@@ -151,7 +151,7 @@ impl<R: Records> Journal<R> {
         self.notes.push(note);
     }
 
-    /// Returns the content of all lines so far.
+    /// Returns the content of the lines in the journal.
     pub fn records(&self) -> &R {
         &self.records
     }
@@ -194,7 +194,7 @@ fn folder(path: &Path) -> PathBuf {
 /// Locks an open file or folder. The lock lasts until `file` is closed.
 ///
 /// Waits for a lock of another process for at most `PATIENCE`. Returns false if the other process
-/// still holds its lock then.
+/// still holds its lock after this time.
 fn locked(file: &File) -> io::Result<bool> {
     let begun = Instant::now();
     loop {
@@ -213,13 +213,13 @@ fn locked(file: &File) -> io::Result<bool> {
     }
 }
 
-/// Locks a folder, so that one process can write several related files.
+/// Locks a folder, so that only one process at a time writes its related files.
 ///
 /// The lock lasts until the returned file is dropped.
 ///
 /// # Errors
 ///
-/// If another process writes there, or the folder cannot be opened.
+/// If another process has locked the folder, or the folder cannot be opened.
 pub fn lock_folder(folder: &Path) -> Result<File, OutputError> {
     let file = File::open(folder).map_err(|error| OutputError::folder(folder, &error))?;
     // Ignore errors: some systems cannot lock folders. Then two processes may both write files to

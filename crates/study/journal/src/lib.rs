@@ -16,7 +16,7 @@
 //! | [`Journal`] | a journal open for writing: locked, and flushed to disk once a second |
 //! | [`Records`], [`read`] | content of the lines, and a function that reads it without a lock |
 //! | [`JournalHeader`], [`Designs`], [`Program`] | definition, designs and program of a journal |
-//! | [`Start`] | states whether to continue, refuse or discard an existing journal |
+//! | [`Start`] | action if results exist already: refuse, continue or discard them |
 //! | [`Seal`], [`Windows`] | checksum of a line, and random access to lines |
 //! | [`JournalError`], [`OutputError`] | errors: unusable journals and unwritable files |
 //! | [`AtomicFile`], [`write_text`] | files that appear only when complete, with their SHA-256 |

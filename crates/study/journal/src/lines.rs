@@ -26,7 +26,7 @@ impl<R: BufRead> Lines<R> {
         self.number
     }
 
-    /// Returns true if the source begins with `bytes`, or is shorter and a prefix of `bytes`.
+    /// Returns true if the source begins with `bytes`, or is itself a prefix of `bytes`.
     pub fn begin_with(&mut self, bytes: &[u8]) -> io::Result<bool> {
         let head = self.source.fill_buf()?;
         Ok(head.starts_with(bytes) || bytes.starts_with(head))
@@ -56,7 +56,7 @@ impl<R: BufRead> Lines<R> {
         }
     }
 
-    /// Appends bytes to the buffer up to the next line end, at most `LONGEST`.
+    /// Appends the bytes up to the next line end, at most `LONGEST` bytes, to the buffer.
     ///
     /// Returns the number of bytes read.
     fn piece(&mut self) -> io::Result<usize> {

@@ -1,9 +1,9 @@
 //! Partial files: the temporary form of atomic files.
 //!
 //! A partial file has a unique name, `.NAME.squama-PROCESS-COUNT.partial`, and must not exist
-//! before. So no file of another process is overwritten, and no target of a link. A partial file is
-//! locked as long as its process runs, so an unlocked partial file was left by a killed process. A
-//! process that is stopped by a signal removes its own partial files.
+//! before. So its creation never overwrites a file of another process or the target of a link. A
+//! partial file is locked as long as its process runs, so an unlocked partial file was left by a
+//! killed process. A process that is stopped by a signal removes its own partial files.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -14,10 +14,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Maximum number of names for one partial file.
 ///
-/// The next name is used if a file of a name exists.
+/// If a file with one of these names exists, the next name is used.
 const ATTEMPTS: usize = 100;
 
-/// Number of partial files that this process has created.
+/// Number of names of partial files that this process has used.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
 /// Paths of the existing partial files of this process.
@@ -25,7 +25,7 @@ static PRESENT: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Locks and returns the paths of the existing partial files of this process.
 fn present() -> MutexGuard<'static, Vec<PathBuf>> {
-    // A panic cannot leave a list of paths inconsistent.
+    // Ignore a panic of another thread: it cannot leave a list of paths inconsistent.
     PRESENT.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -134,8 +134,8 @@ mod tests {
             names.sort();
             names
         };
-        let strangers = [".x.csv.squama-1.partial", ".x.partial", "x.squama-1-2.partial"];
-        for name in strangers.iter().chain(&[".x.csv.squama-1-2.partial"]) {
+        let other_files = [".x.csv.squama-1.partial", ".x.partial", "x.squama-1-2.partial"];
+        for name in other_files.iter().chain(&[".x.csv.squama-1-2.partial"]) {
             fs::write(folder.path().join(name), "x").expect("writable");
         }
         let ours = PartialFile::create(folder.path(), "x.csv").expect("writable");
@@ -143,7 +143,7 @@ mod tests {
         remove_abandoned_files(folder.path());
         assert_eq!(names().len(), 4, "only the unlocked partial file is removed");
         drop(ours);
-        assert_eq!(names(), strangers);
+        assert_eq!(names(), other_files);
     }
 
     #[cfg(unix)]

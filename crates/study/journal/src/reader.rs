@@ -97,7 +97,7 @@ fn intact_from<R: Records>(
         return Err(JournalError::NoHeader { path: path.to_owned(), problem });
     }
     let first = lines.next().map_err(io)?;
-    // An incomplete first line is no error: its writer was killed before it had any results.
+    // An incomplete first line is no error: the process was killed before it wrote any results.
     let Some(first) = first.filter(|bytes| bytes.ends_with(b"\n")) else { return Ok(None) };
     let mut length = first.len() as u64;
     let header = JournalHeader::read(first, R::KEY, path)?;

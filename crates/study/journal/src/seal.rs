@@ -55,7 +55,7 @@ impl Seal {
     /// If the line has no line end, or its checksum does not match.
     pub fn open<'b>(&self, bytes: &'b mut [u8]) -> Result<&'b [u8], String> {
         let [content @ .., b'\n'] = bytes else {
-            return Err("it has no end".to_owned());
+            return Err("it has no line end".to_owned());
         };
         let end = content.len() - usize::from(content.ends_with(b"\r"));
         let content = &mut content[..end];
@@ -115,8 +115,8 @@ mod tests {
 
     #[test]
     fn lines_of_another_journal_are_refused() {
-        let (own, other) = (Seal::over(&["a"]), Seal::over(&["b"]));
-        assert!(own.read::<Line>(&mut other.seal(&line())).is_err());
+        let (first, second) = (Seal::over(&["a"]), Seal::over(&["b"]));
+        assert!(first.read::<Line>(&mut second.seal(&line())).is_err());
     }
 
     proptest! {

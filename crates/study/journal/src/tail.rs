@@ -9,7 +9,7 @@ use crate::atomic_file::OutputError;
 /// Copies all bytes of the journal at `path` after the first `length` to a new file.
 ///
 /// The new file is in the folder of the journal. Returns a message for the user about the copy, or
-/// `None` if there are no such bytes.
+/// `None` if the journal is not longer than `length` bytes.
 pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, OutputError> {
     let unkept = |error: io::Error| OutputError::file(path, &error);
     let mut journal = File::open(path).map_err(unkept)?;

@@ -45,7 +45,7 @@ struct ComparedColumn {
 /// Absolute difference that counts as round-off, as a fraction of the largest value of a column.
 const ROUND_OFF: f64 = 1e-14;
 
-/// Error of a comparison.
+/// Error: two runs cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidComparison {
     /// The results of a run cannot be read.
@@ -59,9 +59,9 @@ pub enum InvalidComparison {
     Ambiguous {
         /// File name of the table.
         file: String,
-        /// Number of a design.
+        /// Number of the first of the two designs.
         first: String,
-        /// Number of another design.
+        /// Number of the second of the two designs.
         second: String,
     },
 }
@@ -85,7 +85,7 @@ pub struct ColumnDifference {
     pub absolute: Option<Extreme>,
     /// Spearman's rank correlation of the numbers in both runs.
     pub correlation: Option<f64>,
-    /// Texts in the first and second run, and number of designs with this change.
+    /// Pairs of different texts in the first and second run, with the number of designs of each.
     pub changes: BTreeMap<(String, String), usize>,
 }
 
@@ -96,7 +96,7 @@ impl ColumnDifference {
     }
 }
 
-/// Largest difference in a column, and the design that has this difference.
+/// Largest difference in a column, with its design and its two values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
     /// Size of the difference.
@@ -109,7 +109,7 @@ pub struct Extreme {
     pub second: f64,
 }
 
-/// A cell with different values in both runs.
+/// A cell of both runs: the values of one matched design in one column.
 #[derive(Clone, Copy, Debug)]
 pub struct Difference<'a> {
     first: &'a Results,
@@ -279,7 +279,7 @@ impl Comparison<'_> {
         column
     }
 
-    /// Returns every cell that differs.
+    /// Returns the cells with different values in both runs.
     fn differences(&self) -> impl Iterator<Item = Difference<'_>> {
         // The iterator is lazy, because two long runs may differ in every cell.
         let cells = move |rows: [usize; 2]| {
@@ -313,7 +313,7 @@ impl Comparison<'_> {
 }
 
 impl ColumnDifference {
-    /// Updates the largest differences or the changes of texts by a cell with values in both runs.
+    /// Includes `cell`, which has values in both runs, in the largest differences or `changes`.
     fn add(&mut self, cell: &Difference<'_>) {
         let Some(pair) = cell.numbers() else {
             let [first, second] = cell.texts().map(Cow::into_owned);

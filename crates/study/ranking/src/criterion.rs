@@ -37,14 +37,14 @@ pub static CRITERIA: [Criterion; 4] = [
     Criterion::known("flexural compliance", name::COMPLIANCE, Goal::Maximize),
 ];
 
-/// Parameters by which dimensionless values are converted to physical units.
+/// Keys of the parameters that convert dimensionless values to physical units.
 const UNITS: [&str; 3] = [key::THICKNESS, key::SUBSTRATE_MODULUS, key::MEMBRANE_MODULUS];
 
-/// Text that is not a criterion.
+/// Error: a text is not a criterion.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{found} is not accepted, expected max:COLUMN or min:COLUMN, e.g. max:{}", column(found))]
 pub struct InvalidCriterion {
-    /// The text.
+    /// The invalid text.
     pub found: String,
 }
 
@@ -81,8 +81,8 @@ impl Criterion {
 
     /// Creates the criterion to maximise or minimise a column.
     pub fn new(column: &str, goal: Goal) -> Self {
-        // A criterion of the paper has the name of the paper, because `are_the_papers` also
-        // compares names.
+        // A criterion of the paper must have its name in `CRITERIA`, because
+        // `Preferences::are_the_papers` also compares names.
         let known = CRITERIA.iter().find(|known| known.column == column && known.goal == goal);
         known.cloned().unwrap_or_else(|| Self {
             name: format!("{} {column}", ["largest", "least"][usize::from(goal == Goal::Minimize)])
@@ -143,9 +143,9 @@ mod tests {
             assert_eq!(criterion.to_string().parse().as_ref(), Ok(criterion));
             assert_eq!(criterion.column.parse().as_ref(), Ok(criterion));
         }
-        let own: Criterion = "max: gap_over_t".parse().expect("a criterion");
+        let gap: Criterion = "max: gap_over_t".parse().expect("a criterion");
         assert_eq!(
-            (own.to_string(), own.name.as_ref()),
+            (gap.to_string(), gap.name.as_ref()),
             ("max:gap_over_t".into(), "largest gap_over_t")
         );
         assert_eq!(Criterion::new("penetration", Goal::Maximize).key(), "penetration");

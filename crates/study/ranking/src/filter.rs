@@ -35,10 +35,10 @@ impl<'a> RequirementFilter<'a> {
     ///
     /// If a cell is not a number.
     pub fn first_unmet(&self, row: usize) -> Result<Option<usize>, InvalidResults> {
-        for (place, (requirement, column)) in self.requirements.iter().enumerate() {
+        for (index, (requirement, column)) in self.requirements.iter().enumerate() {
             let value = self.results.number(row, *column)?;
             if !value.is_some_and(|value| requirement.is_met(value)) {
-                return Ok(Some(place));
+                return Ok(Some(index));
             }
         }
         Ok(None)

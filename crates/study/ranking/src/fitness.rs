@@ -14,14 +14,14 @@ use crate::criterion::Criterion;
 use crate::scale::Scale;
 use crate::weights::Weights;
 
-/// Criteria of a fitness, with their weights and the ends that the goal gives.
+/// Criteria of a fitness, with their weights and the worst and best values that the goal gives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitnessGoal {
     /// Criteria.
     pub criteria: Vec<Criterion>,
     /// Weights of the criteria.
     pub weights: Weights,
-    /// Ends that the goal gives. The ends of other criteria come from samples of the search.
+    /// Worst and best values that the goal gives; the search samples the values of other criteria.
     pub ends: Vec<CriterionEnds>,
 }
 
@@ -36,20 +36,21 @@ pub struct CriterionEnds {
     pub best: f64,
 }
 
-/// A criterion with its goal, its weight, and the criteria at the worst and the best value.
+/// Direction and weight of a criterion, and its values at the worst and the best end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RescaledCriterion {
     goal: Goal,
     weight: f64,
+    /// Criterion at the worst and at the best value of the column; `None` if these are unknown.
     ends: Option<(f64, f64)>,
 }
 
 impl CriterionEnds {
     /// Returns the worst and the best of `values`, which are values of the column of `criterion`.
     ///
-    /// `None` if no value has a criterion.
+    /// `None` if no value can be converted to a criterion (R1).
     pub fn of(criterion: &Criterion, values: impl Iterator<Item = f64>) -> Option<Self> {
-        // Ignore values without a criterion, such as a penetration of 0, which has no inverse.
+        // Ignore values that give no criterion, such as a penetration of 0, which has no inverse.
         let (low, high) = values
             .filter(|value| Scale::Paper.criterion(criterion.goal, *value).is_some())
             .map(|value| (value, value))
@@ -84,7 +85,7 @@ impl FitnessGoal {
 impl RescaledCriterion {
     /// Returns the rescaled criterion of `value`: 0 at the worst end, 1 at the best (R2).
     ///
-    /// `None` without ends, or if `value` has no criterion.
+    /// `None` if the ends are unknown, or if `value` cannot be converted to a criterion (R1).
     fn of(&self, value: f64) -> Option<f64> {
         Some(rescaled(Scale::Paper.criterion(self.goal, value)?, self.ends?))
     }
@@ -97,7 +98,7 @@ impl RescaledCriterion {
 
     /// Returns the derivative of [`Self::part`] with respect to the value.
     ///
-    /// The derivative is 0 if both ends are equal, because the criterion then does not count.
+    /// The derivative is 0 if both ends are equal, because the rescaled criterion is then always 1.
     pub fn rate(&self, value: f64) -> Option<f64> {
         let (worst, best) = self.ends?;
         // Callers never differentiate where `rescaled` is 0, because the fitness is 0 there.
@@ -110,7 +111,7 @@ impl RescaledCriterion {
 
 /// Rescales a value linearly: 0 for the smallest value `low`, 1 for the largest value `high` (R2).
 ///
-/// Returns 1 if `low` and `high` are equal, so that the criterion does not count.
+/// Returns 1 if `low` and `high` are equal, so that the criterion does not change the fitness.
 pub(crate) fn rescaled(value: f64, (low, high): (f64, f64)) -> f64 {
     if high > low { (value - low) / (high - low) } else { 1.0 }
 }
@@ -134,10 +135,10 @@ mod tests {
         let fitness = |coverage: f64, gap: f64| {
             (parts[0].part(coverage).expect("a part") + parts[1].part(gap).expect("a part")).exp()
         };
-        // The inverse of the gap, 1.5, is halfway between 1 and 2.
+        // The inverse of the gap, 1.5, is halfway between 1 (worst) and 2 (best).
         let gap = 1.0 / 1.5;
-        for (coverage, share) in [(0.7, 1.0_f64), (0.45, 0.5), (1.2, 2.0)] {
-            let expected = share.powf(0.25) * 0.5_f64.powf(0.75);
+        for (coverage, rescaled) in [(0.7, 1.0_f64), (0.45, 0.5), (1.2, 2.0)] {
+            let expected = rescaled.powf(0.25) * 0.5_f64.powf(0.75);
             assert!((fitness(coverage, gap) - expected).abs() < 1e-14);
         }
         assert_eq!([fitness(0.2, gap), fitness(0.1, gap)], [0.0, 0.0]);

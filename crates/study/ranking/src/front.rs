@@ -4,19 +4,19 @@ use std::cmp::Ordering;
 
 use text::number::same;
 
-/// Point with four coordinates; larger is better.
+/// Point with four coordinates; larger coordinates are better.
 type Quadruple = [f64; 4];
 
 /// Marks the points on the Pareto front.
 ///
-/// Each point has `count` consecutive criteria.
+/// Each point consists of `count` consecutive numbers in `criteria`.
 pub(crate) fn front_of(criteria: &[f64], count: usize) -> Vec<bool> {
     let points = criteria.chunks_exact(count);
     // `pareto_front` is limited to four coordinates.
     if count > 4 {
         return sifted(&points.collect::<Vec<_>>());
     }
-    // Fill up to four coordinates by 0 for all points, which does not change dominance.
+    // Set missing coordinates to 0 in all points, which does not change dominance.
     let points = points.map(|point| std::array::from_fn(|c| point.get(c).copied().unwrap_or(0.0)));
     pareto_front(&points.collect::<Vec<_>>())
 }
@@ -61,13 +61,13 @@ pub fn pareto_front(points: &[Quadruple]) -> Vec<bool> {
         descending_ranks(&groups.iter().map(|group| points[group[0]][2]).collect::<Vec<_>>());
     let candidates = groups.iter().enumerate().map(|(group, members)| {
         let [_, second, _, fourth] = points[members[0]];
-        Point { group, second, third: thirds[group], fourth, beaten: false }
+        Point { group, second, third: thirds[group], fourth, dominated: false }
     });
     let mut candidates: Vec<_> = candidates.collect();
     let mut best = PrefixMaxima { values: vec![f64::NEG_INFINITY; groups.len() + 1] };
     divide(&mut candidates, &mut best);
     let mut front = vec![false; points.len()];
-    for candidate in candidates.iter().filter(|candidate| !candidate.beaten) {
+    for candidate in candidates.iter().filter(|candidate| !candidate.dominated) {
         groups[candidate.group].iter().for_each(|&point| front[point] = true);
     }
     front
@@ -96,7 +96,7 @@ struct Point {
     third: usize,
     fourth: f64,
     /// True if another point dominates this point.
-    beaten: bool,
+    dominated: bool,
 }
 
 /// Marks the dominated candidates.
@@ -119,18 +119,19 @@ fn divide(candidates: &mut [Point], best: &mut PrefixMaxima) {
 
 /// Marks the points of `later` that a point of `earlier` dominates.
 ///
-/// `earlier` and `later` are in descending order of the second coordinate. The first coordinate of
-/// no point in `earlier` is smaller than in `later`.
+/// `earlier` and `later` are in descending order of the second coordinate. No point of `earlier`
+/// has a smaller first coordinate than a point of `later`.
 fn conquer(earlier: &[Point], later: &mut [Point], best: &mut PrefixMaxima) {
     let mut above = 0;
     for candidate in later {
-        // Include ties in the second coordinate. No coordinate of such an earlier point is smaller,
-        // and one is larger, because equal points form one candidate.
+        // Include ties in the second coordinate: an earlier point with no coordinate smaller
+        // dominates `candidate`, because equal points form one candidate and so one of its
+        // coordinates is larger.
         while above < earlier.len() && earlier[above].second >= candidate.second {
             best.raise(earlier[above].third, earlier[above].fourth);
             above += 1;
         }
-        candidate.beaten |= best.up_to(candidate.third) >= candidate.fourth;
+        candidate.dominated |= best.up_to(candidate.third) >= candidate.fourth;
     }
     // Clear only the raised nodes. Clearing the whole tree in every call would cost time in
     // proportion to the number of all points.

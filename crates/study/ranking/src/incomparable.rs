@@ -56,8 +56,8 @@ fn remedy(parameter: &str) -> &'static str {
 /// let table = "design,critical_tilt_deg,critical_force\n0001,5,1\n0002,10,2\n";
 /// std::fs::write(folder.path().join("designs.csv"), table)?;
 /// let groups = comparable_groups(&Results::read(folder.path())?, &Preferences::paper())?;
-/// let held: Vec<_> = groups.iter().map(|group| group.requirements[0].to_string()).collect();
-/// assert_eq!(held, ["critical_tilt_deg == 5", "critical_tilt_deg == 10"]);
+/// let added: Vec<_> = groups.iter().map(|group| group.requirements[0].to_string()).collect();
+/// assert_eq!(added, ["critical_tilt_deg == 5", "critical_tilt_deg == 10"]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn comparable_groups(

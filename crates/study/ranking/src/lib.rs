@@ -15,7 +15,7 @@
 //! | [`Preferences`] | requirements, criteria, weights and scale, as stored in `ranking.toml` |
 //! | [`Requirement`], [`Relation`] | bound on a column |
 //! | [`CRITERIA`], [`Criterion`], [`Goal`] | columns to be maximised or minimised |
-//! | [`Weights`], [`Scale`] | weights of the criteria, and how they are rescaled and combined |
+//! | [`Weights`], [`Scale`] | weights of the criteria, and the rule to rescale and combine criteria |
 //! | [`Ranking`], [`RankedDesign`] | designs in the order of their fitness |
 //! | [`Unmet`] | nearest design and binding requirements, if no design meets all requirements |
 //! | [`check_comparable`], [`comparable_groups`] | designs with comparable criteria |

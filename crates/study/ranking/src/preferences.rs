@@ -34,7 +34,7 @@ pub struct Preferences {
     pub scale: Scale,
 }
 
-/// Error in preferences.
+/// Error: preferences are not valid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InvalidPreferences {
     /// The numbers of weights and of criteria differ.
@@ -167,8 +167,8 @@ impl Preferences {
                 _ => return Err(unknown(&entry)),
             }
         }
-        // Leave out the weights of the paper: if the file gives no weights, all criteria have
-        // equal weights, whatever their number.
+        // Ignore the four weights in `found`: if the file gives no weights, all of its criteria,
+        // which need not be four, have equal weights.
         let Self { requirements, criteria, scale, .. } = found;
         Self::new(requirements, criteria, weights, scale).map_err(|error| InvalidPreferences::Key {
             place,

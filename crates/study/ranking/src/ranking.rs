@@ -49,7 +49,7 @@ struct Wins {
     cells: u64,
 }
 
-/// Error of a ranking.
+/// Error: designs cannot be ranked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InvalidRanking {
     /// The results cannot be read.
@@ -99,19 +99,19 @@ impl<'a> RankedDesign<'a> {
         self.ranking.results.design(self.row())
     }
 
-    /// Returns the value of the design in the column of a criterion, given by index.
+    /// Returns the value of the design in the column of the criterion with this index.
     pub fn value(&self, criterion: usize) -> f64 {
         let column = self.ranking.contenders.columns[criterion];
         // The cell is a number, which was checked when the ranking was created.
         self.ranking.results.table().number(self.row(), column).unwrap_or(f64::NAN)
     }
 
-    /// Returns a criterion of the design, given by index; larger is better (R1).
+    /// Returns the criterion with this index for the design; larger is better (R1).
     pub fn criterion(&self, criterion: usize) -> f64 {
         contenders::criterion(&self.ranking.preferences, criterion, self.value(criterion))
     }
 
-    /// Returns a criterion of the design, given by index, rescaled from 0 (worst) to 1 (best).
+    /// Returns the criterion with this index for the design, rescaled from 0 (worst) to 1 (best).
     pub fn rescaled(&self, criterion: usize) -> f64 {
         self.ranking.contenders.rescaled(criterion, self.criterion(criterion))
     }
@@ -145,8 +145,8 @@ impl<'r> Ranking<'r> {
 
     /// Ranks the designs of `results` by `preferences`.
     ///
-    /// Designs are excluded if they miss a requirement or lack a criterion. With four criteria, the
-    /// best design is determined at every node of `grid`, a grid of weights.
+    /// Designs are excluded if they miss a requirement, or if a criterion has no value. With four
+    /// criteria, the best design is determined at every node of `grid`, a grid of weights.
     ///
     /// # Errors
     ///
@@ -156,10 +156,10 @@ impl<'r> Ranking<'r> {
         preferences: Preferences,
         grid: TetrahedralGrid,
     ) -> Result<Self, InvalidRanking> {
-        let (contenders, reasons) = contenders::sort_out(results, &preferences)?;
+        let (contenders, reasons) = contenders::select(results, &preferences)?;
         let unmet: usize = reasons.iter().filter(|(why, _)| why.is_unmet()).map(|(_, n)| n).sum();
-        // A design that is excluded for another reason meets the requirements, so the requirements
-        // cannot be met only if they exclude all designs.
+        // A design that is excluded for another reason meets all requirements. So no design meets
+        // all requirements only if every design is excluded by a requirement.
         if unmet > 0 && unmet == results.len() {
             return Err(InvalidRanking::Unmet(Unmet::of(results, &preferences.requirements)?));
         }
@@ -171,9 +171,9 @@ impl<'r> Ranking<'r> {
         let winners = winners(&contenders, grid);
         let mut wins: BTreeMap<usize, Wins> = BTreeMap::new();
         for (&winner, steps) in winners.iter().zip(grid.nodes()) {
-            let own = wins.entry(winner).or_default();
-            own.nodes += 1;
-            own.cells += TetrahedralGrid::cell(steps);
+            let extent = wins.entry(winner).or_default();
+            extent.nodes += 1;
+            extent.cells += TetrahedralGrid::cell(steps);
         }
         Ok(Self { results, preferences, grid, contenders, winners, wins, left_out })
     }
@@ -267,9 +267,14 @@ impl<'r> Ranking<'r> {
         let mut columns = criteria.map(|column| &**column).chain(required);
         columns.find(|column| is_invalid_after_fold(column))?;
         // The cell of the fold force is empty if the surface does not fold.
-        let is_open = |design: &RankedDesign<'_>| self.results.table().is_empty(design.row(), fold);
-        let best = self.winner(self.preferences.weights);
-        if is_open(&best) { None } else { self.by_fitness(self.preferences.weights).find(is_open) }
+        let is_unfolded =
+            |design: &RankedDesign<'_>| self.results.table().is_empty(design.row(), fold);
+        let weights = self.preferences.weights;
+        if is_unfolded(&self.winner(weights)) {
+            None
+        } else {
+            self.by_fitness(weights).find(is_unfolded)
+        }
     }
 
     /// Counts the designs, besides the winner, with the best fitness for `weights` up to round-off.
@@ -449,7 +454,7 @@ pub fn write_unmet(
 ) -> Result<(&'static str, File), OutputError> {
     let folder = ResultsFolder::new(folder);
     let claim = Claim::take(&folder, Maker::Ranking)?;
-    // Write the preferences, because the page of the run shows these requirements at first.
+    // Write the preferences, because the HTML page of the run first shows these requirements.
     folder.write_text(ResultsFolder::PREFERENCES, &preferences.to_toml())?;
     let lock = claim.state(&[ResultsFolder::PREFERENCES])?;
     Ok((ResultsFolder::PREFERENCES, lock))

@@ -85,7 +85,7 @@ impl Requirement {
         self.relation.direction()
     }
 
-    /// Returns the unit of margins: the absolute limit, or 1 if the limit is 0.
+    /// Returns the unit of margins: the magnitude of the limit, or 1 if the limit is 0.
     pub fn size(&self) -> f64 {
         if self.limit == 0.0 { 1.0 } else { self.limit.abs() }
     }
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn each_relation_accepts_the_right_values() {
+    fn relations_accept_values_on_their_side_of_the_limit() {
         for (text, met) in [
             ("a >= 2", [false, true, true]),
             ("a <= 2", [true, true, false]),

@@ -10,7 +10,7 @@ use crate::pain::PainLimit;
 use crate::requirement::{Relation, Requirement};
 use crate::standard::Standard;
 
-/// Text that is not a requirement.
+/// Error: a text is not a requirement.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{found} is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6, or a level of a standard: {}, or a limit of a body part: {}",
@@ -18,7 +18,7 @@ use crate::standard::Standard;
     PainLimit::names()
 )]
 pub struct InvalidRequirement {
-    /// The text.
+    /// The invalid text.
     pub found: String,
 }
 

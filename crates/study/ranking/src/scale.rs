@@ -20,7 +20,7 @@ pub enum Scale {
     Log,
 }
 
-/// Text that is not the name of a scale.
+/// Error: a text is not the name of a scale.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0} is not accepted, expected paper, linear or log")]
 pub struct UnknownScale(pub String);
@@ -56,7 +56,8 @@ impl Scale {
 
     /// Returns the term of a rescaled criterion in the score, without its weight.
     pub(crate) fn term(self, rescaled: f64) -> f64 {
-        // The term is −∞ at the worst value, so that the fitness is 0 whatever the other criteria.
+        // On the scale of the paper the term is −∞ at the worst value, so that the fitness is 0
+        // for any values of the other criteria.
         if self == Self::Paper { rescaled.ln() } else { rescaled }
     }
 

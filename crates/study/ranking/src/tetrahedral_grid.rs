@@ -22,14 +22,14 @@ impl Default for TetrahedralGrid {
 /// Weights of a node, in steps of the grid. The sum of the steps is the resolution.
 pub type Steps = [u32; 4];
 
-/// Invalid resolution of a grid.
+/// Error: the resolution of a grid is not valid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{found} is not accepted, expected a whole number of steps from 1 to {}",
     TetrahedralGrid::FINEST
 )]
 pub struct InvalidResolution {
-    /// The given text.
+    /// The invalid text.
     pub found: String,
 }
 
@@ -67,7 +67,7 @@ impl TetrahedralGrid {
         steps.map(|step| f64::from(step) / f64::from(self.resolution))
     }
 
-    /// Returns the volume of the tetrahedron closest to a node (R5), in units of 1/72 of a cell.
+    /// Returns the part of the tetrahedron's volume closest to a node (R5), in 1/72 of a cell.
     ///
     /// The nodes form a face-centred cubic lattice, with one cell per node. The tetrahedron
     /// contains half of the cell of a node on a face, 7/36 of a cell on an edge, and 1/24 of a cell

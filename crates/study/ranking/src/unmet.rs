@@ -61,7 +61,7 @@ impl Unmet {
         requirements: &[Requirement],
         nearest: Option<usize>,
     ) -> Self {
-        // Use the same sizes as the search, relative to which shortfalls are computed.
+        // The shortfalls must be relative to the same sizes as in the search.
         let sizes: Vec<f64> = requirements.iter().map(Requirement::size).collect();
         Self::by_sizes(values, requirements, &sizes, |_| nearest)
     }
@@ -97,12 +97,12 @@ impl Unmet {
     }
 }
 
-/// Returns true if a design meets every requirement except `one`.
-fn meets_others(shortfalls: &[f64], one: usize) -> bool {
-    shortfalls.iter().enumerate().all(|(k, shortfall)| k == one || *shortfall == 0.0)
+/// Returns true if a design meets all requirements, without regard to the requirement `ignored`.
+fn meets_others(shortfalls: &[f64], ignored: usize) -> bool {
+    shortfalls.iter().enumerate().all(|(k, shortfall)| k == ignored || *shortfall == 0.0)
 }
 
-/// Returns the size relative to which shortfalls of requirement `k` are computed.
+/// Returns the size by which shortfalls of requirement `k` are divided.
 ///
 /// This is the magnitude of the limit or, if the limit is 0, the largest magnitude of the values.
 fn size(values: &[Vec<Option<f64>>], k: usize, requirement: &Requirement) -> f64 {

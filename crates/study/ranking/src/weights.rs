@@ -23,7 +23,7 @@ pub struct Weights {
 /// weights are kept instead of being divided by their sum.
 const SUM_TOLERANCE: f64 = 1e-9;
 
-/// Invalid weights.
+/// Error: weights are not valid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InvalidWeights {
     /// A weight is not a number.
@@ -59,17 +59,17 @@ impl Weights {
         Self { values: std::array::from_fn(|c| if c < count { weight } else { 0.0 }), count }
     }
 
-    /// Returns, for each criterion of the paper, weights of 1 for it and of 0 for all others.
+    /// Returns, for each criterion of the paper, the weights 1 for this criterion and 0 for others.
     ///
     /// The order is the order of [`CRITERIA`](crate::CRITERIA).
     pub fn alone() -> impl Iterator<Item = Self> {
         Self::alone_among(4)
     }
 
-    /// Returns, for each of `count` criteria, weights of 1 for it and of 0 for all others.
+    /// Returns, for each of `count` criteria, the weights 1 for this criterion and 0 for others.
     pub fn alone_among(count: usize) -> impl Iterator<Item = Self> {
-        (0..count).map(move |own| {
-            let values = std::array::from_fn(|c| f64::from(u8::from(c == own)));
+        (0..count).map(move |only| {
+            let values = std::array::from_fn(|c| f64::from(u8::from(c == only)));
             Self { values, count }
         })
     }
@@ -92,10 +92,10 @@ impl Weights {
         if sum <= 0.0 {
             return Err(InvalidWeights::Nothing);
         }
-        let share =
+        let scaled =
             |weight: f64| if (sum - 1.0).abs() <= SUM_TOLERANCE { weight } else { weight / sum };
         Ok(Self {
-            values: std::array::from_fn(|c| weights.get(c).map_or(0.0, |weight| share(*weight))),
+            values: std::array::from_fn(|c| weights.get(c).map_or(0.0, |weight| scaled(*weight))),
             count,
         })
     }
@@ -176,10 +176,10 @@ mod tests {
 
     #[test]
     fn a_criterion_without_weight_is_ignored() {
-        let mut ruined = [0.0; MOST_CRITERIA];
-        ruined[..2].copy_from_slice(&[0.5_f64.ln(), f64::NEG_INFINITY]);
+        let mut terms = [0.0; MOST_CRITERIA];
+        terms[..2].copy_from_slice(&[0.5_f64.ln(), f64::NEG_INFINITY]);
         let fitness =
-            |weights: [f64; 4]| Weights::new(&weights).expect("weights").score(&ruined).exp();
+            |weights: [f64; 4]| Weights::new(&weights).expect("weights").score(&terms).exp();
         assert!((fitness([1.0, 0.0, 0.0, 0.0]) - 0.5).abs() < 1e-15);
         assert_eq!(fitness([0.9, 0.1, 0.0, 0.0]).to_bits(), 0);
         assert_eq!(fitness([0.0, 0.0, 1.0, 0.0]).to_bits(), 1.0_f64.to_bits());

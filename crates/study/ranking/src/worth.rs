@@ -9,8 +9,8 @@ pub struct Worth {
     pub objectives: Vec<f64>,
     /// Objectives used to compare designs.
     ///
-    /// A yield is a step function of the design. Its value here also contains a fraction of the
-    /// next step, so that designs with equal yields can be compared.
+    /// A yield is a step function of the design. In this field, a yield also contains a fraction of
+    /// the next step, so that designs with equal yields can be compared.
     pub compared: Vec<f64>,
     /// Values of the required columns.
     pub required: Vec<f64>,

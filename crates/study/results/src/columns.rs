@@ -96,7 +96,7 @@ pub fn needs_parameter(name: &str, key: &str) -> bool {
     about(name).is_some_and(|(value, _)| value.needs.contains(&key))
 }
 
-/// Returns the column that names the failure mode of a force, if the force is a failure force.
+/// Returns the column of the failure mode, if the column `name` contains failure forces.
 ///
 /// All outputs show force and mode together, also for quantiles and in physical units.
 pub fn mode_column(name: &str) -> Option<&'static str> {
@@ -147,12 +147,12 @@ pub struct TableLayout {
 
 /// Returns the layouts of `designs.csv` and of the tables of the requested measures of `sweep`.
 pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
-    let asked = MEASURE_TABLES.iter().filter(|(_, measure)| sweep.measures().contains(measure));
+    let requested = MEASURE_TABLES.iter().filter(|(_, measure)| sweep.measures().contains(measure));
     let mut tables = vec![TableLayout {
         file: ResultsFolder::DESIGNS.to_owned(),
         columns: design_columns(sweep),
     }];
-    tables.extend(asked.map(|(table, _)| TableLayout {
+    tables.extend(requested.map(|(table, _)| TableLayout {
         file: ResultsFolder::measure_table(table),
         columns: columns(sweep, Some(table)),
     }));
@@ -168,12 +168,12 @@ pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
 
 /// Returns the columns of one measure table, or of `designs.csv` for `None`.
 ///
-/// Order: number, geometry, leading values, axes that not every sweep has, other values, values at
+/// Order: number, geometry, leading values, axes other than the geometry, other values, values at
 /// several tilts, values in physical units. In a sweep with a thickness, lengths in mm come before
 /// the geometry, and values in physical units before the dimensionless values that they replace.
 fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
-    let standing = COLUMNS.iter().filter(|column| column.is_available(sweep, table));
-    let (physical, values): (Vec<_>, Vec<_>) = standing.partition(|column| column.is_physical());
+    let available = COLUMNS.iter().filter(|column| column.is_available(sweep, table));
+    let (physical, values): (Vec<_>, Vec<_>) = available.partition(|column| column.is_physical());
     let (leading, others): (Vec<_>, Vec<_>) = values.into_iter().partition(|column| match table {
         Some(table) => column.name == table,
         None => column.names_a_table(),
@@ -228,7 +228,7 @@ fn geometry_columns<R: Borrow<DesignRow>>() -> impl Iterator<Item = Column<R>> {
     Parameter::with(Role::Geometry).map(parameter_column)
 }
 
-/// Returns the columns of the axes of `sweep` that not every grid has.
+/// Returns the columns of the axes of `sweep`, except the axes of the geometry.
 fn axis_columns<R: Borrow<DesignRow>>(sweep: &Sweep) -> impl Iterator<Item = Column<R>> {
     let axes = sweep.grid().axes().iter().map(Axis::parameter);
     axes.filter(|parameter| !parameter.has(Role::Geometry)).map(parameter_column)
@@ -242,7 +242,7 @@ fn columns_in_mm(sweep: &Sweep) -> impl Iterator<Item = Column<DesignRow>> {
     })
 }
 
-/// Returns the column of the width over the thickness, unless it is an axis.
+/// Returns the column of the width divided by the thickness, unless this parameter is an axis.
 fn width_column(sweep: &Sweep) -> Option<Column<DesignRow>> {
     let width = Parameter::named(key::WIDTH)?;
     sweep.grid().axis(width.key).is_none().then(|| parameter_column(width))

@@ -10,7 +10,7 @@ use sweep::Measure;
 use crate::columns::name;
 use crate::tables::csv_format::CsvFormat;
 
-/// Leading value of each measure table, after which the table is named, and its measure.
+/// Name and measure of each measure table; the name is the name of the leading value.
 pub const MEASURE_TABLES: [(&str, Measure); 4] = [
     (name::COVERAGE, Measure::Coverage),
     (name::CRITICAL_FORCE, Measure::Puncture),
@@ -170,7 +170,7 @@ impl FileEntry {
 
 /// The folder of a run.
 ///
-/// Defines the names of all files that squama writes there and reads back.
+/// The constants are the names of the files that squama writes to the folder and reads back.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ResultsFolder {
     path: PathBuf,
@@ -296,7 +296,7 @@ impl ResultsFolder {
         write_text(&self.path, name, text)
     }
 
-    /// Flushes the renamed files to the disk.
+    /// Flushes the entries (file names) of the folder to the disk.
     pub fn sync(&self) {
         sync_folder(&self.path);
     }
@@ -310,8 +310,8 @@ impl ResultsFolder {
     /// a fresh run discards them.
     pub fn require_own(&self, maker: Maker, start: Start) -> Result<(), JournalError> {
         // Test for links without following them, because a dangling link would be replaced too.
-        let is_there = |file: &&FileEntry| fs::symlink_metadata(self.file(file.name)).is_ok();
-        let mut journals = FILES.iter().filter(|file| file.role == Role::Journal).filter(is_there);
+        let exists = |file: &&FileEntry| fs::symlink_metadata(self.file(file.name)).is_ok();
+        let mut journals = FILES.iter().filter(|file| file.role == Role::Journal).filter(exists);
         if let Some(other) = journals.clone().find(|file| file.maker != maker) {
             let what = if other.maker == Maker::Run { "a run" } else { "a search" };
             return Err(JournalError::Holds { folder: self.path.clone(), what });
@@ -320,7 +320,7 @@ impl ResultsFolder {
         if maker != Maker::Run || start == Start::Fresh || journals.next().is_some() {
             return Ok(());
         }
-        let stray = FileEntry::products(maker).find(is_there);
+        let stray = FileEntry::products(maker).find(exists);
         stray.map_or(Ok(()), |stray| {
             let (folder, file) = (self.path.clone(), stray.name.to_owned());
             Err(JournalError::NoJournal { folder, file })
@@ -331,8 +331,8 @@ impl ResultsFolder {
     pub fn remove_tables_but(&self, files: &[String]) {
         // Keep the record and the contents of the run, which are overwritten after the tables.
         let tables = FileEntry::products(Maker::Run).filter(|file| file.role == Role::Table);
-        let gone = tables.filter(|file| files.iter().all(|kept| kept != file.name));
-        gone.for_each(|file| self.remove(file.name));
+        let removed = tables.filter(|file| files.iter().all(|kept| kept != file.name));
+        removed.for_each(|file| self.remove(file.name));
     }
 
     /// Removes the tables and the contents of an earlier run, but not its journal.

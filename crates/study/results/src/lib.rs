@@ -9,7 +9,7 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`DesignResult`], [`PunctureResult`], [`FlexureResult`], [`Outcome`], [`Failure`] | all measures of a solved design, and the reasons for missing ones |
+//! | [`DesignResult`], [`PunctureResult`], [`FlexureResult`], [`Outcome`], [`Failure`] | all measures of a solved design, and the reasons for missing measures |
 //! | [`SolvedDesign`] | the result of a design with its paths |
 //! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |

@@ -25,8 +25,8 @@ pub struct PathTable {
 
 impl PathTable {
     fn new<R>(file: &'static str, columns: &[Column<R>], rows: &[R]) -> Self {
-        // The type of a row differs between the tables. Compute the cells here, so that all path
-        // tables have the same type.
+        // The type of a row differs between the tables. Compute the cells before they are written,
+        // so that all path tables have the same type.
         let filled = |column: &Column<R>| {
             let cells: Vec<Cell> = rows.iter().map(|row| column.cell(row)).collect();
             Column::computed(
@@ -105,7 +105,7 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
 fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
     let [path, events, scales, steps] = ResultsFolder::FLEXURE;
     let columns = flexure_path_columns(flexure.has_friction());
-    // A path without equilibria has no shape, so its table has no rows.
+    // A path without equilibria has no shape, so the table of its scales has no rows.
     let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
     let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();
     let mut tables = vec![

@@ -5,8 +5,8 @@ use sweep::{Case, Sweep, key};
 
 /// The kind of a dimensionless value. It defines the conversion to physical units.
 ///
-/// The equations are U1–U7 of `docs/theory/model.md`, with the thickness `t`, the moduli `E_s` and
-/// `E_m`, the width `b`, and `I_m = b h³/12` of the membrane:
+/// The equations are (U1)–(U7) and (U9) of `docs/theory/model.md`, with the thickness `t`, the
+/// moduli `E_s` and `E_m`, the width `b`, and `I_m = b h³/12` of the membrane:
 ///
 /// ```text
 /// length           u  = u* t                                                           (U1)

@@ -34,7 +34,7 @@ pub struct Results {
     definition: Option<Sweep>,
 }
 
-/// A folder without results, or with results of another kind.
+/// Error: a folder has no results, or results of another kind.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidResults {
     /// The folder contradicts its contents.

@@ -1,6 +1,6 @@
-//! Time of the paper's sweep from definition to tables: 720 designs, four measures, all cores.
+//! Benchmark of the paper's sweep from definition to tables: 720 designs, four measures, all cores.
 //!
-//! The time includes computing the springs. It is less than 18 seconds on two cores.
+//! The run takes less than 18 seconds on two cores, including the computation of the springs.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;

@@ -1,8 +1,8 @@
 //! Audit of a run: solves a fraction of its designs again by a second method and compares results.
 //!
-//! There are two second methods. The first solves paths with steps a tenth as large, which must not
-//! change any result. The second solves bending as a chain of all gaps instead of one gap that
-//! represents all. Both must agree if the number of gaps is rounded to a whole number.
+//! Two second methods exist. One solves the paths with steps a tenth as large, which must not change
+//! any result. The other solves bending as a chain of all gaps instead of a unit cell, one gap that
+//! represents all gaps. Chain and unit cell must agree if the number of gaps is a whole number.
 
 use std::path::Path;
 
@@ -23,8 +23,8 @@ use crate::solve::workers;
 const SMALLER: f64 = 10.0;
 
 /// Magnitude below which values count as zero.
-// Measures are of order one. Measures that are zero by symmetry have values of rounding errors.
-const NOTHING: f64 = 1e-9;
+// Measures are of order one. Measures that are zero by symmetry contain only rounding errors.
+const NEGLIGIBLE: f64 = 1e-9;
 
 /// The golden ratio minus one.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -89,9 +89,9 @@ impl Audit {
         let archive = Archive::open(&ResultsFolder::new(folder))?;
         let sweep = archive.sweep();
         let columns = design_columns(sweep);
-        // All designs are selected before they are grouped: groups contain neighbours of this list,
+        // Select all designs before they are grouped: a group contains neighbours in this list,
         // which are far apart in the grid.
-        let chosen: Vec<_> = every(fraction, archive.finished()).collect();
+        let chosen: Vec<_> = selected(fraction, archive.finished()).collect();
         let mut entries = archive.entries()?;
         let mut audit = Self::default();
         let groups = Groups::new(sweep.grid(), chosen.into_iter());
@@ -135,12 +135,12 @@ impl Audit {
             let design = rows[0].number;
             match rows.map(|row| column.cell(row)) {
                 [Cell::Number(first), Cell::Number(second)] => {
-                    // Numbers have a size, so their relative difference is recorded.
+                    // Numbers have a magnitude, so their relative difference is recorded.
                     let relative = relative(first, second);
                     let (column, values) = (column.name.to_string(), [first, second]);
                     self.note(LargestDifference { column, method, relative, design, values });
                 }
-                // Texts such as statuses have no size, so both texts are recorded.
+                // Texts such as statuses have no magnitude, so both texts are recorded.
                 cells if cells[0] != cells[1] => {
                     let texts = cells.map(|cell| cell.to_string());
                     self.contradictions.push((column.name.to_string(), design, texts));
@@ -194,7 +194,7 @@ fn finer(mut case: Case) -> Case {
     solver.first_step /= SMALLER;
     solver.max_step /= SMALLER;
     solver.min_step /= SMALLER;
-    // Without a larger limit, paths with smaller steps would end at it with another status.
+    // Without a larger limit, paths with smaller steps would reach the limit and have another status.
     solver.max_points = solver.max_points.saturating_mul(SMALLER as usize);
     case
 }
@@ -215,10 +215,11 @@ fn whole(mut case: Case) -> Option<[Case; 2]> {
     })
 }
 
-/// Selects a `fraction` of `designs`, spread evenly at every period of the grid.
+/// Selects a `fraction` of `designs`, spread evenly along every axis of the grid.
 ///
-/// A design is selected if its index times the golden ratio, modulo one, is below `fraction`.
-fn every(fraction: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item = u64> {
+/// A design is selected if its position in `designs`, times the golden ratio, modulo one, is below
+/// `fraction`.
+fn selected(fraction: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item = u64> {
     designs
         .enumerate()
         .filter(move |(ordinal, _)| (*ordinal as f64 * GOLDEN).fract() < fraction)
@@ -235,7 +236,7 @@ fn is_physical(column: &str) -> bool {
 /// Returns the difference of two numbers divided by the larger magnitude; 0 if both vanish.
 fn relative(first: f64, second: f64) -> f64 {
     let larger = first.abs().max(second.abs());
-    if larger < NOTHING { 0.0 } else { (first - second).abs() / larger }
+    if larger < NEGLIGIBLE { 0.0 } else { (first - second).abs() / larger }
 }
 
 #[cfg(test)]
@@ -244,7 +245,7 @@ mod tests {
 
     #[test]
     fn selected_designs_are_spread_evenly() {
-        let chosen = |share| every(share, 0..720).collect::<Vec<_>>();
+        let chosen = |fraction| selected(fraction, 0..720).collect::<Vec<_>>();
         let tenth = chosen(0.1);
         assert!(tenth.len().abs_diff(72) <= 1, "{}", tenth.len());
         assert_eq!((chosen(1.0).len(), chosen(0.0).len()), (720, 0));
@@ -275,7 +276,7 @@ mod tests {
             audit.differences.iter().filter(|found| found.column == "coverage").collect();
         assert_eq!((found.len(), found[0].relative), (1, 0.5));
         assert_eq!(found[0].design.to_string(), "0002");
-        let [(column, design, texts)] = audit.contradictions.as_slice() else { panic!("one") };
+        let [(column, design, texts)] = audit.contradictions.as_slice() else { panic!("one text") };
         assert_eq!((column.as_str(), design.to_string().as_str()), ("coverage", "0004"));
         assert_eq!(texts, &["0.5".to_owned(), String::new()]);
     }

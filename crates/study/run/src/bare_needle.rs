@@ -15,8 +15,9 @@ pub struct BareNeedle {
 ///
 /// The tip is a rigid frictionless sphere of radius `r`. Its contact circle has the radius
 /// `a = (3 F r/4E*)^(1/3)` (Hertz; Johnson, *Contact Mechanics*, 1985, equation 4.22), limited to
-/// the radius `r` of the shaft. `F` is the force in the definition, otherwise the force at the
-/// critical tilt. Returns `None` without a round tip, a modulus, or a pressure under the skin.
+/// the radius `r` of the shaft. `F` is the needle force in the definition or, if there is none, the
+/// force at the critical tilt. Returns `None` without a round tip, a modulus, or a pressure under
+/// the skin.
 pub fn bare_needle(row: &DesignRow) -> Option<BareNeedle> {
     let case = &row.case;
     let radius = case.punctured().needle_radius.filter(|radius| *radius > 0.0)?;
@@ -28,8 +29,8 @@ pub fn bare_needle(row: &DesignRow) -> Option<BareNeedle> {
         Some(force) => (force * plane_strain, measures.tissue_pressure_at_force?),
         None => (measures.critical_force? * case.design.length, measures.failure.tissue_pressure?),
     };
-    let touched = (0.75 * force * radius).cbrt().min(radius);
-    let over_modulus = force / (std::f64::consts::PI * touched.powi(2));
+    let contact_radius = (0.75 * force * radius).cbrt().min(radius);
+    let over_modulus = force / (std::f64::consts::PI * contact_radius.powi(2));
     let pressure = over_modulus / plane_strain;
     let pressure_kpa = Quantity::Pressure.physical(pressure, case)?;
     Some(BareNeedle { pressure_kpa, reduction: pressure / under_skin })

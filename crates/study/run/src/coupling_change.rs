@@ -36,18 +36,18 @@ impl CouplingChange {
     ///
     /// `columns` are the measures; columns without a number are omitted. Returns `None` if there is
     /// no such design, if its coupling is full already, if no measure depends on the coupling, or
-    /// if it takes longer than `patience`. Scatter of gaps and slants is ignored.
+    /// if its solution takes longer than `patience`. Scatter of gaps and slants is ignored.
     pub fn solve(
         sweep: &Sweep,
         number: &str,
         columns: &[&str],
         patience: Patience,
     ) -> Option<Self> {
-        let (own, case) = case_to_solve(sweep, number, patience)?;
+        let (design, case) = case_to_solve(sweep, number, patience)?;
         (case.coupling == Coupling::Nearest).then_some(())?;
         let evaluator = evaluator_of(sweep, &[columns, &[name::FOLD_FORCE]].concat());
         let coupled = Case { coupling: Coupling::Full, ..case };
-        let rows = [case, coupled].map(|case| evaluator.row(own, &case));
+        let rows = [case, coupled].map(|case| evaluator.row(design, &case));
         let known = design_columns(sweep);
         let values = |name: &str| rows.each_ref().map(|row| value(&known, name, row));
         let measure = |column: &&str| {
@@ -57,7 +57,7 @@ impl CouplingChange {
         let folds = matches!(values(name::FOLD_FORCE), [None, Some(_)]);
         let measures: Vec<_> = columns.iter().filter_map(measure).collect();
         // Coverage, and bending without contact, do not depend on the coupling.
-        let moves = folds || measures.iter().any(|measure| measure.full != Some(measure.nearest));
-        moves.then(|| Self { design: number.to_owned(), measures, folds })
+        let changes = folds || measures.iter().any(|measure| measure.full != Some(measure.nearest));
+        changes.then(|| Self { design: number.to_owned(), measures, folds })
     }
 }

@@ -1,4 +1,4 @@
-//! Compares the force of a flat design with its force on curved bodies.
+//! Compares the force of a design on a flat body with its force on curved bodies.
 
 use results::DesignRow;
 use results::columns::{design_columns, name};
@@ -29,16 +29,16 @@ pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
         let mut puncture = case.puncture;
         puncture.curvature = thickness_mm / radius_mm;
         let on_body = Case { puncture, body_radius: None, ..*case };
-        let worn = force.cell(&evaluator.row(row.number, &on_body)).number();
-        if worn.is_none_or(|worn| worn < LOWER * flat) {
-            let worn = worn.map_or("without a value".to_owned(), |worn| rounded(worn, 3));
-            lower.push(format!("{worn} on a {} (radius {radius_mm} mm)", body.name));
+        let curved = force.cell(&evaluator.row(row.number, &on_body)).number();
+        if curved.is_none_or(|curved| curved < LOWER * flat) {
+            let text = curved.map_or("without a value".to_owned(), |curved| rounded(curved, 3));
+            lower.push(format!("{text} on a {} (radius {radius_mm} mm)", body.name));
         }
     }
     let (name, flat) = (&force.name, rounded(flat, 3));
     (!lower.is_empty()).then(|| {
         format!(
-            "{name} is {flat} on a flat body, but {}. A definition with a body finds designs for it.",
+            "{name} is {flat} on a flat body, but {}. To find designs for a body, add [body] to the definition.",
             lower.join(", ")
         )
     })
@@ -46,10 +46,10 @@ pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
 
 /// Describes the loss of force of design `number` of `sweep` on curved bodies.
 ///
-/// Returns `None` if there is no such design, and if [`curved_body_warning`] does.
+/// Returns `None` if there is no such design, or if [`curved_body_warning`] returns `None`.
 pub fn flat_design_warning(sweep: &Sweep, number: &str) -> Option<String> {
     let grid = sweep.grid();
-    // Checked first, so that a design without a possible warning is not solved.
+    // Check the conditions first, so that a design without a possible warning is not solved.
     thickness_of_flat(sweep, &grid.case(grid.parse_number(number).ok()?))?;
     curved_body_warning(sweep, &solved_row(sweep, number, Patience::Milliseconds)?)
 }

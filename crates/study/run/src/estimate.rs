@@ -11,7 +11,8 @@ use crate::run_journal::{JournalEntry, Line};
 use crate::solve::evaluator::Evaluator;
 
 /// Number of positions in the grid, and number of neighbouring designs solved at each position.
-// Several positions, because the time varies over the grid. Neighbours, because they share springs.
+// Several positions, because the time varies over the grid. Neighbours, because neighbouring designs
+// share springs in a run.
 const POSITIONS: u64 = 8;
 const NEIGHBOURS: u64 = 6;
 
@@ -48,17 +49,17 @@ impl Estimate {
                 break;
             }
         }
-        let share = grid.len() as f64 / solved as f64;
-        let seconds = begun.elapsed().as_secs_f64() * share;
-        Self { solved, seconds, bytes: bytes as f64 * share }
+        let factor = grid.len() as f64 / solved as f64;
+        let seconds = begun.elapsed().as_secs_f64() * factor;
+        Self { solved, seconds, bytes: bytes as f64 * factor }
     }
 }
 
 /// Returns the indices of neighbouring designs at a few positions of a grid.
 fn spread(designs: u64) -> impl Iterator<Item = u64> {
-    let first = move |place: u64| (2 * place + 1) * (designs / (2 * POSITIONS));
-    // All positions before their neighbours, because slow designs leave time for only a few.
-    let all = (0..NEIGHBOURS).flat_map(move |next| ORDER.map(|place| first(place) + next));
+    let first = move |position: u64| (2 * position + 1) * (designs / (2 * POSITIONS));
+    // Visit all positions before any neighbour, because slow designs leave time for only a few.
+    let all = (0..NEIGHBOURS).flat_map(move |next| ORDER.map(|position| first(position) + next));
     all.filter(move |index| *index < designs)
 }
 
@@ -70,7 +71,7 @@ fn disk_space(sweep: &Sweep, row: &DesignRow) -> usize {
     let journal = Seal::default().seal(&Line::Design(Box::new(entry))).len();
     let layouts = tables(sweep);
     let columns = layouts.iter().flat_map(|layout| &layout.columns);
-    // One byte for the comma or line end after each cell.
+    // Add one byte for the comma or line end after each cell.
     journal + columns.map(|column| column.cell(row).to_string().len() + 1).sum::<usize>()
 }
 
@@ -84,9 +85,9 @@ mod tests {
         assert_eq!(chosen.len(), 48);
         // The first eight designs are in eight different parts of the grid, because slow designs
         // leave time for only a few.
-        let mut places: Vec<_> = chosen[..8].iter().map(|index| index / 2000).collect();
-        places.sort_unstable();
-        assert_eq!(places, [0, 1, 2, 3, 4, 5, 6, 7]);
+        let mut parts: Vec<_> = chosen[..8].iter().map(|index| index / 2000).collect();
+        parts.sort_unstable();
+        assert_eq!(parts, [0, 1, 2, 3, 4, 5, 6, 7]);
     }
 
     #[test]

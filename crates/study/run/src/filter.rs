@@ -88,7 +88,7 @@ impl ColumnFilter {
     fn passes(&self, cell: &Cell) -> bool {
         let cell = cell.to_string();
         let numbers = cell.parse().ok().zip(self.value.parse().ok());
-        // Texts are compared first, because 0010 is a design number and not the value 10.
+        // Compare texts too, because a value such as `2L` is not a number.
         cell == self.value || numbers.is_some_and(|(cell, value)| number::same(cell, value))
     }
 }
@@ -154,7 +154,7 @@ mod tests {
         assert!(filter.passes(&75.0.into()) && !filter.passes(&7.0.into()));
         assert!("x=75.0".parse::<ColumnFilter>().expect("a condition").passes(&75.0.into()));
         assert!("base=2L".parse::<ColumnFilter>().expect("a condition").passes(&"2L".into()));
-        let text = "=3".parse::<ColumnFilter>().expect_err("none").to_string();
+        let text = "=3".parse::<ColumnFilter>().expect_err("invalid").to_string();
         assert_eq!(text, "\"=3\" is not a condition, expected COLUMN=VALUE, e.g. slant_deg=75");
     }
 }

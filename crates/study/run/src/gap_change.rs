@@ -77,16 +77,16 @@ impl GapChange {
     /// Solves design `number` of `sweep` with the nominal, the smaller and the larger gap.
     ///
     /// `columns` are the measures; columns without a number are omitted. Returns `None` if there is
-    /// no such design, or if it takes longer than `patience`. Scatter of gaps and slants is
-    /// ignored.
+    /// no such design, or if its solution takes longer than `patience`. Scatter of gaps and slants
+    /// is ignored.
     pub fn solve(
         sweep: &Sweep,
         number: &str,
         columns: &[&str],
         patience: Patience,
     ) -> Option<Self> {
-        let (own, case) = case_to_solve(sweep, number, patience)?;
-        let (row, end) = evaluator_of(sweep, columns).row_and_end(own, &case, None);
+        let (design, case) = case_to_solve(sweep, number, patience)?;
+        let (row, end) = evaluator_of(sweep, columns).row_and_end(design, &case, None);
         let known = design_columns(sweep);
         let values = columns.iter().filter_map(|&name| Some((name, value(&known, name, &row)?)));
         Self::beside(sweep, number, &values.collect::<Vec<_>>(), end.as_ref(), patience)
@@ -94,8 +94,8 @@ impl GapChange {
 
     /// Solves design `number` of `sweep` with the smaller and the larger gap only.
     ///
-    /// `end` is the path end of the nominal puncture. The punctures with changed gaps start there
-    /// if possible. With `None` they are followed from rest.
+    /// `end` is the path end of the nominal puncture. The punctures with changed gaps start from
+    /// this end if possible. With `None` they are followed from rest.
     ///
     /// `measured` holds columns and values of the nominal design, for example from a table. Returns
     /// `None` under the same conditions as [`Self::solve`].
@@ -106,15 +106,15 @@ impl GapChange {
         end: Option<&PunctureEnd>,
         patience: Patience,
     ) -> Option<Self> {
-        let (own, case) = case_to_solve(sweep, number, patience)?;
+        let (solved, case) = case_to_solve(sweep, number, patience)?;
         let columns: Vec<&str> = measured.iter().map(|(column, _)| *column).collect();
         let evaluator = evaluator_of(sweep, &columns);
-        let rows = FACTORS.map(|part| {
+        let rows = FACTORS.map(|factor| {
             let mut case = case;
-            case.design.gap *= part;
+            case.design.gap *= factor;
             let end = end.filter(|_| evaluator.has_ends(&case));
-            let near = end.and_then(|end| evaluator.row_near(own, &case, &[], end));
-            near.unwrap_or_else(|| evaluator.row(own, &case))
+            let near = end.and_then(|end| evaluator.row_near(solved, &case, &[], end));
+            near.unwrap_or_else(|| evaluator.row(solved, &case))
         });
         let known = design_columns(sweep);
         let measures = measured.iter().map(|&(name, nominal)| MeasureChange {
@@ -138,7 +138,7 @@ pub(crate) fn evaluator_of(sweep: &Sweep, columns: &[&str]) -> Evaluator {
     // A few columns, such as columns at further tilts, do not show their measure in their name. For
     // these columns all measures are computed.
     measures.retain(|measure| {
-        columns.iter().any(|column| measure_of(column).is_none_or(|own| own == *measure))
+        columns.iter().any(|column| measure_of(column).is_none_or(|other| other == *measure))
     });
     Evaluator::only_columns(&measures, columns)
 }
@@ -147,8 +147,8 @@ pub(crate) fn evaluator_of(sweep: &Sweep, columns: &[&str]) -> Evaluator {
 ///
 /// Returns `None` if the design does not exist or takes longer than `patience`.
 pub fn solved_row(sweep: &Sweep, number: &str, patience: Patience) -> Option<DesignRow> {
-    let (own, case) = case_to_solve(sweep, number, patience)?;
-    Some(Evaluator::new(&sweep.plain_measures()).row(own, &case))
+    let (design, case) = case_to_solve(sweep, number, patience)?;
+    Some(Evaluator::new(&sweep.plain_measures()).row(design, &case))
 }
 
 /// Returns number and case of design `number` of `sweep`, without scatter of gaps and slants.
@@ -169,7 +169,7 @@ pub(crate) fn case_to_solve(
 
 /// Returns true if a design can be solved within milliseconds.
 ///
-/// A design on a layer cannot, because the layer needs boundary elements.
+/// A design on a layer of finite thickness takes longer, because the layer needs boundary elements.
 pub(crate) fn is_quick(sweep: &Sweep, case: &Case) -> bool {
     case.tissue_thickness.is_none() && work_of(case, sweep.measures()) <= MOST_WORK
 }

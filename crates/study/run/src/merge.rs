@@ -17,7 +17,7 @@ use crate::run_journal::{self, Archive, Entries, Journal, JournalEntry, Line, Se
 use crate::solve::work::WorkMeter;
 use crate::tables::run_info::RunInfo;
 
-/// Expectation in the error message if a folder has another definition or program.
+/// Expected input that the error message states if a folder has another definition or program.
 const ALIKE: &str = "shards of one sweep by one program";
 
 /// Reason why shards cannot be merged.
@@ -60,7 +60,7 @@ pub struct Merged {
 /// Merges the shards in `folders` into `out`, and writes the tables of the sweep.
 ///
 /// Results that `out` already contains stay, so a repeated merge changes nothing. If `folders`
-/// contains only `out`, its tables are written again from its journal.
+/// contains only `out`, the tables in `out` are written again from the journal in `out`.
 ///
 /// # Errors
 ///
@@ -82,7 +82,7 @@ pub fn merge(
             written_again(out, format, program)
         };
     }
-    // All sources belong to one sweep, so their headers for all shards are equal.
+    // All sources belong to one sweep, so their headers differ in the shard only.
     let header = sources[0].archive.header_of_all_shards();
     out.make().map_err(RunError::from)?;
     // Resuming makes repeated merges equivalent to one merge, and continues interrupted merges.
@@ -139,7 +139,7 @@ struct ShardResults {
 /// Opens the folders other than `out`; fails unless all belong to one sweep.
 fn open(folders: &[PathBuf], out: &ResultsFolder) -> Result<Vec<ShardResults>, MergeError> {
     let same = |folder: &&PathBuf| match (folder.canonicalize(), out.path().canonicalize()) {
-        // Canonical paths, because `results/x` and `./results/x/` are the same folder.
+        // Compare canonical paths, because `results/x` and `./results/x/` are the same folder.
         (Ok(folder), Ok(out)) => folder == out,
         _ => false,
     };
@@ -177,12 +177,13 @@ fn gather(
     // State of `out` before the merge. Lines that are appended below belong to other designs.
     let before = Archive::open(out)?;
     // This second handle reads entries at offsets that stay valid while the journal grows.
-    let mut there = before.entries()?;
+    let mut existing = before.entries()?;
     let mut added = 0;
-    for (design, holders) in Held::by(sources.iter().map(|source| source.archive.finished())) {
+    let finished = sources.iter().map(|source| source.archive.finished());
+    for (design, holders) in MergedDesigns::new(finished) {
         // The sample in `out` may exclude designs of a shard.
         let Some(position) = designs.position(design) else { continue };
-        let known = there.last(position)?;
+        let known = existing.last(position)?;
         let best = choose(design, known, &mut readers, &holders, out)?;
         // A session begins with the first new design, so that a merge without new designs leaves
         // the journal unchanged.
@@ -201,19 +202,19 @@ fn gather(
 /// Iterator over the designs of several sorted sources, in ascending order.
 ///
 /// Yields each design once, with the indices of all sources that contain it.
-struct Held<I> {
+struct MergedDesigns<I> {
     sources: Vec<I>,
     /// Next design of each source, with the index of the source; the smallest design is on top.
     next: BinaryHeap<Reverse<(u64, usize)>>,
 }
 
-impl<I: Iterator<Item = u64>> Held<I> {
-    fn by(sources: impl Iterator<Item = I>) -> Self {
-        let mut held = Self { sources: sources.collect(), next: BinaryHeap::new() };
-        for source in 0..held.sources.len() {
-            held.advance(source);
+impl<I: Iterator<Item = u64>> MergedDesigns<I> {
+    fn new(sources: impl Iterator<Item = I>) -> Self {
+        let mut merged = Self { sources: sources.collect(), next: BinaryHeap::new() };
+        for source in 0..merged.sources.len() {
+            merged.advance(source);
         }
-        held
+        merged
     }
 
     fn advance(&mut self, source: usize) {
@@ -222,7 +223,7 @@ impl<I: Iterator<Item = u64>> Held<I> {
     }
 }
 
-impl<I: Iterator<Item = u64>> Iterator for Held<I> {
+impl<I: Iterator<Item = u64>> Iterator for MergedDesigns<I> {
     type Item = (u64, Vec<usize>);
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -242,20 +243,20 @@ impl<I: Iterator<Item = u64>> Iterator for Held<I> {
 
 /// Returns the entries of the design with grid index `index` that the output journal lacks.
 ///
-/// `there` is its last entry in the output journal. `holders` are the indices of the readers that
-/// contain the design.
+/// `existing` is the last entry of the design in the output journal. `holders` are the indices of
+/// the readers that contain the design.
 fn choose(
     index: u64,
-    there: Option<JournalEntry>,
+    existing: Option<JournalEntry>,
     readers: &mut [(&ShardResults, Entries<'_>)],
     holders: &[usize],
     out: &ResultsFolder,
 ) -> Result<Vec<JournalEntry>, MergeError> {
-    let known = there.as_ref().map(|entry| entry.rerun);
-    let mut best = there.map(|entry| (entry, out.path()));
+    let known = existing.as_ref().map(|entry| entry.rerun);
+    let mut best = existing.map(|entry| (entry, out.path()));
     let mut added = Vec::new();
-    for place in holders {
-        let (source, entries) = &mut readers[*place];
+    for reader in holders {
+        let (source, entries) = &mut readers[*reader];
         let Some(position) = source.archive.designs().position(index) else { continue };
         let Some(entry) = entries.last(position)? else { continue };
         match &best {
@@ -317,8 +318,11 @@ mod tests {
     #[test]
     fn designs_are_ordered_and_list_the_sources_that_contain_them() {
         let sources: [&[u64]; 3] = [&[1, 4, 9], &[4, 5], &[]];
-        let held: Vec<_> = Held::by(sources.iter().map(|source| source.iter().copied())).collect();
-        assert_eq!(held, [(1, vec![0]), (4, vec![0, 1]), (5, vec![1]), (9, vec![0])]);
+        let merged = MergedDesigns::new(sources.iter().map(|source| source.iter().copied()));
+        assert_eq!(
+            merged.collect::<Vec<_>>(),
+            [(1, vec![0]), (4, vec![0, 1]), (5, vec![1]), (9, vec![0])]
+        );
     }
 
     #[test]

@@ -101,8 +101,8 @@ impl Rerun {
     ) -> Result<Finished, RunError> {
         let clock = Instant::now();
         let folder = self.folder.clone();
-        // From here on the journal is locked. Since `plan`, other processes may have added designs
-        // and reruns to it.
+        // `resume` locks the journal. Other processes may have added designs and reruns to the
+        // journal after `plan`.
         let journal = run_journal::resume(&folder)?;
         require_program(journal.records(), &folder, program)?;
         folder.make()?;

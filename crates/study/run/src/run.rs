@@ -37,7 +37,7 @@ pub fn run(
     mut progress: impl FnMut(Progress),
 ) -> Result<Finished, RunError> {
     let clock = Instant::now();
-    // Checked before the folder is created, so that an invalid subset leaves no folder.
+    // Check the subset before the folder is created, so that an invalid subset leaves no folder.
     SubsetDesigns::new(sweep.grid().len(), subset)?;
     let folder = ResultsFolder::new(folder);
     folder.make()?;
@@ -69,7 +69,7 @@ fn removal(files: &[String]) -> Option<String> {
         .then(|| format!("removed, because they were made from the earlier results: {files}"))
 }
 
-/// Session that solves designs, appends them to one journal and writes its tables.
+/// Session that solves designs, appends their results to a journal, and writes the tables.
 pub(crate) struct Run<'a> {
     journal: Journal,
     options: &'a Options<'a>,
@@ -109,8 +109,8 @@ impl<'a> Run<'a> {
             |design| {
                 let entry = task.solve(design);
                 if fail_fast && entry.result.failed() {
-                    // Set by the worker that finds the failure, because the thread that writes the
-                    // journal may be far behind. As after a signal, started designs are finished.
+                    // The worker that finds the failure stops the run, because the thread that
+                    // writes the journal may be far behind. Started designs are still finished.
                     stop.store(true, Ordering::Relaxed);
                 }
                 entry

@@ -50,7 +50,7 @@ pub(crate) fn begin(
     if start == Start::Fresh { Ok(journal) } else { checked(journal, folder) }
 }
 
-/// Continues the existing journal in `folder`, whatever its definition is.
+/// Continues the existing journal in `folder`, with the definition in its header.
 ///
 /// # Errors
 ///

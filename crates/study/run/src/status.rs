@@ -48,8 +48,8 @@ impl RunStatus {
     /// If there is no run in `folder`, or its journal is damaged.
     pub fn read(folder: &Path) -> Result<Self, JournalError> {
         let folder = ResultsFolder::new(folder);
-        // The lock is queried before the journal is read. If the run ends in between, its status is
-        // "in progress" instead of incomplete.
+        // Query the lock before reading the journal. If the run ends in between, its status is "in
+        // progress" instead of incomplete.
         let in_use = journal::in_use(&folder.journal());
         let archive = Archive::open(&folder)?;
         let mut status = Self {
@@ -93,7 +93,7 @@ impl RunStatus {
                 let reason = (failure.measure.key(), failure.outcome.text());
                 *self.reasons.entry(reason).or_default() += 1;
             }
-            // The fastest of six is dropped, so that memory does not grow with the number of
+            // Drop the fastest of six designs, so that memory does not grow with the number of
             // designs.
             slowest.extend(Timed::new(&entry));
             if slowest.len() > SLOWEST {

@@ -66,8 +66,8 @@ fn puncture_warnings(case: &Case, measures: &PunctureMeasures) -> Vec<String> {
     let mut sentences = Vec::new();
     // Without a critical force the path ended early, for which there is another warning.
     if let (Some(fold), Some(force)) = (measures.fold_force, measures.critical_force) {
-        let share = 100.0 * fold / force;
-        sentences.push(format!("Beyond {share:.0} % of the critical force, the modelled surface folds, which is physically impossible: results beyond it are not valid."));
+        let percent = 100.0 * fold / force;
+        sentences.push(format!("Beyond {percent:.0} % of the critical force, the modelled surface folds, which is physically impossible: results at larger forces are not valid."));
     }
     // A round tip normally touches the next scale while it still rests on the first, so this
     // warning applies to sharp tips only.
@@ -122,7 +122,7 @@ fn cliffs(change: &GapChange) -> impl Iterator<Item = String> {
             })
         });
         format!(
-            "Sensitive to the gap: 10 % smaller or larger, and the {} is {smaller} or {larger}.",
+            "Sensitive to the gap: with a gap 10 % smaller or larger, the {} is {smaller} or {larger}.",
             measure.column.replace('_', " ")
         )
     })

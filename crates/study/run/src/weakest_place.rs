@@ -41,10 +41,10 @@ impl WeakestPlace {
     ///
     /// `columns` are columns of `designs.csv`. The result omits columns without a number, columns
     /// that are not puncture forces, and `weakest_force` if it already compares as many positions.
-    /// It is empty if there is no such design, or if the needle is free: a free needle acts on a
-    /// fixed corner.
+    /// The result is empty if there is no such design, or if the needle is free: a free needle acts
+    /// on a fixed corner.
     pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Vec<Self> {
-        let Some((own, case)) = case_to_solve(sweep, number, Patience::Unlimited) else {
+        let Some((design, case)) = case_to_solve(sweep, number, Patience::Unlimited) else {
             return Vec::new();
         };
         if !case.punctured().needle.is_guided() {
@@ -54,7 +54,7 @@ impl WeakestPlace {
         let mut rows: Vec<_> = [vec![case], coupled_cases(&case)]
             .concat()
             .par_iter()
-            .map(|case| evaluator.row(own, case))
+            .map(|case| evaluator.row(design, case))
             .collect();
         let coupled = rows.split_off(1);
         let requested = &rows[0];
@@ -65,7 +65,8 @@ impl WeakestPlace {
 
 /// Returns the cases of a design with full coupling.
 ///
-/// The first case has the requested load position. The others have [`PLACES`] positions.
+/// The first case has the requested load position. The other [`PLACES`] cases have one of the
+/// compared positions each.
 fn coupled_cases(case: &Case) -> Vec<Case> {
     let mut coupled = Case { coupling: Coupling::Full, ..*case };
     coupled.puncture.places = None;
@@ -91,14 +92,16 @@ fn position_column(column: &str) -> Option<String> {
     }
 }
 
-/// Finds the smallest force of `column` over `positions`; returns `None` if it is not compared.
+/// Finds the smallest force of `column` over `positions`.
+///
+/// Returns `None` if `column` is not compared between load positions.
 fn weakest(
     column: &str,
     requested: &DesignRow,
     positions: &[DesignRow],
     known: &[Column<DesignRow>],
 ) -> Option<WeakestPlace> {
-    let asked = value(known, column, requested)?;
+    let nominal = value(known, column, requested)?;
     let single = position_column(column)?;
     let has_all = requested.case.puncture.places.is_some_and(|places| places >= PLACES);
     if single != column && has_all {
@@ -113,24 +116,25 @@ fn weakest(
         match force.cell(row).number().filter(|_| !is_folded) {
             Some(force) => keep_smaller(&mut weakest, force, row),
             None => {
-                if let Some(borne) = borne_before_end(row, column) {
-                    keep_smaller(&mut ended, borne, row);
+                if let Some(largest) = largest_before_end(row, column) {
+                    keep_smaller(&mut ended, largest, row);
                 }
             }
         }
     }
     // If a path ended below the smallest force, the skin may be weaker at that position.
-    let is_open = ended.is_some_and(|(borne, _)| weakest.is_none_or(|(force, _)| borne < force));
-    let (force, row) = if is_open { ended } else { weakest }?;
+    let is_unknown =
+        ended.is_some_and(|(largest, _)| weakest.is_none_or(|(force, _)| largest < force));
+    let (force, row) = if is_unknown { ended } else { weakest }?;
     let mode = mode_column(column);
     Some(WeakestPlace {
         column: column.to_owned(),
-        requested: asked,
-        weakest: (!is_open).then_some(force),
+        requested: nominal,
+        weakest: (!is_unknown).then_some(force),
         place: row.case.punctured().load_position,
         outcome: row.result.puncture?.outcome,
         failure: mode
-            .filter(|_| !is_open)
+            .filter(|_| !is_unknown)
             .and_then(|mode| Some(named(known, mode)?.cell(row).to_string())),
     })
 }
@@ -153,7 +157,7 @@ fn keep_smaller<'a>(kept: &mut Option<(f64, &'a DesignRow)>, force: f64, row: &'
 /// Returns the largest force on a path that ended early, in the unit of `column`.
 ///
 /// Returns `None` if the load tilts no scale, because the position is then not a weak one.
-fn borne_before_end(row: &DesignRow, column: &str) -> Option<f64> {
+fn largest_before_end(row: &DesignRow, column: &str) -> Option<f64> {
     let puncture = row.result.puncture?;
     let tilts_nothing = puncture.outcome == Status::Untilted.into() && puncture.points == 1;
     let force = puncture.measures.peak_force.unwrap_or_default();

@@ -7,7 +7,7 @@ use std::fmt::{self, Write};
 
 /// Relative difference up to which two numbers count as equal.
 ///
-/// This is far above the round-off of a solved value and far below any measurable difference.
+/// The value is far above the round-off of a solved value and far below measurable differences.
 pub const ROUND_OFF: f64 = 1e-9;
 
 /// Returns true if `a` and `b` are equal up to round-off; zero equals only zero.
@@ -98,7 +98,7 @@ pub fn rounded(value: f64, digits: usize) -> String {
 ///
 /// # Errors
 ///
-/// Returns an error if `to` cannot be written.
+/// Returns an error if writing to `to` fails.
 pub fn write(to: &mut impl Write, value: f64) -> fmt::Result {
     let size = value.abs();
     // This branch includes minus zero, which Rust would write as `-0`.

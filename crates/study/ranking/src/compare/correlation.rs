@@ -2,8 +2,8 @@
 
 /// Returns Spearman's rank correlation of the first and second values of `pairs`.
 ///
-/// The correlation is 1 if both have the same order, and −1 if their orders are opposite. `None` if
-/// all first or all second values are equal.
+/// The correlation is 1 if first and second values have the same order, and −1 if their orders are
+/// opposite. `None` if all first or all second values are equal.
 pub fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     let [first, second] = [0, 1].map(|side| ranks(pairs.iter().map(|pair| pair[side])));
     // Ties do not change the mean rank.
@@ -48,7 +48,7 @@ mod tests {
         for (found, expected) in [
             (correlation(&[1.0, 2.0, 30.0], &[-5.0, 0.1, 0.2]), 1.0),
             (correlation(&[1.0, 2.0, 30.0], &[3.0, 2.0, 1.0]), -1.0),
-            // Ranks 1, 2.5, 2.5, 4 and 1, 2, 3, 4: 4.5/√(4.5·5).
+            // The ranks 1, 2.5, 2.5, 4 and 1, 2, 3, 4 have the correlation 4.5/√(4.5·5) = √0.9.
             (correlation(&[0.0, 1.0, 1.0, 2.0], &[0.0, 1.0, 2.0, 3.0]), 0.9_f64.sqrt()),
         ] {
             assert!(found.is_some_and(|found| (found - expected).abs() < 1e-15), "{found:?}");

@@ -48,7 +48,7 @@ impl Matching {
     }
 }
 
-/// Returns the value of a parameter if the record of the run shows that it is constant.
+/// Returns the value of a parameter if the definition of the run shows that it is constant.
 fn shared(run: &Results, parameter: &Parameter) -> Option<Scalar> {
     let definition = run.definition()?;
     let is_shared = definition.grid().axis(parameter.key).is_none();

@@ -22,7 +22,7 @@ use crate::weights::MOST_CRITERIA;
 pub(super) struct Contenders {
     /// Rows of the designs in the results.
     pub rows: Vec<usize>,
-    /// Columns of the criteria in the results.
+    /// Indices of the columns of the criteria in the results.
     pub columns: Vec<usize>,
     /// True for designs on the Pareto front.
     pub on_front: Vec<bool>,
@@ -37,7 +37,7 @@ pub(super) type Span = (f64, f64);
 
 /// Reason to exclude a design. If several reasons apply, the first one counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum LeftOut {
+pub(super) enum Exclusion {
     /// The design does not meet a requirement, given by index.
     Unmet(usize),
     /// The coverage is 0, so the design leaves the substrate exposed.
@@ -48,7 +48,7 @@ pub(super) enum LeftOut {
     NotPositive(usize),
 }
 
-impl LeftOut {
+impl Exclusion {
     /// Returns true if the reason is a requirement.
     pub fn is_unmet(self) -> bool {
         matches!(self, Self::Unmet(_))
@@ -66,57 +66,60 @@ impl LeftOut {
 }
 
 /// Designs that can be ranked, and the number of excluded designs for each reason.
-type SortedOut = (Contenders, BTreeMap<LeftOut, usize>);
+type Selection = (Contenders, BTreeMap<Exclusion, usize>);
 
 /// Selects the designs that can be ranked, and counts the excluded designs.
-pub(super) fn sort_out(
+pub(super) fn select(
     results: &Results,
     preferences: &Preferences,
-) -> Result<SortedOut, InvalidResults> {
+) -> Result<Selection, InvalidResults> {
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
     let columns = preferences.criteria.iter().map(|criterion| results.column(&criterion.column));
     let columns: Vec<usize> = columns.collect::<Result<_, _>>()?;
-    // `left_out` is a tree, so that the order of reasons does not depend on the order of rows.
-    let (mut rows, mut values, mut left_out) = (Vec::new(), Vec::new(), BTreeMap::new());
+    // `excluded` is a tree, so that the order of reasons does not depend on the order of rows.
+    let (mut rows, mut values, mut excluded) = (Vec::new(), Vec::new(), BTreeMap::new());
     for row in 0..results.len() {
-        let unmet = filter.first_unmet(row)?.map(LeftOut::Unmet);
+        let unmet = filter.first_unmet(row)?.map(Exclusion::Unmet);
         let mut found = [None; MOST_CRITERIA];
         if unmet.is_none() {
             for (value, &column) in found.iter_mut().zip(&columns) {
                 *value = results.number(row, column)?;
             }
         }
-        if let Some(why) = unmet.or_else(|| obstacle(&found, preferences)) {
-            *left_out.entry(why).or_insert(0) += 1;
+        if let Some(why) = unmet.or_else(|| exclusion(&found, preferences)) {
+            *excluded.entry(why).or_insert(0) += 1;
         } else {
             rows.push(row);
             values.extend(found.iter().flatten());
         }
     }
-    Ok((Contenders::new(rows, columns, values, preferences), left_out))
+    Ok((Contenders::new(rows, columns, values, preferences), excluded))
 }
 
-/// Returns the reason to exclude a design with these values, if there is one.
-fn obstacle(values: &[Option<f64>; MOST_CRITERIA], preferences: &Preferences) -> Option<LeftOut> {
+/// Returns the reason to exclude a design with these `values` of the criteria, if there is one.
+fn exclusion(
+    values: &[Option<f64>; MOST_CRITERIA],
+    preferences: &Preferences,
+) -> Option<Exclusion> {
     let criteria = &preferences.criteria;
     // Designs with a coverage of 0 are ranked if coverage is not a criterion.
     let coverage = criteria.iter().position(|criterion| criterion.column == name::COVERAGE);
     if coverage.and_then(|c| values[c]).is_some_and(|coverage| coverage <= 0.0) {
-        return Some(LeftOut::Exposed);
+        return Some(Exclusion::Exposed);
     }
     criteria.iter().zip(values).enumerate().find_map(|(c, (criterion, value))| match value {
-        None => Some(LeftOut::Missing(c)),
+        None => Some(Exclusion::Missing(c)),
         Some(value) => {
-            let is_made = preferences.scale.criterion(criterion.goal, *value).is_some();
-            (!is_made).then_some(LeftOut::NotPositive(c))
+            let exists = preferences.scale.criterion(criterion.goal, *value).is_some();
+            (!exists).then_some(Exclusion::NotPositive(c))
         }
     })
 }
 
 impl Contenders {
-    /// Computes fronts, spans and terms of the designs in `rows`.
+    /// Computes Pareto front, spans and terms of the designs in `rows`.
     ///
-    /// `values` holds their values in `columns`, design after design.
+    /// `values` contains the values of these designs in `columns`, design after design.
     fn new(
         rows: Vec<usize>,
         columns: Vec<usize>,
@@ -127,22 +130,22 @@ impl Contenders {
         // Test the values for ties, not the criteria: values near 1 that are equal up to round-off
         // have logarithms near 0, which may differ by a large factor.
         let is_tie = spans(&values, count).map(|(low, high)| same(low, high));
-        // Merge equal values, so that round-off affects neither dominance nor scores. Otherwise one
-        // of two designs of equal rank could be on the front and the other one not.
+        // Merge equal values, so that round-off affects neither dominance nor scores. Otherwise
+        // only one of two designs of equal rank might be on the front.
         for (c, of) in preferences.criteria.iter().enumerate() {
             merge_equal(values.iter_mut().skip(c).step_by(count), of.goal);
         }
         // Overwrite the values by criteria to save memory; the table still contains the values.
-        for (place, value) in values.iter_mut().enumerate() {
-            *value = criterion(preferences, place % count, *value);
+        for (index, value) in values.iter_mut().enumerate() {
+            *value = criterion(preferences, index % count, *value);
         }
         // Dominance needs neither weights nor rescaling of the criteria.
         let on_front = front_of(&values, count);
         let spans = spans(&values, count).into_iter().zip(is_tie).take(count);
         let spans = spans.map(|(span, is_tie)| (!is_tie).then_some(span)).collect();
         let mut contenders = Self { rows, columns, on_front, spans, terms: Vec::new() };
-        for (place, value) in values.iter_mut().enumerate() {
-            *value = preferences.scale.term(contenders.rescaled(place % count, *value));
+        for (index, value) in values.iter_mut().enumerate() {
+            *value = preferences.scale.term(contenders.rescaled(index % count, *value));
         }
         contenders.terms = values;
         contenders
@@ -180,11 +183,11 @@ pub(super) fn sums_of_rescaled(criteria: &[f64], count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the smallest and the largest value of each of `count` numbers over all designs.
+/// Returns the smallest and the largest of each of the `count` numbers per design.
 fn spans(numbers: &[f64], count: usize) -> [Span; MOST_CRITERIA] {
     let mut spans = [(f64::INFINITY, f64::NEG_INFINITY); MOST_CRITERIA];
-    for (place, number) in numbers.iter().enumerate() {
-        let (low, high) = &mut spans[place % count];
+    for (index, number) in numbers.iter().enumerate() {
+        let (low, high) = &mut spans[index % count];
         (*low, *high) = (low.min(*number), high.max(*number));
     }
     spans

@@ -4,7 +4,7 @@ use ranking::{Comparison, compare, write_comparison};
 use results::Results;
 use tempfile::TempDir;
 
-/// Writes `designs.csv` and a record with the definition, if given, and reads the results.
+/// Reads results from a folder with `designs.csv` and, if a definition is given, `run.toml`.
 fn results(table: &str, definition: Option<&str>) -> Results {
     let folder = TempDir::new().expect("a folder");
     std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
@@ -30,7 +30,7 @@ const SECOND: &str = "design,gap_over_t,length_over_t,slant_deg,coverage,complia
 
 fn column<'c>(comparison: &'c Comparison<'_>, name: &str) -> &'c ranking::ColumnDifference {
     let column = comparison.columns.iter().find(|column| column.name == name);
-    column.expect("a column of both")
+    column.expect("a column of both runs")
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn a_run_equals_itself() {
 }
 
 #[test]
-fn small_differences_may_be_tolerated() {
+fn differences_within_the_tolerance_are_ignored() {
     let (first, second) = (results(FIRST, None), results(&FIRST.replace(",4,", ",4.0004,"), None));
     let differing = [0.0, 0.9e-4, 1.1e-4].map(|tolerance| {
         let comparison = compare(&first, &second, tolerance).expect("comparable");
@@ -73,7 +73,7 @@ fn small_differences_may_be_tolerated() {
 }
 
 #[test]
-fn constant_parameters_are_compared() {
+fn changes_of_constant_parameters_are_listed() {
     let (first, second) = (
         results(FIRST, Some("name = 'x'")),
         results(FIRST, Some("name = 'y'\nscale.base = '2L'\ncontact.c1 = 2")),
@@ -86,7 +86,7 @@ fn constant_parameters_are_compared() {
 }
 
 #[test]
-fn an_axis_of_one_run_may_be_a_constant_of_the_other() {
+fn an_axis_of_one_run_may_be_a_constant_of_the_other_run() {
     let wide = "design,gap_over_t,length_over_t,slant_deg,coverage,c2
 0001,0.1,1,0,0,0.23
 0002,0.1,1,0,0,1.1";
@@ -97,7 +97,7 @@ fn an_axis_of_one_run_may_be_a_constant_of_the_other() {
     let comparison = compare(&wide, &known, 0.0).expect("comparable");
     assert_eq!(comparison.matched(), 1);
     assert_eq!(comparison.unmatched(), [vec!["0001"], vec![]]);
-    // Without a record, the value of c2 in the second run is unknown.
+    // Without `run.toml`, the value of c2 in the second run is unknown.
     let message = compare(&wide, &results(narrow, None), 0.0).expect_err("ambiguous").to_string();
     let message = message.replace(&wide.folder().display().to_string(), "x");
     insta::assert_snapshot!(message, @"x/designs.csv: designs 0001 and 0002 differ only in a parameter that one of the runs does not record; each table needs its run.toml");
@@ -123,6 +123,6 @@ fn designs_are_matched_up_to_round_off() {
     let comparison = compare(&first, &second, 1e-12).expect("comparable");
     assert_eq!((comparison.matched(), comparison.is_none()), (2, true));
     let twice = results("design,gap_over_t,coverage\n1,0.1,1\n2,0.10000000000000002,2\n", None);
-    let error = compare(&first, &twice, 1e-12).expect_err("two designs are one");
+    let error = compare(&first, &twice, 1e-12).expect_err("equal designs");
     assert!(error.to_string().contains("designs 1 and 2"), "{error}");
 }

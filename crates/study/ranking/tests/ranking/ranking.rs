@@ -36,16 +36,16 @@ fn weights(text: &str) -> Weights {
 }
 
 fn order(ranking: &Ranking<'_>, by: &str) -> String {
-    let standings = ranking.by_fitness(weights(by));
-    standings.map(|standing| standing.design()).collect::<Vec<_>>().join(" ")
+    let ranked = ranking.by_fitness(weights(by));
+    ranked.map(|design| design.design()).collect::<Vec<_>>().join(" ")
 }
 
 #[test]
 fn fitness_is_the_product_of_rescaled_criteria() {
     let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20", "1,3,0.2,40"]);
     let ranking = Ranking::new(&results, grid("4")).expect("a ranking");
-    let second = ranking.by_fitness(weights("0.4,0.3,0.2,0.1")).nth(1).expect("two");
-    // Rescaled: 0.5, 1, (4 - 2)/(5 - 2), (20 - 10)/(40 - 10).
+    let second = ranking.by_fitness(weights("0.4,0.3,0.2,0.1")).nth(1).expect("two designs");
+    // Rescaled criteria of 0002: 0.5, 1, (4 - 2)/(5 - 2), (20 - 10)/(40 - 10).
     assert_eq!(second.design(), "0002");
     let expected = 0.5_f64.powf(0.4) * (2.0_f64 / 3.0).powf(0.2) * (1.0_f64 / 3.0).powf(0.1);
     assert!((second.fitness - expected).abs() < 1e-14, "{}", second.fitness);
@@ -66,7 +66,7 @@ fn equal_designs_are_ordered_by_number() {
 }
 
 #[test]
-fn designs_without_coverage_or_without_a_value_are_left_out() {
+fn designs_without_coverage_or_without_a_value_are_excluded() {
     let results =
         results(&["0,,,", "0.5,,1,1", "0.5,1,,1", "0.5,1,0,1", "0.5,1,1,", ",1,1,1", "1,1,1,1"]);
     let ranking = Ranking::new(&results, grid("1")).expect("a ranking");
@@ -179,9 +179,9 @@ fn unmet_requirements_report_the_nearest_design_and_binding_requirements() {
     let results = results(&["0.5,1,1,1", "0.8,2,1,1", "0.9,1.5,1,1"]);
     let text = "requirements = ['coverage >= 0.9', 'critical_force >= 2']";
     let Err(InvalidRanking::Unmet(unmet)) = by(&results, text) else { panic!("none meets both") };
-    // Shortfalls: 1/9 of the coverage for 0002, 1/4 of the force for 0003.
+    // Relative shortfalls: coverage of 0002 by 1/9, force of 0003 by 1/4.
     assert_eq!(unmet.nearest, Some(1));
-    let [coverage, force] = unmet.requirements.as_slice() else { panic!("two") };
+    let [coverage, force] = unmet.requirements.as_slice() else { panic!("two requirements") };
     assert!((coverage.shortfall - 1.0 / 9.0).abs() < 1e-12 && force.shortfall == 0.0);
     assert_eq!((coverage.met, coverage.met_without, force.met, force.met_without), (1, 1, 1, 1));
     assert!(coverage.binds() && force.binds());
@@ -200,17 +200,17 @@ fn any_column_can_be_a_criterion() {
     let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20", "1,3,0.2,40", "0,9,9,9"]);
     let text = "criteria = ['max:critical_force', 'min:length_over_t']\nweights = [3, 1]";
     let ranking = by(&results, text).expect("a ranking");
-    // The length of a design equals its number. The design with a coverage of 0 is ranked, because
-    // coverage is not a criterion.
+    // The `length_over_t` of a design equals its number. The design with a coverage of 0 is ranked,
+    // because coverage is not a criterion.
     assert_eq!(ranking.len(), 4);
     let winner = ranking.winner(ranking.preferences().weights);
-    // Rescaled: (1 - 1)/8, 1; (5 - 1)/8, (1/2 - 1/4)/(1 - 1/4); ...
+    // Rescaled criteria of 0001: (1 - 1)/8 and 1; of 0002: (5 - 1)/8 and (1/2 - 1/4)/(1 - 1/4).
     assert_eq!((winner.design(), winner.rescaled(0)), ("0002", 0.5));
     assert!((winner.fitness - 0.5_f64.powf(0.75) * (1.0_f64 / 3.0).powf(0.25)).abs() < 1e-12);
     assert!(ranking.winners().is_empty(), "two criteria have no grid of weights");
     let front: Vec<_> = ranking.front().iter().map(RankedDesign::design).collect();
     assert_eq!(front, ["0001", "0002", "0004"]);
-    // Sums on the front: 0 + 1, 0.5 + 1/3, 1 + 0. The ends tie, and the first counts.
+    // Sums of rescaled criteria on the front: 0 + 1, 0.5 + 1/3, 1 + 0. The first of equals counts.
     assert_eq!(ranking.knee().expect("a knee").design(), "0001");
 }
 
@@ -280,7 +280,7 @@ fn incomparable_designs_are_refused() {
     std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
     let results = Results::read(folder.path()).expect("results");
     let preferences = Preferences::parse("", "x").expect("preferences");
-    let refused = check_comparable(&results, &preferences).expect_err("two frictions").to_string();
+    let refused = check_comparable(&results, &preferences).expect_err("incomparable").to_string();
     assert!(refused.contains("of different needle_friction (0.1, 0.2)"), "{refused}");
 }
 
@@ -310,11 +310,11 @@ fn preferences_are_written_beside_the_tables() {
     let folder = TempDir::new().expect("a folder");
     let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20"]);
     write_ranking(folder.path(), &by(&results, "").expect("a ranking")).expect("writable");
-    let own = "criteria = ['min:critical_force']\nrequirements = ['coverage > 0.1']";
-    let ranking = by(&results, own).expect("a ranking");
+    let text = "criteria = ['min:critical_force']\nrequirements = ['coverage > 0.1']";
+    let ranking = by(&results, text).expect("a ranking");
     let (files, lock) = write_ranking(folder.path(), &ranking).expect("writable");
     // The lock prevents another ranking from removing the files before the caller has read them.
-    let refused = write_ranking(folder.path(), &ranking).expect_err("held").to_string();
+    let refused = write_ranking(folder.path(), &ranking).expect_err("locked").to_string();
     assert!(refused.contains("another squama process is writing there"), "{refused}");
     drop(lock);
     assert_eq!(files, ["ranking.csv", "pareto.csv", "ranking.toml"]);
@@ -364,7 +364,7 @@ fn round_off_does_not_put_designs_on_the_front() {
     }
 }
 
-/// Returns, for each design by number, its number, its rank, and whether it is on the front.
+/// Returns number, rank and membership of the front of each design, ordered by number.
 fn ranks_and_front(table: &str, criteria: &[&str], scale: Scale) -> Vec<(String, usize, bool)> {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
@@ -408,7 +408,7 @@ proptest! {
             if count == 1 {
                 let front_by_rank: BTreeSet<_> = exact.iter().map(|(_, rank, on)| (rank, on)).collect();
                 let ranks: BTreeSet<_> = exact.iter().map(|(_, rank, _)| rank).collect();
-                prop_assert_eq!(front_by_rank.len(), ranks.len(), "designs of equal rank are all on the front or all not");
+                prop_assert_eq!(front_by_rank.len(), ranks.len(), "of the designs with equal rank, all or none are on the front");
             }
         }
     }

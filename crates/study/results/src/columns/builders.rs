@@ -42,12 +42,12 @@ type PunctureField = fn(&mut PunctureMeasures) -> &mut Option<f64>;
 type FlexureField = fn(&mut FlexureMeasures) -> &mut Option<f64>;
 
 // The builders are `const`, because the list of entries is a static.
-/// Builds a conversion to a quantity with the same column name.
+/// Builds a conversion that keeps the column name and adds the suffix of `quantity`.
 pub(super) const fn same(quantity: Quantity) -> Physical {
     Physical { quantity, other: None }
 }
 
-/// Builds a conversion to a quantity with another column name, such as compliance to rigidity.
+/// Builds a conversion that changes the column name, e.g. from compliance to rigidity.
 pub(super) const fn renamed(
     quantity: Quantity,
     name: &'static str,
@@ -65,7 +65,7 @@ pub(super) const fn value(
     MeasuredValue { name, tables, value, ..BLANK }
 }
 
-/// Builds an entry for a count, a text, or a number without derivatives of a puncture.
+/// Builds an entry of the puncture: a count, a text, or a number without derivatives.
 pub(super) const fn of_puncture(
     name: &'static str,
     tables: &'static [&'static str],
@@ -74,7 +74,7 @@ pub(super) const fn of_puncture(
     value(name, tables, Value::OfPuncture(cell))
 }
 
-/// Builds an entry for a count, a text, or a number without derivatives of bending.
+/// Builds an entry of bending: a count, a text, or a number without derivatives.
 pub(super) const fn of_bending(
     name: &'static str,
     tables: &'static [&'static str],
@@ -83,7 +83,7 @@ pub(super) const fn of_bending(
     value(name, tables, Value::OfBending(cell))
 }
 
-/// Builds an entry for a number of a puncture with derivatives.
+/// Builds an entry of the puncture: a number with derivatives.
 pub(super) const fn number(
     name: &'static str,
     point: PathPoint,
@@ -120,7 +120,7 @@ pub(super) const fn stiffness(
     number(name, point, field).in_unit("E_s t").physical(PER_MM)
 }
 
-/// Builds an entry for a number of bending with derivatives.
+/// Builds an entry of bending: a number with derivatives.
 pub(super) const fn bending(
     name: &'static str,
     point: PathPoint,
@@ -175,7 +175,7 @@ impl MeasuredValue {
         Self { physical, ..self }
     }
 
-    /// Adds statistics over imperfect samples, with a noun that describes the value.
+    /// Adds statistics over imperfect samples, with a noun for the value in their descriptions.
     pub(super) const fn sampled(
         self,
         noun: &'static str,
@@ -193,17 +193,17 @@ impl MeasuredValue {
         Self { at_tilts: Some(TiltValue { meaning, value }), ..self }
     }
 
-    /// Shows the value among the first columns of a page.
+    /// Shows the value among the first columns of the default table of a page.
     pub(super) const fn first(self) -> Self {
         Self { shown: Shown::First, ..self }
     }
 
-    /// Shows the value after the physical columns of a page.
+    /// Shows the value after the columns in physical units of the default table of a page.
     pub(super) const fn then(self) -> Self {
         Self { shown: Shown::Then, ..self }
     }
 
-    /// Shows the value after all other columns of a page.
+    /// Shows the value after all other columns of the default table of a page.
     pub(super) const fn last(self) -> Self {
         Self { shown: Shown::Last, ..self }
     }

@@ -83,7 +83,7 @@ pub fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
 
 /// Returns the column header of a parameter.
 ///
-/// The header is the key, unless a measured value has that name. For example, the solved row may
+/// The header is the key, unless a measured value has the same name. For example, the solved row may
 /// have more scales than the parameter `scales` requests; the column `scales` is the solved number.
 fn header(parameter: &Parameter) -> &'static str {
     match parameter.key {
@@ -95,8 +95,8 @@ fn header(parameter: &Parameter) -> &'static str {
 
 /// Returns true if the column `name` is a parameter that distinguishes designs.
 ///
-/// A length in mm does not distinguish designs if the same length over the thickness is also among
-/// the columns `headers`.
+/// A length in mm does not distinguish designs if the same length divided by the thickness is also
+/// among the columns `headers`.
 pub fn distinguishes_designs(name: &str, headers: &[String]) -> bool {
     let over_t = parameter_of(name).map(Parameter::over_t);
     over_t.is_some_and(|over_t| {

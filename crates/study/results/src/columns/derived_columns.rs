@@ -140,7 +140,7 @@ impl MeasuredValue {
         self.good.map(|goal| if is_inverse { goal.inverse() } else { goal })
     }
 
-    /// Returns the cell of the value in a result; empty if the result lacks it.
+    /// Returns the cell of the value in a result; empty if the result does not have the value.
     fn cell(&self, result: &DesignResult) -> Cell {
         match self.value {
             Value::Coverage => result.coverage.into(),
@@ -175,8 +175,8 @@ impl ValueColumn {
         let of_value = COLUMNS.iter().filter(|column| {
             std::ptr::eq(column.value, dimensionless.value) && column.statistic.is_none()
         });
-        let mut standing = of_value.filter(|column| column.is_available(sweep, None));
-        standing.clone().find(|column| column.quantity.is_some()).or_else(|| standing.next())
+        let mut available = of_value.filter(|column| column.is_available(sweep, None));
+        available.clone().find(|column| column.quantity.is_some()).or_else(|| available.next())
     }
 
     /// Returns the header.

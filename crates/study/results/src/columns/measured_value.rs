@@ -49,13 +49,13 @@ pub struct MeasuredValue {
 #[derive(Debug)]
 pub(crate) enum Value {
     Coverage,
-    /// A number of a puncture, with derivatives.
+    /// Of the puncture: a number with derivatives.
     Puncture(fn(&mut PunctureMeasures) -> &mut Option<f64>),
-    /// A number of bending, with derivatives.
+    /// Of bending: a number with derivatives.
     Flexure(fn(&mut FlexureMeasures) -> &mut Option<f64>),
-    /// A count, a text, or a number without derivatives of a puncture.
+    /// Of the puncture: a count, a text, or a number without derivatives.
     OfPuncture(fn(&PunctureResult) -> Cell),
-    /// A count, a text, or a number without derivatives of bending.
+    /// Of bending: a count, a text, or a number without derivatives.
     OfBending(fn(&FlexureResult) -> Cell),
     /// The settings of a rerun design.
     Settings,
@@ -69,11 +69,12 @@ pub(crate) enum Value {
 
 /// Point of the path at which a value is measured.
 ///
-/// Determines whether the value depends on the end of the path.
+/// The point determines whether the value depends on the end of the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PathPoint {
-    /// At no point: without a path, or a property of the path without a physical meaning.
+    /// No point: the value needs no path, or is a property of its solution, e.g. a count.
     Nowhere,
+    /// At rest, before the load acts.
     Rest,
     /// At first contact of scales.
     Contact,
@@ -107,14 +108,14 @@ impl PathPoint {
 #[derive(Debug)]
 pub(super) struct Physical {
     pub(super) quantity: Quantity,
-    /// Name without the unit, and meaning; `None` if both are as for the dimensionless value.
+    /// Name without the unit, and meaning; `None` if they equal the ones of the dimensionless value.
     pub(super) other: Option<(&'static str, &'static str)>,
 }
 
 /// Statistics of a value over imperfect samples.
 #[derive(Debug)]
 pub(super) struct SampledValue {
-    /// Noun that describes the value, in the meanings of the statistics.
+    /// Noun for the value in the descriptions of its statistics.
     pub(super) noun: &'static str,
     pub(super) statistics: fn(&SampleStatistics) -> Option<Statistics>,
 }
@@ -225,10 +226,10 @@ impl MeasuredValue {
         };
         // Values in physical units can be compared between designs with different membranes.
         let is_unit = quantity.is_none() && self.unit.contains("E_m I_m");
-        // A parameter with deviations is a property of the product, not of the measurement: designs
-        // with and without friction can be compared.
-        let marks = self.needs.contains(&parameter.key) && !parameter.has(Role::Made);
-        marks
+        // A parameter with manufacturing deviations is a property of the product, not of the
+        // measurement: designs with and without friction can be compared.
+        let is_required = self.needs.contains(&parameter.key) && !parameter.has(Role::Made);
+        is_required
             || (ends && self.point.depends_on_end())
             || (is_unit && parameter.has(Role::UnitOfBending))
     }

@@ -1,4 +1,4 @@
-//! Names of the measured values that code refers to, such as tables, rankings and pages.
+//! Column names of the measured values to which code of tables, rankings or pages refers.
 
 /// Coverage: fraction of the scale layer that a vertical line crosses as solid scale.
 pub const COVERAGE: &str = "coverage";
@@ -22,9 +22,9 @@ pub const WEAKEST_PLACE: &str = "weakest_place";
 pub const CRITICAL_DISPLACEMENT: &str = "critical_displacement";
 /// Puncture force at the first failure.
 pub const FAILURE_FORCE: &str = "failure_force";
-/// Critical force of the row across.
+/// Puncture force at the critical tilt of the row across, which is perpendicular to the row.
 pub const FORCE_ACROSS: &str = "force_across";
-/// Smaller critical force of the row and of the row across.
+/// Smaller one of the critical forces along the row and across the row.
 pub const FORCE_ANY_DIRECTION: &str = "force_any_direction";
 /// Smallest puncture force on bodies between two radii.
 pub const WORST_FORCE_BETWEEN: &str = "worst_force_between";
@@ -40,15 +40,15 @@ pub const CRITICAL_EVENT: &str = "critical_event";
 pub const FIRST_CONTACT: &str = "first_contact_displacement";
 /// Tilt of the punctured scale where a guided needle first touches a corner or another scale.
 pub const PASSING_TILT: &str = "passing_tilt_deg";
-/// Width of the tightest gap at the critical tilt over its width at rest; at most 0 if folded.
+/// Width of the tightest gap at the critical tilt divided by its width at rest; 0 or less if folded.
 pub const GAP_STRETCH_MIN: &str = "gap_stretch_min";
-/// Width of the widest gap at the critical tilt over its width at rest.
+/// Width of the widest gap at the critical tilt divided by its width at rest.
 pub const GAP_STRETCH_MAX: &str = "gap_stretch_max";
 /// Puncture stiffness at rest.
 pub const INITIAL_STIFFNESS: &str = "initial_stiffness";
 /// Largest puncture stiffness on the path.
 pub const MAX_STIFFNESS: &str = "max_stiffness";
-/// Puncture force over displacement at the critical tilt.
+/// Puncture force divided by displacement at the critical tilt.
 pub const SECANT_STIFFNESS: &str = "secant_stiffness";
 /// Number of closed contacts.
 pub const CONTACTS: &str = "contacts";
@@ -93,7 +93,7 @@ mod tests {
 
     /// Returns the code of a file without tests, comments and Python docstrings.
     fn code(path: &Path) -> String {
-        let mut text = fs::read_to_string(path).expect("a text");
+        let mut text = fs::read_to_string(path).expect("readable");
         if path.extension().is_some_and(|kind| kind == "py") {
             text = text.split("\"\"\"").step_by(2).collect();
         }
@@ -104,9 +104,9 @@ mod tests {
             .join("\n")
     }
 
-    /// The first file is `name.rs` or `values.rs`.
+    /// Allows one file for the column and one file for the derivative.
     ///
-    /// The second file, if there is one, is in `mechanics`, where it names a derivative.
+    /// The first is `name.rs` or `values.rs`, the second is in `mechanics`.
     #[test]
     fn the_name_of_a_value_occurs_in_at_most_two_source_files() {
         let mut paths = Vec::new();

@@ -32,9 +32,9 @@ pub fn path_columns(is_guided: bool, has_friction: bool) -> Vec<Column<Stability
         "unstable_under_tilt", "-", |(_, i)| i.tilt,
             "number of negative eigenvalues of the stiffness under tilt control";
         name::GAP_STRETCH_MIN, "-", |(p, _)| p.gap_stretch.map(|stretch| stretch.min),
-            "width of the tightest gap between bases over its width at rest";
+            "width of the tightest gap between bases divided by its width at rest";
         name::GAP_STRETCH_MAX, "-", |(p, _)| p.gap_stretch.map(|stretch| stretch.max),
-            "width of the widest gap between bases over its width at rest";
+            "width of the widest gap between bases divided by its width at rest";
     });
     if is_guided {
         columns.extend(columns! { StabilityPoint:
@@ -59,7 +59,7 @@ pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
     let (Some(first), Some(last)) = (scales.clone().min(), scales.max()) else { return Vec::new() };
     (first..=last).map(|scale| {
         let on = |of: &TipForces| of.iter().find(|(touched, _)| *touched == scale).map(|of| of.1);
-        // If the tip does not touch a scale, its force is known to be 0, so the cell is not empty.
+        // If the tip does not touch a scale, the force on this scale is 0, not unknown.
         let values: Vec<f64> = forces.iter().map(|of| on(of).unwrap_or(0.0)).collect();
         Column::computed(
             format!("tip_force_{scale}").into(),
@@ -83,8 +83,8 @@ pub struct PunctureEvent {
 impl PunctureEvent {
     /// Returns the events of a puncture, in order.
     pub fn all(puncture: &Puncture) -> Vec<Self> {
-        // Force, depth and tilt may all reverse along a path, so none of them can order the three
-        // lists. Each fold and snap stores the number of contact events before it.
+        // Force, depth and tilt may all reverse along a path, so none of them can order folds,
+        // snaps and contact events. Each fold and snap stores the number of contact events before.
         let mut snaps = puncture.snaps.iter().peekable();
         let mut folds = puncture.folds.iter().peekable();
         let mut all = Vec::with_capacity(puncture.events.len());

@@ -20,13 +20,13 @@ fn tilt_values() -> Vec<(&'static MeasuredValue, &'static TiltValue)> {
 ///
 /// `table` selects the columns of one measure table; `None` selects all.
 pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
-    let places = tilt_suffixes(sweep);
+    let suffixes = tilt_suffixes(sweep);
     let columns = tilt_values()
         .into_iter()
         .filter(|(value, _)| table.is_none_or(|table| value.tables.contains(&table)));
     let columns = columns.flat_map(|(value, at_tilts)| {
-        places.iter().enumerate().map(move |(index, place)| {
-            let name = format!("{}_at_{place}", value.name);
+        suffixes.iter().enumerate().map(move |(index, suffix)| {
+            let name = format!("{}_at_{suffix}", value.name);
             Column::computed(name.into(), value.unit, at_tilts.meaning, move |row: &DesignRow| {
                 let at = row.result.at_tilts.get(index).and_then(Option::as_ref);
                 at.map(at_tilts.value).into()
@@ -54,7 +54,7 @@ fn tilt_suffixes(sweep: &Sweep) -> Vec<String> {
     tilts.as_slice().iter().map(|&tilt| format!("{}deg", number::text(tilt))).collect()
 }
 
-/// Returns unit and meaning of a column at a tilt, by its name.
+/// Returns unit and meaning of the column `name`, which contains a value at one of several tilts.
 pub(super) fn explain_tilt_value(name: &str) -> Option<(&'static str, &'static str)> {
     let found = tilt_values().into_iter().find(|(value, _)| {
         name.strip_prefix(value.name).is_some_and(|rest| rest.starts_with("_at_"))

@@ -1,6 +1,7 @@
 //! The list of all measured values, from which the columns of the tables derive.
 //!
-//! To add a value, add a field to its measures, compute it there, and add an entry to [`VALUES`]:
+//! To add a value, add a field to the measures, compute the field in the file of this table, and
+//! add an entry to [`VALUES`]:
 //!
 //! | Value | Computed in |
 //! |---|---|
@@ -35,7 +36,7 @@ use crate::quantity::Quantity;
 /// Parameter that enables the search for the weakest load position.
 const PLACES: &[&str] = &[key::PLACES];
 
-/// Parameters that request the row across (perpendicular to the row).
+/// Parameters that request the puncture of the row across, which is perpendicular to the row.
 const ACROSS: &[&str] = &[key::ACROSS, key::GAP_ACROSS, key::GAP_ACROSS_MM];
 
 /// Parameters that request bodies between two radii.
@@ -123,7 +124,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     stiffness(name::MAX_STIFFNESS, Anywhere, |m| &mut m.max_stiffness).along_path().then():
         "largest puncture stiffness on the path";
     stiffness(name::SECANT_STIFFNESS, End, |m| &mut m.secant_stiffness):
-        "puncture force over displacement at the critical tilt";
+        "puncture force divided by displacement at the critical tilt";
     of_puncture("puncture_points", NONE, |p| p.points.into()):
         "number of equilibria of the puncture path";
     of_puncture("puncture_iterations", NONE, |p| p.iterations.into()):
@@ -134,7 +135,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         .in_unit("1/(E_m I_m)")
         .physical(&[renamed(Quantity::Rigidity, "flexural_rigidity", "flexural rigidity: largest slope of the moment against the curvature")])
         .large().sampled("flexural compliance", |s| s.compliance).first():
-        "flexural compliance: 1 over the largest slope of the moment against the curvature";
+        "flexural compliance: 1 divided by the largest slope of the moment against the curvature";
     of_bending("flexure_status", COMPLIANCE, |f| f.outcome.text().into()).last():
         "complete, or why the bending has no values";
     bending(name::INITIAL_COMPLIANCE, Rest, |m| &mut m.initial_compliance)
@@ -179,9 +180,9 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     of_puncture("snaps", FORCE, |p| p.measures.snaps.into()).at(Anywhere).along_path():
         "number of snaps of the row under a needle with increasing depth";
     number(name::GAP_STRETCH_MIN, End, |m| &mut m.gap_stretch_min).large().then():
-        "width of the tightest gap between bases at the critical tilt over its width at rest; 0 or less where the surface is folded";
+        "width of the tightest gap between bases at the critical tilt divided by its width at rest; 0 or less where the surface is folded";
     number(name::GAP_STRETCH_MAX, End, |m| &mut m.gap_stretch_max).small().then():
-        "width of the widest gap between bases at the critical tilt over its width at rest";
+        "width of the widest gap between bases at the critical tilt divided by its width at rest";
     force(name::FOLD_FORCE, Fold, |m| &mut m.fold_force).large().then():
         "puncture force at the first fold of the surface; empty if it does not fold";
     depth("fold_displacement", Fold, |m| &mut m.fold_displacement):
@@ -285,7 +286,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     value("flexure_samples_failed", COMPLIANCE, Samples(|s| s.flexure_failed)):
         "number of imperfect samples without bending values, excluded from mean and quantiles";
     value(name::AREAL_MASS, COVERAGE, ArealMass).in_unit("kg/m^2").small():
-        "mass of the scales over the area of the skin";
+        "mass of the scales divided by the area of the skin";
 };
 
 fn yes_or_no(holds: bool) -> &'static str {

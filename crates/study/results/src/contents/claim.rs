@@ -17,7 +17,7 @@ use crate::folder::{FileEntry, Maker, ResultsFolder};
 pub struct Claim<'f> {
     folder: &'f ResultsFolder,
     maker: Maker,
-    made: Derivation,
+    record: Derivation,
     // Locked for the lifetime of the claim. Closing the file releases the lock.
     lock: File,
 }
@@ -37,15 +37,15 @@ impl<'f> Claim<'f> {
             return Ok(());
         }
         let known = stated.unwrap_or_default();
-        let mut strange = FileEntry::products(maker).filter(|file| !known.contains_key(file.name));
-        strange.try_for_each(|file| require_none(folder, file.name))
+        let mut unknown = FileEntry::products(maker).filter(|file| !known.contains_key(file.name));
+        unknown.try_for_each(|file| require_none(folder, file.name))
     }
 
     /// Returns the recorded SHA-256 of each file of `maker`, by name.
     ///
     /// `None` if `maker` has no record, or a damaged one.
     pub fn stated(folder: &ResultsFolder, maker: Maker) -> Option<BTreeMap<String, String>> {
-        Derivation::read(folder, maker.key()).map(|made| made.files)
+        Derivation::read(folder, maker.key()).map(|record| record.files)
     }
 
     /// Claims the files of `maker` in `folder`.
@@ -68,12 +68,12 @@ impl<'f> Claim<'f> {
         let (product, command) = maker.names();
         let (product, command) = (product.to_owned(), command.to_owned());
         let (from, files) = (String::new(), names.collect());
-        let made = Derivation { product, command, from, made_from: None, files };
-        made.write(folder, maker.key())?;
-        Ok(Self { folder, maker, made, lock })
+        let record = Derivation { product, command, from, made_from: None, files };
+        record.write(folder, maker.key())?;
+        Ok(Self { folder, maker, record, lock })
     }
 
-    /// Claims the file `name` in addition.
+    /// Adds the file `name` to the claim.
     ///
     /// # Errors
     ///
@@ -82,8 +82,8 @@ impl<'f> Claim<'f> {
         require_none(self.folder, name)?;
         // Record the name before the file is written. Otherwise the file of a killed command would
         // count as foreign and block every later run.
-        self.made.files.insert(name.to_owned(), String::new());
-        self.made.write(self.folder, self.maker.key())
+        self.record.files.insert(name.to_owned(), String::new());
+        self.record.write(self.folder, self.maker.key())
     }
 
     /// Records the digests of `files` and ends the claim.
@@ -97,21 +97,21 @@ impl<'f> Claim<'f> {
     /// If a file cannot be read, or the record cannot be written.
     pub fn state(mut self, files: &[impl AsRef<str>]) -> Result<File, OutputError> {
         let folder = self.folder;
-        self.made.files.retain(|name, _| files.iter().any(|file| file.as_ref() == name));
-        for (name, digest) in &mut self.made.files {
+        self.record.files.retain(|name, _| files.iter().any(|file| file.as_ref() == name));
+        for (name, digest) in &mut self.record.files {
             let path = folder.file(name);
             let read = File::open(&path).and_then(sha256_of);
             *digest = read.map_err(|error| OutputError::file(&path, &error))?;
         }
-        self.made.write(folder, self.maker.key())?;
+        self.record.write(folder, self.maker.key())?;
         folder.sync();
         Ok(self.lock)
     }
 
     /// Removes the unchanged files of `maker` in `folder`, and its record.
     pub fn release(folder: &ResultsFolder, maker: Maker) {
-        if let Some(made) = Derivation::read(folder, maker.key()) {
-            made.remove(folder);
+        if let Some(record) = Derivation::read(folder, maker.key()) {
+            record.remove(folder);
             ResultsFolder::new(folder.file(ResultsFolder::DERIVED))
                 .remove(&format!("{}.toml", maker.key()));
         }
@@ -121,9 +121,9 @@ impl<'f> Claim<'f> {
 /// Refuses to write the file `name` if anything with that name exists.
 fn require_none(folder: &ResultsFolder, name: &str) -> Result<(), OutputError> {
     let path = folder.file(name);
-    // Do not follow links: a link was not written by squama, whatever its target.
-    let is_there = fs::symlink_metadata(&path).is_ok();
-    if is_there { Err(OutputError::strange(&path)) } else { Ok(()) }
+    // Do not follow links: squama did not write a link, even if its target does not exist.
+    let exists = fs::symlink_metadata(&path).is_ok();
+    if exists { Err(OutputError::strange(&path)) } else { Ok(()) }
 }
 
 #[cfg(test)]
@@ -180,12 +180,12 @@ mod tests {
         // The changed file counts as foreign after a run that did not write it.
         write("tolerance.csv", "again");
         claim.state(&files[..1]).expect("written");
-        let refused = Claim::take(&folder, Maker::Tolerance).expect_err("a stranger's").to_string();
+        let refused = Claim::take(&folder, Maker::Tolerance).expect_err("foreign file").to_string();
         assert!(refused.contains("yield.csv"), "{refused}");
     }
 
     #[test]
-    fn one_command_writes_at_a_time() {
+    fn only_one_command_at_a_time_claims_files_of_a_folder() {
         let place = tempfile::tempdir().expect("a folder");
         let folder = ResultsFolder::new(place.path());
         let _claim = Claim::take(&folder, Maker::Comparison).expect("a claim");

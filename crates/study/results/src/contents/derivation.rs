@@ -31,7 +31,7 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// Writes this record to the file `derived/RECORD.toml` in `folder`, for the name `record`.
+    /// Writes this record to the file `derived/{record}.toml` in `folder`.
     ///
     /// # Errors
     ///
@@ -53,7 +53,7 @@ impl Derivation {
         toml::from_str(&read_text(&Self::path(folder, record)).ok()?).ok()
     }
 
-    /// Returns the path of the file of the record `record` in `folder`.
+    /// Returns the path of the record with the name `record` in `folder`.
     pub(super) fn path(folder: &ResultsFolder, record: &str) -> PathBuf {
         folder.file(ResultsFolder::DERIVED).join(format!("{record}.toml"))
     }
@@ -84,17 +84,17 @@ impl Derivation {
     /// Files outside the folder and files that a user has changed are kept.
     pub(super) fn remove(&self, folder: &ResultsFolder) -> Vec<String> {
         // An empty digest marks an unfinished file, which squama may remove in any state.
-        let is_ours = |(name, digest): &(&String, &String)| {
+        let may_remove = |(name, digest): &(&String, &String)| {
             let path = folder.file(name);
-            let is_own =
+            let is_unchanged =
                 || digest.is_empty() || fs::read(&path).map(sha256).ok().as_ref() == Some(digest);
             // A record from another user may name any path, so remove only files in the folder.
             let is_inside =
                 Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
-            is_inside && path.is_file() && is_own()
+            is_inside && path.is_file() && is_unchanged()
         };
         let removed: Vec<_> =
-            self.files.iter().filter(is_ours).map(|(name, _)| name.clone()).collect();
+            self.files.iter().filter(may_remove).map(|(name, _)| name.clone()).collect();
         for name in &removed {
             folder.remove(name);
         }

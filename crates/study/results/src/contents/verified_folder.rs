@@ -34,7 +34,9 @@ pub struct VerifiedFolder {
     contents: Option<Contents>,
     /// Whether the journal is longer than stated in the contents.
     behind: bool,
-    /// Receives warnings about tables that another program saved again; `None`: refuse such tables.
+    /// Function for warnings about tables that another program saved again.
+    ///
+    /// If `None`, such tables are refused.
     warn: Option<fn(&str)>,
 }
 
@@ -43,7 +45,7 @@ pub(crate) trait TableText: Read + Seek {}
 
 impl<T: Read + Seek> TableText for T {}
 
-/// A results folder that contradicts its contents.
+/// Error: a results folder contradicts its contents.
 ///
 /// The message has one line and names the repair.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -84,7 +86,7 @@ impl VerifiedFolder {
     pub fn open(folder: &Path, completeness: Completeness) -> Result<Self, InvalidFolder> {
         let folder = ResultsFolder::new(folder);
         let contents = read(&folder)?;
-        // Valid tables lack designs that were added to the journal later.
+        // Tables may be valid but lack designs that were added to the journal later.
         let behind = match &contents {
             Some(contents) => is_behind(&folder, &contents.journal)?,
             None => false,
@@ -137,8 +139,9 @@ impl VerifiedFolder {
         let stated = self.contents.iter().flat_map(|contents| contents.files.keys());
         let ranking = Derivation::read(&self.folder, ResultsFolder::RANKING_RECORD);
         // A ranking that was removed completely does not count as missing.
-        let ranking = ranking.filter(|made| self.contents.is_some() && made.is_there(&self.folder));
-        let ranked = ranking.iter().flat_map(|made| made.files.keys());
+        let ranking =
+            ranking.filter(|record| self.contents.is_some() && record.is_there(&self.folder));
+        let ranked = ranking.iter().flat_map(|record| record.files.keys());
         let expected: BTreeSet<&str> = stated.chain(ranked).map(String::as_str).collect();
         let tables =
             ResultsFolder::tables().filter(|name| expected.contains(name) || self.holds(name));
@@ -282,14 +285,14 @@ impl VerifiedFolder {
     /// `None` if the folder contains neither a record of the command nor the journal of a search;
     /// the file is then used without verification.
     fn claimed(&self, file: &FileEntry) -> Result<Option<String>, InvalidFolder> {
-        let made = self.derivation(file.maker.key())?;
+        let record = self.derivation(file.maker.key())?;
         // A search writes its journal from the start and its record with its results. A journal
         // without a record therefore means that the search was interrupted.
-        if made.is_none() && !self.folder.file(ResultsFolder::EVALUATIONS).exists() {
+        if record.is_none() && !self.folder.file(ResultsFolder::EVALUATIONS).exists() {
             return Ok(None);
         }
-        let stated = made.as_ref().and_then(|made| made.files.get(file.name).cloned());
-        let problem = match (&made, &stated) {
+        let stated = record.as_ref().and_then(|record| record.files.get(file.name).cloned());
+        let problem = match (&record, &stated) {
             // The record does not list this file, because the last command did not write it.
             (Some(_), None) => "was not written by the last command",
             // There is no record, or the record has an empty digest.
@@ -299,7 +302,7 @@ impl VerifiedFolder {
         stated.map(Some).ok_or_else(|| self.refusal(file.name, file.maker, problem))
     }
 
-    /// Returns the error of the file `name`, with `problem` and the command that repairs it.
+    /// Returns the error for the file `name`: `problem`, and the command that writes the file again.
     fn refusal(&self, name: &str, maker: Maker, problem: &str) -> InvalidFolder {
         let again = match maker {
             Maker::Run => repair_command(self.path()),
@@ -311,7 +314,7 @@ impl VerifiedFolder {
         InvalidFolder::new(self.folder.file(name), format!("{problem}; {again} writes it again"))
     }
 
-    /// Returns the error of a missing file, with the command that writes it again.
+    /// Returns the error for the missing file `name`, with the command that writes the file again.
     pub fn missing(&self, name: &str) -> InvalidFolder {
         let maker = FileEntry::named(name).map_or(Maker::Run, |entry| entry.maker);
         self.refusal(name, maker, "is missing, but files beside it were made with it")
@@ -344,8 +347,8 @@ impl VerifiedFolder {
         let Some(digest) = self.digest() else { return Vec::new() };
         let all = Derivation::all(&self.folder).into_iter();
         // A product of a definition does not become outdated when tables are rewritten.
-        let is_older = |made: &Derivation| !made.from.is_empty() && made.from != digest;
-        all.filter(|made| is_older(made) && made.is_there(&self.folder)).collect()
+        let is_older = |record: &Derivation| !record.from.is_empty() && record.from != digest;
+        all.filter(|record| is_older(record) && record.is_there(&self.folder)).collect()
     }
 }
 
@@ -505,13 +508,13 @@ mod tests {
                 let from = open().expect("a folder").digest().expect("a digest");
                 let (product, command) = file.maker.names();
                 let (product, command) = (product.to_owned(), command.to_owned());
-                let made = Derivation { product, command, from, made_from: None, files: written };
-                made.write(&folder, file.maker.key()).expect("writable");
+                let record = Derivation { product, command, from, made_from: None, files: written };
+                record.write(&folder, file.maker.key()).expect("writable");
             }
             let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
             assert!(refused.to_string().contains("was changed after"), "{refused}");
             fs::write(folder.file(file.name), "as it was written").expect("writable");
-            let read = open().and_then(|folder| folder.text(file.name)).expect("a text");
+            let read = open().and_then(|folder| folder.text(file.name)).expect("readable");
             assert_eq!(read, "as it was written", "{}", file.name);
         }
     }

@@ -27,7 +27,7 @@ pub struct DesignResult {
     pub puncture: Option<PunctureResult>,
     /// Puncture measures at each of several critical tilts, if several tilts were requested.
     ///
-    /// `None` if the path did not reach the tilt.
+    /// An item is `None` if the path did not reach its tilt.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Bending, if it was requested.

@@ -17,7 +17,7 @@ use crate::columns::measured_value;
 use crate::columns::measured_value::{MeasuredValue, Value};
 use crate::columns::values::VALUES;
 
-/// Relative step of a parameter, to find the parameters that follow from it.
+/// Relative change of a parameter to find the other parameters that change with this parameter.
 const STEP: f64 = 1e-6;
 
 /// The one-sided derivative that is used for extrapolation.
@@ -70,8 +70,8 @@ impl DesignRow {
     /// `None` if the parameter is not a number.
     pub fn extrapolated_by(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
         let to = parameter.moved(&self.case, by)?;
-        // A length in mm or a thickness changes lengths over the thickness. Measures have
-        // derivatives with respect to lengths over the thickness only.
+        // A length in mm or a thickness changes ratios of lengths to the thickness. Measures have
+        // derivatives with respect to these ratios only.
         let changes = if parameter.has(Role::Continuous) {
             vec![MovedParameter { parameter, by }]
         } else {
@@ -81,8 +81,8 @@ impl DesignRow {
     }
 
     fn changed(&self, to: &Case, changes: &[MovedParameter<'_>], side: SlopeSide) -> Self {
-        // First remove all values that depend on the change, then restore those with derivatives.
-        // No value of the old case can remain by oversight.
+        // First remove all values that depend on the change, then restore the values with
+        // derivatives. Thus no value of the old case remains by mistake.
         let mut row = Self { case: *to, result: self.result.without_dependents(changes), ..*self };
         let derivatives = &self.result.sensitivity;
         for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
@@ -182,7 +182,7 @@ impl DesignResult {
         if depends(Measure::Flexure)
             && let Some(flexure) = &mut result.flexure
         {
-            // Keep the statement whether contacts close: it is not a number and has no derivative.
+            // Keep the field `contact`, which states whether contacts close: it has no derivative.
             let contact = flexure.measures.contact;
             flexure.measures = FlexureMeasures { contact, ..FlexureMeasures::default() };
         }

@@ -8,7 +8,7 @@ use solver::Termination;
 
 /// Outcome of a measure of a design: complete, or the reason why it has no values.
 ///
-/// The list is closed and the texts are stable, so that tables can be filtered by them.
+/// The list is complete and the texts are stable, so that tables can be filtered by these texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
@@ -20,7 +20,7 @@ pub enum Outcome {
     Singular,
     /// The path reached the maximum number of equilibria.
     TooManyPoints,
-    /// The path reached the limit on its work.
+    /// The path reached the limit of its computational work.
     TooMuchWork,
     /// Contacts open and close at one point without progress along the path.
     Cycling,
@@ -113,7 +113,7 @@ impl Outcome {
             Self::Singular => "the tangent is singular: the path has no unique continuation",
             Self::TooManyPoints => "the path reached `solver.max_points` equilibria",
             Self::TooMuchWork => {
-                "the path reached the limit on its work, which a smaller `solver.max_step` raises"
+                "the path reached the limit of its computational work, which a smaller `solver.max_step` raises"
             }
             Self::Cycling => "contacts open and close at one point without progress along the path",
             Self::NotFinite => "a value is not finite",

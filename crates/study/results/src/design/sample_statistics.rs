@@ -82,7 +82,7 @@ mod tests {
     use super::Statistics;
 
     #[test]
-    fn quantiles_lie_between_the_nearest_values() {
+    fn quantiles_are_interpolated_between_the_nearest_values() {
         let values: Vec<f64> = (0..=20).rev().map(f64::from).collect();
         let statistics = Statistics::from_values(values).expect("values");
         assert_eq!(statistics, Statistics { mean: 10.0, quantiles: [1.0, 10.0, 19.0] });

@@ -19,12 +19,12 @@ impl PunctureResult {
     pub fn new(puncture: &Puncture, calibration_error: f64) -> Self {
         let mut measures = puncture.measures;
         // The number of scales is a count, so it stays valid if a number is not finite.
-        let few = puncture::PunctureMeasures {
+        let counts = puncture::PunctureMeasures {
             scales: measures.scales,
             ..puncture::PunctureMeasures::default()
         };
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_puncture(&mut measures));
-        let (outcome, measures) = finite_or(finite_all, puncture.status.into(), measures, few);
+        let (outcome, measures) = finite_or(finite_all, puncture.status.into(), measures, counts);
         Self {
             outcome,
             measures,
@@ -42,7 +42,7 @@ impl PunctureResult {
             ),
             across: None,
             between: None,
-            way_back: puncture.unloading.as_ref().map(back_to_zero),
+            way_back: puncture.unloading.as_ref().map(unloading_outcome),
         }
     }
 }
@@ -53,7 +53,7 @@ impl FlexureResult {
     /// If one number is not finite, all numbers are omitted.
     pub fn new(flexure: &Flexure) -> Self {
         let Flexure { status, measures, path, history, .. } = flexure;
-        let way_back = flexure.unloading.as_ref().map(back_to_zero);
+        let way_back = flexure.unloading.as_ref().map(unloading_outcome);
         Self { way_back, ..Self::checked(*status, *measures, path.len(), history.len()) }
     }
 
@@ -69,17 +69,17 @@ impl FlexureResult {
         points: usize,
         iterations: usize,
     ) -> Self {
-        let few =
+        let counts =
             flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_flexure(&mut measures));
-        let (outcome, measures) = finite_or(finite_all, status.into(), measures, few);
+        let (outcome, measures) = finite_or(finite_all, status.into(), measures, counts);
         Self { outcome, measures, points, iterations, way_back: None }
     }
 }
 
 /// Returns the outcome of an unloading path: complete if the load returned to zero.
-fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
-    match back.stop {
+fn unloading_outcome<P>(unloading: &Unloading<P>) -> Outcome {
+    match unloading.stop {
         Termination::Unloaded => Outcome::Complete,
         stop => stop.into(),
     }
@@ -87,14 +87,14 @@ fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
 
 /// Returns `outcome` and `measures` if all numbers are finite (`finite` is true).
 ///
-/// Otherwise returns `few` as the measures, and [`Outcome::NotFinite`] as the outcome unless the
+/// Otherwise returns `counts` as the measures, and [`Outcome::NotFinite`] as the outcome unless the
 /// path stopped for another reason.
-fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
+fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, counts: M) -> (Outcome, M) {
     match outcome {
         _ if finite => (outcome, measures),
-        Outcome::Complete => (Outcome::NotFinite, few),
+        Outcome::Complete => (Outcome::NotFinite, counts),
         // Keep the reason why the path stopped: it is more specific than `NotFinite`.
-        stopped => (stopped, few),
+        stopped => (stopped, counts),
     }
 }
 

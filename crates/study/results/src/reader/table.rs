@@ -111,7 +111,7 @@ impl Table {
         let columns = header
             .iter()
             .enumerate()
-            .map(|(place, name)| match place {
+            .map(|(index, name)| match index {
                 // Store names as texts, because `7` and `007` are names of different rows.
                 0 => Column::Texts(Texts::default()),
                 _ if is_read(name) => Column::Numbers(Vec::new()),
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unread_column_takes_no_memory() {
+    fn an_unread_column_has_no_values() {
         let mut table = Table::new(["n", "a"].map(str::to_owned).to_vec(), |name| name != "a");
         table.push(["1", "2"]);
         assert_eq!((table.length(), table.number(0, 1)), (1, None));

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 
 /// Format of a CSV file.
 ///
-/// RFC 4180 except for the separator: UTF-8, CR LF line ends, quotes where a cell needs them.
+/// Both formats follow RFC 4180 except for the separator: UTF-8, CR LF line ends, and quotes around
+/// cells that need them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CsvFormat {
@@ -18,11 +19,11 @@ pub enum CsvFormat {
     Plain,
     /// Semicolon between cells, decimal comma, byte-order mark.
     ///
-    /// Excel opens it correctly in locales with a decimal comma.
+    /// Excel opens files in this format correctly in locales with a decimal comma.
     ExcelEu,
 }
 
-/// A text that is not the name of a CSV format.
+/// Error: a text is not the name of a CSV format.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is not a CSV format, expected plain or excel-eu")]
 pub struct UnknownCsvFormat(String);
@@ -30,7 +31,7 @@ pub struct UnknownCsvFormat(String);
 /// Byte-order mark of UTF-8.
 const MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// First character of a text that a spreadsheet would otherwise evaluate as a formula.
+/// Apostrophe before a text that a spreadsheet would otherwise evaluate as a formula.
 // Spreadsheets hide this apostrophe, but other programs show it, so numbers are never marked.
 const TEXT_MARK: char = '\'';
 
@@ -76,7 +77,7 @@ impl CsvFormat {
         if needs_mark(cell) {
             return format!("{TEXT_MARK}{cell}").into();
         }
-        // Keep the points of texts: `solver.max_step=0,01` would not be a valid setting.
+        // Keep the decimal points in texts: `solver.max_step=0,01` would not be a valid setting.
         let is_decimal = self == Self::ExcelEu && cell.contains('.') && is_number(cell);
         if is_decimal { cell.replace('.', ",").into() } else { cell.into() }
     }
@@ -95,7 +96,7 @@ impl CsvFormat {
         let header = beginning[start..].split(|byte| matches!(byte, b'\r' | b'\n')).next();
         let header = header.unwrap_or_default();
         // A header of one cell has no separator. Then the byte-order mark decides, because squama
-        // writes it only in the format for spreadsheets.
+        // writes this mark only in the format for spreadsheets.
         let is_plain = header.contains(&b',') || (start == 0 && !header.contains(&b';'));
         (if is_plain { Self::Plain } else { Self::ExcelEu }, start)
     }
@@ -147,7 +148,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_numbers_take_the_decimal_comma() {
+    fn only_numbers_are_written_with_a_decimal_comma() {
         let cells = ["0.3", "1e-7", "1.5e-12", "0417", "solver.max_step=0.01", "complete", ""];
         let written = cells.map(|cell| CsvFormat::ExcelEu.cell(cell).into_owned());
         assert_eq!(

@@ -32,7 +32,7 @@ impl WrittenTable {
         Some(Self { format, rows: format.reader(file) })
     }
 
-    /// Opens the table `name` in `folder` if its SHA-256 agrees with the one in `stated`.
+    /// Opens the table `name` in `folder` if its SHA-256 agrees with the recorded one in `stated`.
     pub fn as_stated(
         folder: &ResultsFolder,
         name: &str,

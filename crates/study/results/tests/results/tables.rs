@@ -38,8 +38,9 @@ fn axis_value(parameter: &sweep::Parameter) -> String {
 
 /// Returns true if a parameter cannot be given in a sweep with lengths in one unit.
 ///
-/// The unit is mm (`in_mm`) or the thickness. Excluded are lengths in the other unit and the pitch.
-/// Also excluded are ratios of moduli, strengths and force (in mm) or their numerators (otherwise).
+/// The unit is mm (`in_mm`) or the thickness. Returns true for lengths in the other unit and for the
+/// pitch. Returns true also for ratios of moduli, strengths or a force if the unit is mm, and for the
+/// numerators of these ratios if the unit is the thickness.
 fn is_in_other_unit(parameter: &sweep::Parameter, in_mm: bool) -> bool {
     let has_other_unit = parameter.is_in_mm() || parameter.in_mm().next().is_some();
     let numerators = ["scale_modulus_MPa", "scale_strength_MPa", "bond_strength_MPa", "force_N"];
@@ -52,7 +53,7 @@ fn is_in_other_unit(parameter: &sweep::Parameter, in_mm: bool) -> bool {
 
 /// Returns the columns of a sweep with an axis for every parameter except `excluded`.
 ///
-/// Lengths are in mm if `in_mm`, otherwise over the thickness.
+/// Lengths are in mm if `in_mm` is true, otherwise divided by the thickness.
 fn columns_without(needle: &str, excluded: [&str; 5], in_mm: bool) -> Vec<String> {
     let chosen = sweep::PARAMETERS
         .iter()
@@ -104,7 +105,7 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
 
 /// With a depth in either unit, `force_at_depth` is a column, and with a material also in newtons.
 #[test]
-fn a_given_depth_adds_the_column_of_its_force() {
+fn a_given_depth_adds_the_column_of_the_force_at_this_depth() {
     assert!(!headers("name = 'x'").contains("force_at_depth"));
     assert!(headers("name = 'x'\n[puncture]\ndepth_over_t = 0.3").contains(",force_at_depth,"));
     let material = "name = 'x'\n[puncture]\ndepth_mm = 0.3\n[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1";
@@ -116,7 +117,7 @@ fn a_given_depth_adds_the_column_of_its_force() {
 
 /// The weakest load position is a column if several positions are requested.
 #[test]
-fn several_load_positions_add_the_columns_of_the_weakest() {
+fn several_load_positions_add_the_columns_of_the_weakest_position() {
     assert!(!headers("name = 'x'").contains("weakest"));
     let places = "name = 'x'\n[puncture]\nplaces = 11";
     assert!(headers(places).contains(",weakest_force,weakest_place,weakest_status,"));
@@ -133,7 +134,7 @@ fn several_critical_tilts_add_a_column_for_each() {
         let added = plain
             .lines()
             .zip(with.lines())
-            .map(|(plain, with)| with.strip_prefix(plain).expect("after the others").to_owned());
+            .map(|(plain, with)| with.strip_prefix(plain).expect("added at the end").to_owned());
         added.collect::<Vec<_>>()
     };
     let force = ",critical_force_at_5deg,critical_force_at_10.5deg";
@@ -171,8 +172,8 @@ fn a_thickness_adds_the_columns_of_lengths_in_mm() {
         for name in ["gap_mm", "length_mm", "width_mm", "pitch_mm", "width_over_t"] {
             assert_eq!(headers.iter().filter(|header| *header == name).count(), 1, "{with}");
         }
-        let apart = ["gap_over_t", "length_over_t", "width_over_t"];
-        assert!(apart.iter().all(|name| results::columns::distinguishes_designs(name, &headers)));
+        let lengths = ["gap_over_t", "length_over_t", "width_over_t"];
+        assert!(lengths.iter().all(|name| results::columns::distinguishes_designs(name, &headers)));
         assert!(!results::columns::distinguishes_designs("gap_mm", &headers));
     }
 }

@@ -9,9 +9,9 @@ use sweep::Sweep;
 /// Relation between the criteria of the designs.
 #[derive(Clone, Copy, Debug)]
 pub enum Criteria {
-    /// Independent criteria: few designs are not dominated.
+    /// Independent criteria: few designs are on the Pareto front.
     Independent,
-    /// Conflicting criteria: no design dominates another.
+    /// Conflicting criteria: no design dominates another design.
     Conflicting,
 }
 

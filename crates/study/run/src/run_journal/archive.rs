@@ -156,7 +156,7 @@ impl Archive {
     ///
     /// Returns `None` if the journal still has all lines from which these tables were written.
     pub(crate) fn lost_lines(&self, folder: &ResultsFolder) -> Option<String> {
-        // `contents.toml` states the number of complete lines at that time.
+        // `contents.toml` states the number of complete lines when the tables were written.
         let stated = Contents::stated_in(folder)?.journal.lines;
         let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
         Some(format!("{lost} of the {stated} lines from which the tables were written are missing"))
@@ -228,7 +228,7 @@ impl Archive {
 
     /// Returns the row of the tables for an entry.
     pub fn row(&self, entry: JournalEntry) -> DesignRow {
-        // The journal was only read if all entries are designs of the grid.
+        // An entry has an index: reading fails if an entry is not a design of the grid.
         let index = entry.index().unwrap_or_default();
         let grid = self.sweep.grid();
         DesignRow { number: grid.number(index), case: grid.case(index), result: entry.result }
@@ -252,7 +252,7 @@ impl Entries<'_> {
         offsets.map(move |(_, offset)| self.at(offset))
     }
 
-    /// Returns pairs of entries of the same design: an earlier result and the one that replaced it.
+    /// Returns pairs of entries of the same design: a result and the next result that replaced it.
     pub fn replaced(
         mut self,
     ) -> impl Iterator<Item = Result<(JournalEntry, JournalEntry), JournalError>> {

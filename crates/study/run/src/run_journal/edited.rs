@@ -26,14 +26,14 @@ pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), Jo
     let changed = table.changed(&columns, |record| {
         let index = record.get(0).and_then(|number| grid.parse_number(number).ok());
         let position = index.and_then(|index| archive.designs().position(index));
-        // Lines that were added after the tables were written may be reruns, which are newer.
+        // Skip lines that were added after the tables were written, because they may be reruns.
         let old = position.filter(|position| archive.is_before(*position, stated.bytes));
         let entry = old.map(|position| entries.last(position)).transpose()?.flatten();
         let row = entry.map(|entry| archive.row(entry));
         // If the line of a rerun was lost, the result before this rerun is valid again. Its
         // settings differ from the settings in the table, so it is not compared.
         Ok::<_, JournalError>(row.filter(|row| {
-            is_whole || settings.is_none_or(|place| record.get(place) == Some(&row.result.settings))
+            is_whole || settings.is_none_or(|index| record.get(index) == Some(&row.result.settings))
         }))
     })?;
     let Some(design) = changed.into_iter().next() else { return Ok(()) };

@@ -13,7 +13,7 @@ use sweep::{Measure, Subset, Sweep};
 
 use super::{Archive, Journal, JournalHeader, Line, edited};
 
-/// Name of the file that replaces the journal.
+/// Name of the rewritten journal until it replaces the old journal.
 const REWRITTEN: &str = "journal.jsonl.new";
 
 /// Rewrites the journal in `folder` if the definition in `header` contains all solved designs.
@@ -37,7 +37,7 @@ pub(super) fn adopt(
     if found.header().definition() == header.definition() || !is_extended(&found, header) {
         return Ok(None);
     }
-    // The old journal stays locked until the new one has replaced it.
+    // The old journal stays locked until the new journal has replaced the old one.
     let locked = Journal::resume(&path)?;
     let archive = locked.records();
     let Ok(sweep) = Sweep::parse(header.definition(), "definition", &[]) else { return Ok(None) };
@@ -57,8 +57,8 @@ pub(super) fn adopt(
 
 /// Returns true if the definition in `header` may contain the designs of `found`.
 ///
-/// Both have the same program, no samples or shards, and the same measures. With derivatives, they
-/// also have the same axes.
+/// This requires the same program and the same measures, and neither samples nor shards. If the
+/// measures include derivatives, the axes must be the same, too.
 fn is_extended(found: &Archive, header: &JournalHeader) -> bool {
     let all = Subset::default();
     found.header().program() == header.program()

@@ -64,10 +64,10 @@ impl Index {
 
     /// Returns the position of each finished design with the offset of its valid line.
     pub fn valid_lines(&self) -> impl Iterator<Item = (u64, u64)> {
-        self.pages.iter().flat_map(|(page, places)| {
+        self.pages.iter().flat_map(|(page, slots)| {
             let positions = page * PAGE..;
             positions
-                .zip(places)
+                .zip(slots)
                 .filter_map(|(position, slot)| Some((position, slot.as_ref()?.get())))
         })
     }

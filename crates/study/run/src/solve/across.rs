@@ -16,13 +16,13 @@ use super::guard::{guarded, solved};
 /// not depend. Each thread solves its own group of designs, so it needs its own cached row.
 const MAX_CACHED: usize = 64;
 
-/// Forces `F*` of a row across, divided by the length of the scales of this row.
+/// Forces `F*` of a row across, normalised by the length of the scales of this row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AcrossForces {
     outcome: Outcome,
     critical: Option<f64>,
-    /// Largest force on the path, also if it ended early.
-    borne: Option<f64>,
+    /// Largest force on the path, also if the path ended early.
+    largest: Option<f64>,
 }
 
 impl AcrossForces {
@@ -31,7 +31,7 @@ impl AcrossForces {
         let outcome = punctured.as_ref().map_or_else(|outcome| **outcome, |p| p.outcome);
         let critical = punctured.ok().and_then(|puncture| puncture.measures.critical_force);
         let path = across.iter().flat_map(|puncture| &puncture.path);
-        Self { outcome, critical, borne: path.map(|point| point.force).reduce(f64::max) }
+        Self { outcome, critical, largest: path.map(|point| point.force).reduce(f64::max) }
     }
 
     /// Adds the forces of the row across to the result of the row along.
@@ -42,9 +42,9 @@ impl AcrossForces {
             Some(_) => measures.weakest.force,
             None => measures.critical_force,
         };
-        let [force, borne] =
-            [self.critical, self.borne].map(|force| Some(force? * case.across_factor()));
-        *measures = measures.with_across(force, borne, along);
+        let [force, largest] =
+            [self.critical, self.largest].map(|force| Some(force? * case.across_factor()));
+        *measures = measures.with_across(force, largest, along);
     }
 }
 
@@ -53,7 +53,7 @@ impl AcrossForces {
 pub(super) struct AcrossCache(Mutex<VecDeque<(Case, AcrossForces)>>);
 
 impl AcrossCache {
-    /// Returns the forces of the row `across`, from the cache or by solving it.
+    /// Returns the forces of the row `across`, from the cache or from a new solution.
     pub(super) fn forces(
         &self,
         across: &Case,
@@ -69,7 +69,7 @@ impl AcrossCache {
             solved(|| puncture::solve(design, &*substrate, common, &parameters))
         });
         let forces = AcrossForces::new(&punctured);
-        // Only complete paths are cached: an interrupted path has no critical force.
+        // Cache only paths with a critical force: an interrupted path has none.
         if forces.critical.is_some() {
             let mut rows = self.rows();
             rows.truncate(MAX_CACHED - 1);

@@ -32,7 +32,7 @@ impl Evaluator {
         let (exists, variations) = existing(parameters.iter().map(variation));
         let input = punctured(case, slopes.stiffness.clone());
         let curve = solved(|| puncture::force_curve(&input, &variations, displacements))?;
-        Ok(in_place(curve, &exists))
+        Ok(with_all_parameters(curve, &exists))
     }
 
     /// Returns the puncture force `F*` at each of the displacements `u*` during unloading.
@@ -86,7 +86,7 @@ impl Evaluator {
                 Varied { case, parameter, slopes: None }.variation(Varied::bent)
             }));
         let curve = solved(|| flexure::moment_curve(&bent(case), &variations, curvatures))?;
-        Ok(in_place(curve, &exists))
+        Ok(with_all_parameters(curve, &exists))
     }
 }
 
@@ -101,7 +101,7 @@ fn existing<P>(
 /// Expands the derivatives of each point to one entry for each parameter.
 ///
 /// The entry is `None` for a parameter without a variation.
-fn in_place(mut curve: CurvePoints, exists: &[bool]) -> CurvePoints {
+fn with_all_parameters(mut curve: CurvePoints, exists: &[bool]) -> CurvePoints {
     for point in curve.iter_mut().flatten() {
         let mut rates = std::mem::take(&mut point.rates).into_iter();
         point.rates = exists

@@ -110,7 +110,7 @@ impl Evaluator {
 
     /// Solves a puncture and returns the end of its path, from which similar designs can start.
     ///
-    /// Returns `None` if no other design can start from it, see [`PunctureEnd`].
+    /// Returns `None` if no other design can start from this end, see [`PunctureEnd`].
     pub fn puncture_end(&self, case: &Case) -> Option<PunctureEnd> {
         let Case { design, common, .. } = &case.with_detail(PathDetail::Critical);
         let substrate = guarded(|| self.substrate(case)).flatten().ok()?;
@@ -187,7 +187,7 @@ impl Evaluator {
         self.with_puncture(number, case, wanted, meter, (punctured, derivatives))
     }
 
-    /// Solves the other measures of a design, given the result of its puncture and its derivatives.
+    /// Solves the other measures of a design, given the result and the derivatives of its puncture.
     fn with_puncture(
         &self,
         number: DesignNumber,
@@ -286,7 +286,7 @@ impl Evaluator {
 
     /// Solves the puncture of `case`.
     ///
-    /// Appends derivatives to `sensitivity` if the evaluator has this measure.
+    /// Appends derivatives to `sensitivity` if derivatives are requested.
     fn puncture(
         &self,
         case: &Case,
@@ -405,7 +405,7 @@ impl Evaluator {
 
     /// Solves the bending of `case`.
     ///
-    /// Appends derivatives to `sensitivity` if the evaluator has this measure.
+    /// Appends derivatives to `sensitivity` if derivatives are requested.
     fn flexure(
         &self,
         case: &Case,

@@ -27,7 +27,7 @@ impl<'g, I: Iterator<Item = u64>> Groups<'g, I> {
 
     fn springs(&self, index: u64) -> (Option<Footprint>, Coupling) {
         let case = self.grid.case(index);
-        // A design without a valid footprint forms its own group; its solution reports the reason.
+        // Consecutive designs without a valid footprint form a group; their solutions report why.
         (case.footprint().ok(), case.coupling)
     }
 }

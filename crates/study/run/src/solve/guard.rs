@@ -31,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_ends_a_single_design() {
+    fn a_panic_is_an_internal_error_of_the_design() {
         assert_eq!(guarded(|| 1), Ok(1));
         assert_eq!(guarded(|| -> u32 { panic!("on purpose") }), Err(Outcome::Internal));
     }

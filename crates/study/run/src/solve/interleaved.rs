@@ -44,12 +44,12 @@ pub(crate) fn interleaved(ranges: Vec<Range<u64>>) -> impl Iterator<Item = u64> 
 ///
 /// The first block is in the middle, because the first designs of a grid are often the slowest.
 fn nth_block(k: u64, stride: u64, blocks: u64) -> u64 {
-    // 128 bits, because the product exceeds 64 bits for large runs.
+    // Use 128 bits, because the product exceeds 64 bits for large runs.
     let multiple = u128::from(k) * u128::from(stride) + u128::from(blocks / 2);
     (multiple % u128::from(blocks)) as u64
 }
 
-/// Returns a number near the golden section of `blocks` that has no common divisor with it.
+/// Returns a number near the golden section of `blocks` that is coprime with `blocks`.
 fn stride(blocks: u64) -> u64 {
     let golden = (GOLDEN_SECTION * blocks as f64) as u64;
     let mut larger = golden.max(1)..blocks;
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_solved_designs_are_a_sample_of_all() {
+    fn the_first_solved_designs_are_representative_of_all_designs() {
         for count in [720_u64, 5_000, 300_000] {
             // The first tenth of the designs takes two thirds of the time.
             let costs: Vec<_> =

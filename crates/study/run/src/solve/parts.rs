@@ -22,8 +22,8 @@ impl Parts {
         let [places, across, failure, between, unload, unbend] =
             [key::PLACES, key::ACROSS, key::FAILURE, key::RADIUS_TO, key::UNLOAD, key::UNBEND]
                 .map(|key| columns.iter().any(|column| needs_parameter(column, key)));
-        // A first failure may occur across the row. The forces of both directions are compared at
-        // the weakest load position.
+        // A first failure may occur across the row. The force across the row is compared with the
+        // force at the weakest load position, so the load positions are needed, too.
         let across = across || failure;
         Self { places: places || across, across, between, unloading: [unload, unbend] }
     }

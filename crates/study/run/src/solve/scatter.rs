@@ -32,8 +32,8 @@ pub(super) fn puncture(
 ) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let input = sensitivity::punctured(case, stiffness.clone());
     // The path without variations shows how many scales of the row are affected.
-    let (straight, _) = puncture::differentiate(&input, &[])?;
-    let farthest = straight.measures.scales.min(FARTHEST) as i32;
+    let (nominal, _) = puncture::differentiate(&input, &[])?;
+    let farthest = nominal.measures.scales.min(FARTHEST) as i32;
     let (mut parameters, mut variations) = (Vec::new(), Vec::new());
     for parameter in SCATTERED.into_iter().filter_map(Parameter::named) {
         for place in -farthest..=farthest {
@@ -43,7 +43,7 @@ pub(super) fn puncture(
     }
     let (_, derivatives) = puncture::differentiate(&input, &variations)?;
     let mut derivatives = named(case, &parameters, derivatives);
-    // Scales without effect are dropped, so that zeros do not fill the journal.
+    // Omit scales without effect, so that zeros do not fill the journal.
     derivatives.retain(|derivative| derivative.left != Some(0.0) || derivative.kink.is_some());
     Ok(derivatives)
 }
@@ -58,36 +58,37 @@ fn one_scale(
     place: i32,
 ) -> Option<Neighbours<PunctureInput>> {
     let step = STEP * parameter.size(case)?;
-    let odd = |by: f64| match parameter.key {
+    let perturbed = |by: f64| match parameter.key {
         "gap_over_t" => PerturbedScale { place, gap: by, slant_deg: 0.0 },
         _ => PerturbedScale { place, gap: 0.0, slant_deg: by },
     };
     let [below, above] =
-        [-step, step].map(|by| PunctureInput { odd: Some(odd(by)), ..input.clone() });
+        [-step, step].map(|by| PunctureInput { odd: Some(perturbed(by)), ..input.clone() });
     Some(Neighbours { below, above, step })
 }
 
 /// Returns the derivatives of bending measures with respect to scatter of gaps and slants.
 ///
-/// All gaps have the same effect in pure bending, so one derivative represents all. For independent
-/// deviations of `n` gaps it is `1/√n` of the derivative with respect to a common deviation. The
-/// number of gaps is fixed. Measures that depend on the first gap to close have a kink if all gaps
-/// are equal.
+/// All gaps have the same effect in pure bending, so one derivative represents all gaps. For
+/// independent deviations of `n` gaps this derivative is `1/√n` of the derivative with respect to a
+/// common deviation. The number of gaps is fixed. Measures that depend on the first gap to close
+/// have a kink if all gaps are equal.
 pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let gaps = whole_gaps(&case.design.row()?, &case.flexure);
     let mut fixed = *case;
-    // Fixed, because a change of the gap could change the number of gaps, which is a jump.
+    // Fix the number of gaps: a change of the gap could otherwise change this number, which is a
+    // jump.
     fixed.flexure.gaps = Some(gaps);
     let (_, mut derivatives) = sensitivity::flexure(&fixed, Wanted::All)?;
     derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter));
-    let share = (gaps as f64).sqrt().recip();
+    let factor = (gaps as f64).sqrt().recip();
     for derivative in &mut derivatives {
         if OF_FIRST_GAP.contains(&derivative.measure) {
             (derivative.left, derivative.right) = (None, None);
             derivative.kink = Some("one gap closes before the others".to_owned());
         }
-        derivative.left = derivative.left.map(|slope| share * slope);
-        derivative.right = derivative.right.map(|slope| share * slope);
+        derivative.left = derivative.left.map(|slope| factor * slope);
+        derivative.right = derivative.right.map(|slope| factor * slope);
     }
     Ok(derivatives)
 }

@@ -10,8 +10,8 @@ use substrate::{RowStiffness, StiffnessSlopes};
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
 
 /// Step of finite differences of explicit functions, relative to the size of a parameter.
-// The optimum for central differences is 6e-6, the cube root of the rounding error. A third of it
-// reaches fewer nearby kinks.
+// The optimum for central differences is 6e-6, the cube root of the rounding error. A third of this
+// optimum reaches fewer nearby kinks.
 pub(super) const STEP: f64 = 2e-6;
 
 /// Parameters with respect to which measures are differentiated.
@@ -27,8 +27,8 @@ impl Wanted<'_> {
     fn contains(self, parameter: &Parameter) -> bool {
         let Self::Only(parameters) = self else { return true };
         parameters.iter().any(|listed| {
-            // The derivative with respect to the prefactor follows from a modulus, see
-            // `with_prefactor`.
+            // The derivative with respect to the prefactor follows from the derivative with respect
+            // to a modulus, see `with_prefactor`.
             let gives_prefactor = listed.key == PREFACTOR && MODULI.contains(&parameter.key);
             listed.key == parameter.key || gives_prefactor
         })
@@ -43,7 +43,7 @@ impl Wanted<'_> {
     }
 }
 
-/// Keys of the prefactor of the contact law, and of the moduli by which it is multiplied.
+/// Keys of the prefactor of the contact law, and of the moduli that multiply the prefactor.
 const PREFACTOR: &str = "c1";
 const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_over_membrane"];
 
@@ -51,7 +51,8 @@ const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_ov
 ///
 /// The prefactor of the contact law is omitted, because forces depend only on its product with the
 /// modulus: [`with_prefactor`] computes its derivatives from the derivatives with respect to the
-/// modulus. With a first failure it is included, because the modulus also bends the scales.
+/// modulus. If the first failure is requested, the prefactor is included, because the deflection of
+/// the scales depends on the modulus, too.
 fn variations<P>(
     case: &Case,
     wanted: Wanted<'_>,
@@ -65,9 +66,8 @@ fn variations<P>(
 
 /// Adds derivatives with respect to the prefactor of the contact law.
 ///
-/// They are computed from the derivatives with respect to the modulus.
-///
-/// The derivatives of each measure are sorted in the order of [`PARAMETERS`].
+/// These derivatives are computed from the derivatives with respect to the modulus. The derivatives
+/// of each measure are sorted in the order of [`PARAMETERS`].
 fn with_prefactor(case: &Case, solved: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
     let c1 = case.common.law.c1;
     let of_measure = |of: &[ParameterDerivative]| {
@@ -147,7 +147,7 @@ pub(super) fn across(
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
-/// Critical force of another row of a case, with derivatives by the parameters of the case.
+/// Critical force of another row of a case, with derivatives with respect to parameters of the case.
 struct ForceDerivatives {
     puncture: Puncture,
     parameters: Vec<&'static Parameter>,
@@ -178,8 +178,9 @@ impl ForceDerivatives {
 
 /// Differentiates the critical force on a body between the two radii of `case`.
 ///
-/// `fraction` is the position of this body in the range of curvatures. It is kept constant, because
-/// the derivative with respect to it is zero at a smallest force inside the range.
+/// `fraction` is the position of this body in the range of curvatures. The fraction is kept
+/// constant, because the derivative of the force with respect to the fraction is zero at a minimum
+/// inside the range.
 pub(super) fn between(
     case: &Case,
     wanted: Wanted<'_>,
@@ -271,8 +272,8 @@ pub(super) fn coverage(case: &Case, wanted: Wanted<'_>) -> Vec<ParameterDerivati
         let RowChange { gap, half_base, shift } = change;
         let back = RowChange { gap: -gap, half_base: -half_base, shift: -shift };
         let [left, right] = [-row.coverage_rate(&back), row.coverage_rate(&change)];
-        // Rounding makes both rates differ by about 1e-15. A scale that enters or leaves the line
-        // changes them by much more.
+        // Rounding makes the rates `left` and `right` differ by about 1e-15. A scale that enters or
+        // leaves the line makes them differ by much more.
         let smooth = (left - right).abs() <= 1e-9;
         Derivative {
             measure: name::COVERAGE,
@@ -302,7 +303,7 @@ fn coverage_difference(case: &Case, index: usize, parameter: &Parameter) -> Deri
     }
 }
 
-/// Computes the derivative of the coverage on one side of a parameter: −1 below, 1 above.
+/// Computes the derivative of the coverage for a decreasing (`side` = −1) or increasing (1) parameter.
 fn coverage_rate(case: &Case, parameter: &Parameter, side: f64) -> Option<f64> {
     let step = side * STEP * parameter.size(case)?;
     let [here, next, second] =
@@ -316,7 +317,7 @@ fn coverage_beside(case: &Case, parameter: &Parameter, by: f64) -> Option<f64> {
     Some(moved.design.leaning_row().ok()?.coverage_on(moved.body()))
 }
 
-/// Adds names and values of their parameters to derivatives.
+/// Adds the key and the value of its parameter to each derivative.
 pub(super) fn named(
     case: &Case,
     parameters: &[&'static Parameter],
@@ -352,7 +353,7 @@ pub(super) struct Varied<'a> {
 }
 
 impl Varied<'_> {
-    /// Returns an input of the case below and above the value of the parameter, for differences.
+    /// Returns the inputs with the parameter below and above its value, for finite differences.
     pub(super) fn variation<P>(
         &self,
         of: impl Fn(&Self, f64) -> Option<P>,
@@ -367,7 +368,7 @@ impl Varied<'_> {
         Some(punctured(&moved, self.stiffness(&moved)?))
     }
 
-    /// Returns the input of a row on a body between the two radii after adding `by`.
+    /// Returns the input of a row on a body between the two radii after adding `by` to the parameter.
     fn punctured_between(&self, fraction: f64, by: f64) -> Option<PunctureInput> {
         let moved = self.parameter.moved(self.case, by)?;
         Some(punctured(&moved.on_body_between(fraction)?, self.stiffness(&moved)?))
@@ -376,8 +377,8 @@ impl Varied<'_> {
     /// Returns the input of the row across after adding `by` to the parameter.
     fn punctured_across(&self, by: f64) -> Option<PunctureInput> {
         let moved = self.parameter.moved(self.case, by)?.across()?;
-        let here = self.case.across()?;
-        let stiffness = self.slopes?.moved(&here.bases(), &moved.bases()).ok()?;
+        let nominal = self.case.across()?;
+        let stiffness = self.slopes?.moved(&nominal.bases(), &moved.bases()).ok()?;
         Some(punctured(&moved, stiffness))
     }
 
@@ -394,7 +395,7 @@ impl Varied<'_> {
 
     /// Returns the stiffness for the case `moved`, extrapolated linearly from the case itself.
     fn stiffness(&self, moved: &Case) -> Option<RowStiffness> {
-        // Extrapolated in the dimensions of the bases, which several parameters change: lengths in
+        // Extrapolate in the dimensions of the bases, which several parameters change: lengths in
         // units of the thickness, lengths in mm, and a thickness in mm.
         self.slopes?.moved(&self.case.bases(), &moved.bases()).ok()
     }

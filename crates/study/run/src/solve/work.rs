@@ -40,15 +40,15 @@ fn report_after<T>(
     work: impl FnOnce() -> T,
 ) -> T {
     let design = design.to_owned();
-    let words = move |far: PathProgress| {
+    let describe = move |progress: PathProgress| {
         // At rest the fraction may be −0.0; adding 0.0 avoids the text "-0.0 %".
-        let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.fraction + 0.0);
-        let PathProgress { points, .. } = far;
+        let (seconds, percent) = (progress.elapsed.as_secs_f64(), 100.0 * progress.fraction + 0.0);
+        let PathProgress { points, .. } = progress;
         report(format!(
-            "{design}: {seconds:.0} s so far, {points} points, at {share:.1} % of the final angle"
+            "{design}: {seconds:.0} s so far, {points} points, at {percent:.1} % of the final angle"
         ));
     };
-    report_progress(patience, words, work)
+    report_progress(patience, describe, work)
 }
 
 impl WorkMeter {
@@ -95,20 +95,20 @@ impl WorkMeter {
 /// added when the piece is dropped.
 pub struct WorkPiece<'m> {
     meter: &'m WorkMeter,
-    left: Cell<u64>,
+    remaining: Cell<u64>,
 }
 
 impl<'m> WorkPiece<'m> {
     /// Creates a piece of work with an expected number of units.
     pub fn new(meter: &'m WorkMeter, units: u64) -> Self {
-        Self { meter, left: Cell::new(units) }
+        Self { meter, remaining: Cell::new(units) }
     }
 
     /// Counts completed units, up to the expected number.
     pub fn count(&self, units: u64) {
         // The limit keeps the completed fraction of the run at 1 or below.
-        let units = units.min(self.left.get());
-        self.left.set(self.left.get() - units);
+        let units = units.min(self.remaining.get());
+        self.remaining.set(self.remaining.get() - units);
         self.meter.count(units);
     }
 }
@@ -141,8 +141,8 @@ impl Parts {
         let samples = if case.imperfection.is_none() { 0 } else { case.samples.count as u64 };
         let row = case.design.row().ok().filter(|_| bends > 0 && (is_chain || samples > 0));
         let gaps = row.map_or(1, |row| whole_gaps(&row, &case.flexure) as u64);
-        // All paths count the same: the meter shows fractions only, so ratios between designs
-        // matter and not their seconds.
+        // Every path counts as one unit, although paths differ in time: the meter shows fractions
+        // only, so only the ratios between designs matter.
         let ideal = 1 + punctures + bends * if is_chain { gaps } else { 1 };
         Self { ideal, row: punctures, strip: bends * gaps, samples }
     }

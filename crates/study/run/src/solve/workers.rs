@@ -81,18 +81,17 @@ struct Queue<G> {
 }
 
 impl<G: Iterator<Item = Vec<u64>>> Queue<G> {
-    /// Returns the next design for `worker`: from its own group, a new group, or the largest other
-    /// one.
+    /// Returns the next design for `worker`: from its group, a new group, or the largest other group.
     fn next(&mut self, worker: usize) -> Option<u64> {
         if self.open[worker].is_empty()
             && let Some(group) = self.groups.next()
         {
             self.open[worker] = group.into();
         }
-        // Own designs are taken from the front, designs of another worker from the back, so that
-        // the remaining designs of both workers are neighbours.
-        let own = self.open[worker].pop_front();
-        own.or_else(|| self.open.iter_mut().max_by_key(|group| group.len())?.pop_back())
+        // Take own designs from the front and designs of another worker from the back, so that the
+        // remaining designs of both workers are neighbours.
+        let next = self.open[worker].pop_front();
+        next.or_else(|| self.open.iter_mut().max_by_key(|group| group.len())?.pop_back())
     }
 }
 
@@ -134,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_error_ends_the_work() {
+    fn the_first_error_of_the_sink_ends_the_work() {
         let stop = AtomicBool::new(false);
         let mut left = 10;
         let sink = |_| {

@@ -11,7 +11,7 @@ const INTERVALS: usize = 4;
 
 /// Number of times that the intervals on both sides of the smallest force are halved.
 ///
-/// The curvature of a smallest force inside the range is then known to 1/32 of the range.
+/// The curvature of a minimum inside the range is then known to 1/32 of the range.
 const HALVINGS: usize = 3;
 
 /// Smallest force over a range of curvatures, with the curvature at which it occurs.
@@ -30,7 +30,8 @@ pub(super) struct WorstBody {
 /// halved.
 ///
 /// # Errors
-/// The outcome of the first body without a critical force, because the skin may be weaker there.
+///
+/// The outcome of the first body without a critical force, because the skin may be weaker on it.
 pub(super) fn worst_body(
     mut force: impl FnMut(f64) -> Result<f64, Outcome>,
 ) -> Result<WorstBody, Outcome> {
@@ -52,9 +53,9 @@ pub(super) fn worst_body(
 }
 
 impl WorstBody {
-    /// Returns the body with the smaller force, or this one if the forces are equal up to rounding.
+    /// Returns the body with the smaller force, or `self` if the forces are equal up to rounding.
     ///
-    /// Forces are equal if scales do not touch: they then do not depend on the curvature.
+    /// Forces are equal if scales do not touch: such forces do not depend on the curvature.
     fn or_smaller(self, other: Self) -> Self {
         if other.force < self.force * (1.0 - TIE) { other } else { self }
     }
@@ -87,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_smallest_force_is_found_inside_and_at_both_ends() {
+    fn the_smallest_force_is_found_inside_the_range_and_at_its_ends() {
         for (least, tolerance) in [(0.0, 0.0), (1.0, 0.0), (0.3, 0.032), (0.53, 0.032)] {
             let worst = worst_body(|fraction| Ok(1.0 + (fraction - least).powi(2))).unwrap();
             assert!((worst.fraction - least).abs() <= tolerance, "{worst:?} instead of {least}");

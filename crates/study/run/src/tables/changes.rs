@@ -32,7 +32,7 @@ pub(super) fn write(
     Ok(Some((ResultsFolder::RERUNS.to_owned(), table.finish()?)))
 }
 
-/// Lists each changed value of a design; if none changed, one entry with an empty column.
+/// Lists each changed value of a design; if no value changed, one entry with an empty column.
 fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> Vec<RerunChange> {
     let change = |column, values| RerunChange {
         design: rows[1].number,

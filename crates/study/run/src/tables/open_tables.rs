@@ -39,9 +39,9 @@ impl<'a> OpenTables<'a> {
         let failures = CsvFile::create(folder, ResultsFolder::FAILURES, format, failures)?;
         let derivatives =
             || CsvFile::create(folder, ResultsFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS);
-        // The file is omitted if derivatives are not requested.
-        let is_asked = sweep.measures().contains(&Measure::Sensitivity);
-        let derivatives = is_asked.then(derivatives).transpose()?;
+        // The file of derivatives is omitted if derivatives are not requested.
+        let is_requested = sweep.measures().contains(&Measure::Sensitivity);
+        let derivatives = is_requested.then(derivatives).transpose()?;
         Ok(Self { layouts, designs, failures, derivatives })
     }
 

@@ -1,7 +1,8 @@
 //! Metadata of a results folder, `ro-crate-metadata.json`.
 //!
-//! The folder is an RO-Crate (<https://w3id.org/ro/crate/1.1>), a format in which repositories of
-//! research data find its files, its program and the meaning of each column of `designs.csv`.
+//! The metadata make the folder an RO-Crate (<https://w3id.org/ro/crate/1.1>). Repositories of
+//! research data read from them the files, the program and the meaning of each column of
+//! `designs.csv`.
 
 use journal::OutputError;
 use results::ResultsFolder;

@@ -21,14 +21,14 @@ pub struct Summary {
     contests: Vec<Contest>,
 }
 
-/// Best value of a measure in a run, and the first design that has it.
+/// Best value of a measure in a run, and the first design that has this value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Best {
     /// Description of the value, for example "largest critical force".
     pub label: &'static str,
     /// Physical unit of the value; `None` for dimensionless values.
     pub unit: Option<&'static str>,
-    /// Value, the first design with this value, and the number of further designs with it.
+    /// Value, the first design with this value, and the number of other designs with this value.
     pub leader: Leader<DesignNumber>,
     /// Parameter that differs between designs and makes their values incomparable, if any.
     pub apart: Option<&'static str>,
@@ -83,8 +83,8 @@ impl Summary {
 
     /// Adds a design to the counts and best values.
     ///
-    /// Designs must be added in the order of their numbers, because the first of equal ones is
-    /// kept.
+    /// Designs must be added in the order of their numbers, because the first of several designs
+    /// with the best value is kept.
     pub(crate) fn add(&mut self, row: &DesignRow) {
         self.designs += 1;
         self.failed += u64::from(row.result.failed());

@@ -35,8 +35,9 @@ pub(crate) struct TableWriter<'a> {
     every: Duration,
     threads: usize,
     info: RunInfo<'a>,
-    /// Time at which the tables were last written, and the duration of writing.
+    /// Time at which the tables were last written.
     written: Instant,
+    /// Time that writing the tables took.
     writing: Duration,
 }
 
@@ -61,18 +62,18 @@ impl<'a> TableWriter<'a> {
     /// Writes the tables, then `run.toml`, then `contents.toml`.
     pub fn write(&mut self, journal: &mut Journal) -> Result<Finished, RunError> {
         let begun = Instant::now();
-        // The journal is synchronised first. Otherwise tables could contain designs that a power
+        // Flush the journal to the disk first. Otherwise tables could contain designs that a power
         // failure removes from the journal.
         journal.sync()?;
         let archive = journal.records();
         let (summary, tables) = self.write_tables(archive)?;
         let names: Vec<_> = tables.iter().map(|(name, _)| name.clone()).collect();
-        // Removes tables of an earlier run that this run does not write.
+        // Remove tables of an earlier run that this run does not write.
         self.folder.remove_tables_but(&names);
         let record = self.info.write(archive, &self.folder, &summary)?;
         let record = (ResultsFolder::RUN_INFO.to_owned(), record);
         let contents = self.contents(archive, tables.into_iter().chain([record]).collect())?;
-        // Written last, because readers accept the tables only with a matching `contents.toml`.
+        // Write `contents.toml` last, because readers accept the tables only if this file matches.
         contents.write(&self.folder)?;
         self.folder.sync();
         self.written = Instant::now();
@@ -97,8 +98,8 @@ impl<'a> TableWriter<'a> {
     /// One thread reads the entries in the order of their designs; all threads format rows.
     fn write_tables(&self, archive: &Archive) -> Result<(Summary, WrittenTables), RunError> {
         let (folder, format) = (&self.folder, self.format);
-        // A separate pool of as many threads as the run has. The threads that solve designs are
-        // idle during this time.
+        // Use a separate pool with as many threads as the run. The threads that solve designs are
+        // idle while the tables are written.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build();
         let pool = pool.map_err(|error| RunError::Threads {
             count: self.threads,

@@ -1,4 +1,4 @@
-//! Force of the row across: known values of isolated scales, and counts of another program.
+//! Tests of the force across the row: known values of isolated scales, counts by another program.
 
 use rayon::prelude::*;
 use results::DesignResult;
@@ -37,7 +37,7 @@ fn the_force_across_an_isolated_scale_matches_known_values() {
 }
 
 #[test]
-fn the_weaker_direction_is_the_smaller_force() {
+fn the_weaker_direction_determines_the_force_and_the_first_failure() {
     let text = "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.3\nlength_over_t = 1\n\
                 slant_deg = [0, 60]\n[array]\nacross = true\n[puncture]\nfailure = true\n\
                 needle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.05";
@@ -67,7 +67,7 @@ fn the_load_on_the_row_across_has_the_same_distance_from_the_edge() {
         );
         forces(&results(&text)[0]).1.expect("a force")
     };
-    // The base is 2 t wide: a base of length L, with L = 2 t.
+    // The base is 2 t wide, so the positions 0.8 and 0.2 are 0.4 t from a corner.
     let inset = across("load_inset_over_t = 0.4");
     assert!((across("load_position = 0.8") / inset - 1.0).abs() < 1e-9);
     assert!((across("load_position = 0.2") / inset - 1.0).abs() < 1e-9);
@@ -101,7 +101,7 @@ const PAPER: &str = "name = 'x'\nmeasures = 'puncture'\n[designs]\n\
     length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]\n\
     slant_deg = { from = 0, to = 75, step = 15 }\n[array]\nacross = true\n";
 
-/// Returns the number of designs with both forces, and of those that are weaker across the row.
+/// Returns the number of designs with forces along and across, and how many are weaker across.
 fn counts(text: &str) -> (usize, usize) {
     let both: Vec<_> = results(text)
         .iter()
@@ -110,13 +110,13 @@ fn counts(text: &str) -> (usize, usize) {
             Some((along?, across?))
         })
         .collect();
-    // Rounding differences are ignored: upright square scales are equally strong both ways.
+    // Ignore rounding: upright square scales are equally strong in both directions.
     let weaker = both.iter().filter(|(along, across)| *across < along * (1.0 - 1e-9));
     (both.len(), weaker.count())
 }
 
 #[test]
-fn many_designs_of_the_reference_study_are_weaker_across() {
+fn many_designs_of_the_reference_study_are_weaker_across_the_row() {
     assert_eq!(counts(PAPER), (720, 127));
     let advised =
         "[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.05\n";

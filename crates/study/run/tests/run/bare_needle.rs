@@ -6,10 +6,7 @@ use sweep::{Measure, Sweep};
 /// Modulus of the tissue in `MPa`.
 const MODULUS: f64 = 1.5;
 
-/// Solves a design; returns the pressure of the bare needle, the force in N and the pressure in
-/// kPa.
-///
-/// The last value is the pressure under the skin.
+/// Solves a design; returns the bare needle, the force in N, and the pressure under the skin in kPa.
 fn solved(radius: &str) -> (Option<BareNeedle>, f64, f64) {
     let text = format!(
         "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.8\n\
@@ -37,9 +34,9 @@ fn bare_pressure_follows_hertz_up_to_the_radius_of_the_shaft() {
     for (given, radius, is_shaft) in needles {
         let (bare, force, under_skin) = solved(&format!("needle_radius_mm = {given}"));
         let bare = bare.expect("a round needle");
-        let touched = (0.75 * force * radius * (1.0 - 0.4 * 0.4) / MODULUS).cbrt();
-        assert_eq!(touched > radius, is_shaft, "{touched}");
-        let pressure = 1e3 * force / (std::f64::consts::PI * touched.min(radius).powi(2));
+        let contact = (0.75 * force * radius * (1.0 - 0.4 * 0.4) / MODULUS).cbrt();
+        assert_eq!(contact > radius, is_shaft, "{contact}");
+        let pressure = 1e3 * force / (std::f64::consts::PI * contact.min(radius).powi(2));
         assert!((bare.pressure_kpa / pressure - 1.0).abs() < 1e-9, "{bare:?} {pressure}");
         let reduction = pressure / under_skin;
         assert!((bare.reduction / reduction - 1.0).abs() < 1e-9, "{bare:?} {reduction}");

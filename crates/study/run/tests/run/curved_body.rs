@@ -1,11 +1,11 @@
-//! Forces of flat designs that are worn on curved bodies.
+//! Tests of the forces of designs on curved bodies, compared with a flat body.
 
 use std::path::Path;
 
 use run::{Evaluator, curved_body_warning};
 use sweep::{Measure, Sweep};
 
-/// Solves a steep design with further definition lines; returns the warning and the critical force.
+/// Solves a steep design with more lines in its definition; returns warning and critical force.
 fn warned(further: &str) -> (Option<String>, f64) {
     let text = format!(
         "name = 'x'\n{further}\n[designs]\ngap_over_t = 0.3\nlength_over_t = 0.8\nslant_deg = 60\n\
@@ -21,16 +21,16 @@ fn warned(further: &str) -> (Option<String>, f64) {
 #[test]
 fn a_flat_design_is_compared_with_named_bodies() {
     let (warning, flat) = warned("");
-    let (on_finger, worn) = warned("body.radius_mm = 10");
+    let (on_finger, curved) = warned("body.radius_mm = 10");
     assert_eq!(on_finger, None, "a definition with a body needs no warning");
-    assert!(worn < 0.5 * flat, "{worn} {flat}");
+    assert!(curved < 0.5 * flat, "{curved} {flat}");
     let warning = warning.expect("a lower force");
     let number = |before: &str| -> f64 {
         let (start, _) = warning.split_once(before).expect(before);
         start.rsplit(' ').next().expect("a word").parse().expect("a number")
     };
     let ratio = number(" on a finger (radius 10 mm)") / number(" on a flat body");
-    assert!((ratio / (worn / flat) - 1.0).abs() < 0.01, "{warning} {worn} {flat}");
+    assert!((ratio / (curved / flat) - 1.0).abs() < 0.01, "{warning} {curved} {flat}");
     assert!(warning.starts_with("critical_force_N is "), "{warning}");
 }
 
@@ -41,13 +41,13 @@ const RADII: [(&str, f64); 5] =
 /// A design with its coverage and critical force on a body.
 #[derive(Clone, Copy, Debug)]
 struct OnBody {
-    /// Gap over thickness, length over thickness, and slant in degrees.
+    /// Gap and length divided by the thickness, and slant in degrees.
     design: [f64; 3],
     coverage: f64,
     force: f64,
 }
 
-/// Solves 75 designs under the recommended needle on a body with a radius in thicknesses.
+/// Solves 75 designs under the recommended needle on a body with this `radius` (unit: thickness).
 fn designs_on(radius: f64) -> Vec<OnBody> {
     let text = format!(
         "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.2, 0.3]\n\
@@ -74,7 +74,7 @@ fn designs_on(radius: f64) -> Vec<OnBody> {
 
 /// Returns the rank of the force of each design: the number of designs with a smaller force.
 fn ranks(designs: &[OnBody]) -> impl Iterator<Item = f64> {
-    let below = designs.iter().map(|own| designs.iter().filter(|d| d.force < own.force).count());
+    let below = designs.iter().map(|one| designs.iter().filter(|d| d.force < one.force).count());
     below.map(|count| count as f64)
 }
 
@@ -93,15 +93,15 @@ fn strongest(designs: &[OnBody]) -> OnBody {
 
 /// Computes a row of the table of bodies in `docs/needle.md`.
 fn row_of_advice(name: &str, radius: f64, flat: &[OnBody]) -> String {
-    let here = designs_on(radius);
-    let mut ratios: Vec<f64> = here.iter().zip(flat).map(|(h, f)| h.force / f.force).collect();
+    let curved = designs_on(radius);
+    let mut ratios: Vec<f64> = curved.iter().zip(flat).map(|(c, f)| c.force / f.force).collect();
     let halved = ratios.iter().filter(|ratio| **ratio < 0.5).count();
     ratios.sort_by(f64::total_cmp);
     let median = ratios[ratios.len() / 2];
-    let rank = rank_correlation(flat, &here);
-    let OnBody { design: [gap, length, slant], force, .. } = strongest(&here);
+    let rank = rank_correlation(flat, &curved);
+    let OnBody { design: [gap, length, slant], force, .. } = strongest(&curved);
     let best_flat = strongest(flat).design;
-    let of_flat = here.iter().find(|d| d.design == best_flat).expect("a design").force;
+    let of_flat = curved.iter().find(|d| d.design == best_flat).expect("a design").force;
     let radius = if name == "flat" { "–".to_owned() } else { format!("{radius} t") };
     format!(
         "| {name} | {radius} | {median:.2} | {halved} | {rank:.2} | {gap}, {length}, {slant}° \

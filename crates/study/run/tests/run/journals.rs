@@ -99,8 +99,8 @@ fn damaged_journals_are_refused_or_give_the_same_tables() {
                     .iter()
                     .any(|what| error.contains(what));
                 assert!(error.lines().count() == 1 && states_remedy, "{error}");
-                let left = fs::read(place.path().join(JOURNAL)).expect("a journal");
-                assert!(left == damaged, "{what}: a refused journal was changed");
+                let after = fs::read(place.path().join(JOURNAL)).expect("a journal");
+                assert!(after == damaged, "{what}: a refused journal was changed");
                 refused += 1;
             }
         }

@@ -20,12 +20,12 @@ use super::sensitivity::designs::number;
 struct Draw(ChaCha8Rng);
 
 impl Draw {
-    fn even(&mut self, low: f64, high: f64) -> f64 {
+    fn uniform(&mut self, low: f64, high: f64) -> f64 {
         self.0.random_range(low..high)
     }
 
     fn is_likely(&mut self, probability: f64) -> bool {
-        self.even(0.0, 1.0) < probability
+        self.uniform(0.0, 1.0) < probability
     }
 }
 
@@ -33,60 +33,59 @@ impl Draw {
 pub fn mixed_case(seed: u64) -> Case {
     let mut draw = Draw(ChaCha8Rng::seed_from_u64(seed));
     let mut case = Case::default();
-    case.design.gap = draw.even(-4.0, 0.7).exp();
-    case.design.length = draw.even(-3.0, 1.4).exp();
-    case.design.slant_deg = if draw.is_likely(0.2) { 0.0 } else { draw.even(0.0, 80.0) };
+    case.design.gap = draw.uniform(-4.0, 0.7).exp();
+    case.design.length = draw.uniform(-3.0, 1.4).exp();
+    case.design.slant_deg = if draw.is_likely(0.2) { 0.0 } else { draw.uniform(0.0, 80.0) };
     case.design.base = if draw.is_likely(0.5) { Base::L } else { Base::TwoL };
-    case.design.width = draw.even(-2.0, 1.1).exp();
+    case.design.width = draw.uniform(-2.0, 1.1).exp();
     if draw.is_likely(0.3) {
-        case.common.friction = draw.even(0.0, 0.6);
+        case.common.friction = draw.uniform(0.0, 0.6);
     }
     if draw.is_likely(0.5) {
         (case.common.law.c1, case.common.law.c2) =
-            (draw.even(-1.0, 1.5).exp(), draw.even(0.2, 1.5));
+            (draw.uniform(-1.0, 1.5).exp(), draw.uniform(0.2, 1.5));
     }
     let puncture = &mut case.puncture;
-    puncture.poisson_ratio = draw.even(0.0, 0.5);
-    puncture.contact_modulus_over_substrate = draw.even(1.0, 9.0).exp();
-    puncture.critical_tilt_deg = if draw.is_likely(0.5) { 10.0 } else { draw.even(1.0, 89.0) };
-    puncture.load_position = if draw.is_likely(0.5) { 1.0 } else { draw.even(0.0, 1.0) };
+    puncture.poisson_ratio = draw.uniform(0.0, 0.5);
+    puncture.contact_modulus_over_substrate = draw.uniform(1.0, 9.0).exp();
+    puncture.critical_tilt_deg = if draw.is_likely(0.5) { 10.0 } else { draw.uniform(1.0, 89.0) };
+    puncture.load_position = if draw.is_likely(0.5) { 1.0 } else { draw.uniform(0.0, 1.0) };
     if draw.is_likely(0.2) {
-        puncture.scales = RowLength::Scales(draw.even(1.0, 60.0) as usize);
+        puncture.scales = RowLength::Scales(draw.uniform(1.0, 60.0) as usize);
     }
     if draw.is_likely(0.3) {
         puncture.substrate_law = SubstrateLaw::NeoHookean;
     }
     if draw.is_likely(0.6) {
-        let friction = if draw.is_likely(0.3) { 0.0 } else { draw.even(0.0, 0.6) };
+        let friction = if draw.is_likely(0.3) { 0.0 } else { draw.uniform(0.0, 0.6) };
         puncture.needle = Needle::Guided { friction };
         if draw.is_likely(0.4) {
-            puncture.needle_radius = Some(draw.even(-3.0, 1.0).exp());
+            puncture.needle_radius = Some(draw.uniform(-3.0, 1.0).exp());
         }
     }
     puncture.unload = draw.is_likely(0.4);
     if draw.is_likely(0.2) {
-        puncture.places = Some(draw.even(2.0, 12.0) as usize);
+        puncture.places = Some(draw.uniform(2.0, 12.0) as usize);
     }
     if draw.is_likely(0.3) {
-        case.tissue_thickness = Some(draw.even(-0.7, 3.0).exp());
+        case.tissue_thickness = Some(draw.uniform(-0.7, 3.0).exp());
     }
     if draw.is_likely(0.2) {
         case.coupling = Coupling::Full;
     }
     let flexure = &mut case.flexure;
-    flexure.contact_modulus_over_membrane = draw.even(1.0, 8.0).exp();
-    flexure.membrane_thickness = draw.even(-3.0, 0.0).exp();
-    flexure.membrane_axis_offset = if draw.is_likely(0.5) { 0.0 } else { draw.even(-0.5, 0.5) };
+    flexure.contact_modulus_over_membrane = draw.uniform(1.0, 8.0).exp();
+    flexure.membrane_thickness = draw.uniform(-3.0, 0.0).exp();
+    flexure.membrane_axis_offset = if draw.is_likely(0.5) { 0.0 } else { draw.uniform(-0.5, 0.5) };
     if draw.is_likely(0.3) {
         flexure.method = Method::Chain;
-        flexure.membrane_length = draw.even(2.0, 40.0);
+        flexure.membrane_length = draw.uniform(2.0, 40.0);
     }
     flexure.unload = draw.is_likely(0.3);
     case
 }
 
-/// Returns the range of seeds in the variable `SQUAMA_HUNT`, such as `0..2000`, or by default
-/// 0..150.
+/// Returns the range of seeds in the environment variable `SQUAMA_HUNT`, by default `0..150`.
 fn seeds() -> std::ops::Range<u64> {
     let range = std::env::var("SQUAMA_HUNT").unwrap_or_else(|_| "0..150".to_owned());
     let (from, to) = range.split_once("..").expect("a range of seeds");
@@ -131,7 +130,7 @@ fn outcomes(case: &Case) -> Vec<(&'static str, Outcome)> {
 #[test]
 fn paths_pass_rare_events() {
     let expected = [
-        // A sharp tip, which rests in the notch between two scales, leaves it while the tip sticks.
+        // A sharp tip, which rests in the notch between two scales, leaves the notch while sticking.
         (180, "unloading", Outcome::Complete),
         (1118, "unloading", Outcome::Complete),
         // A sticking tip begins to slide again with a rate of almost zero.
@@ -182,11 +181,11 @@ fn compare_with_small_steps(seed: u64) -> bool {
     case.puncture.critical_tilt_deg = 10.0;
     (case.puncture.unload, case.puncture.places) = (false, None);
     case.strengths = Strengths { scale: Some(100.0), bond: Some(1.0) };
-    let [(outcome, large), (finely, small)] = [0.2, 0.05].map(|step| forces(&case, step));
-    if is_numeric(outcome) || is_numeric(finely) {
+    let [(coarse, large), (fine, small)] = [0.2, 0.05].map(|step| forces(&case, step));
+    if is_numeric(coarse) || is_numeric(fine) {
         return false;
     }
-    assert_eq!(outcome, finely, "{seed}");
+    assert_eq!(coarse, fine, "{seed}");
     for (large, small) in large.into_iter().zip(small) {
         assert_eq!(large.is_some(), small.is_some(), "{seed}");
         let (large, small) = (large.unwrap_or_default(), small.unwrap_or_default());

@@ -20,7 +20,7 @@ fn root() -> PathBuf {
 
 /// Returns a text for each cell that differs from the reference.
 ///
-/// Numbers may differ by 1e-9 of the larger one.
+/// Numbers may differ by 1e-9 of the larger magnitude.
 fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<String> {
     assert_eq!(ours.iter().map(|(name, _)| *name).collect::<Vec<_>>(), reference.header());
     ours.iter()
@@ -32,14 +32,14 @@ fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<
                 _ => *ours == theirs,
             };
             // Numbers of path points and iterations may change without a change of results.
-            let path = name.ends_with("_points") || name.ends_with("_iterations");
+            let is_count = name.ends_with("_points") || name.ends_with("_iterations");
             // A value that is zero except for rounding has no significant digits.
-            let nothing =
+            let is_zero =
                 *name == "axial_energy_share" && theirs.parse().is_ok_and(|x: f64| x < 1e-20);
             // The error estimate is a difference of nearly equal values and has few significant
             // digits.
-            let difference = *name == "flexure_error";
-            (!same && !path && !nothing && !difference)
+            let is_estimate = *name == "flexure_error";
+            (!same && !is_count && !is_zero && !is_estimate)
                 .then(|| format!("{name}: {ours} instead of {theirs}"))
         })
         .collect()

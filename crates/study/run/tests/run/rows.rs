@@ -129,7 +129,7 @@ fn a_column_solved_alone_equals_the_column_of_a_whole_row() {
                     [puncture]\nplaces = 3\nunload = true\n[array]\nacross = true";
     let bodies = "[designs]\ngap_over_t = 0.2\nlength_over_t = 0.4\nslant_deg = 60\n\
                   [body]\nradius_over_t = 20\nradius_to_over_t = 10";
-    let (mut compared, mut left_out) = (0, 0);
+    let (mut compared, mut omitted) = (0, 0);
     for skin in SKINS.iter().chain(&[unloaded, bodies]) {
         let text = format!("name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n{skin}");
         let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep");
@@ -152,17 +152,18 @@ fn a_column_solved_alone_equals_the_column_of_a_whole_row() {
             };
             assert_eq!(of_column(&alone), of_column(&whole), "{} of {skin}", column.name);
             compared += usize::from(!expected.is_empty());
-            left_out += columns
+            omitted += columns
                 .iter()
                 .filter(|other| other.cell(&alone).number() != other.cell(&whole).number())
                 .count();
         }
     }
-    assert!(compared > 100 && left_out > 500, "{compared} {left_out}");
+    assert!(compared > 100 && omitted > 500, "{compared} {omitted}");
 }
 
-/// `GapChange::solve` solves the nominal design, and starts the changed gaps at the end of its
-/// puncture. Without this end, `GapChange::beside` follows their paths from rest.
+/// `GapChange::solve` starts the punctures with changed gaps at the end of the nominal puncture.
+///
+/// Without this end, `GapChange::beside` follows the paths with changed gaps from rest.
 #[test]
 fn gap_changes_do_not_depend_on_the_start_of_the_puncture() {
     for_each_skin(|sweep, index| {
@@ -190,7 +191,7 @@ fn gap_changes_do_not_depend_on_the_start_of_the_puncture() {
 
 /// Derivatives with respect to selected parameters do not depend on the other parameters.
 #[test]
-fn derivatives_of_selected_parameters_equal_those_among_all_parameters() {
+fn derivatives_by_selected_parameters_do_not_depend_on_the_other_parameters() {
     let keys = ["gap_over_t", "slant_deg", "c1", "needle_friction"];
     let chosen: Vec<&Parameter> = keys.into_iter().filter_map(Parameter::named).collect();
     let mut compared = 0;

@@ -115,7 +115,7 @@ fn compare_designs(count: u64) {
     assert!(compared.iter().sum::<usize>() > 100 * compared.len(), "{compared:?}");
 }
 
-/// Number of designs that are always compared, and time after which no further one is started.
+/// Number of designs that are always compared, and time after which no further design is started.
 const FEW: u64 = 8;
 const LONGEST: Duration = Duration::from_secs(8);
 
@@ -164,7 +164,7 @@ fn the_position_of_a_smooth_peak_has_derivatives() {
     assert!(compare(&case) > 90);
 }
 
-/// Derivatives at a slant of 0 vary it to negative slants, which definitions do not accept.
+/// At a slant of 0, derivatives need solutions at negative slants, which definitions do not accept.
 #[test]
 fn upright_scales_have_derivatives_in_puncture_and_bending() {
     let mut case = random_case(0);
@@ -179,7 +179,7 @@ fn upright_scales_have_derivatives_in_puncture_and_bending() {
     }
 }
 
-/// A layer has derivatives with respect to all parameters, including its thickness.
+/// Designs on a layer have derivatives with respect to all parameters, also its thickness.
 #[test]
 fn designs_on_a_layer_have_derivatives() {
     let count = if is_long() { 3 } else { 1 };

@@ -34,7 +34,7 @@ fn the_worst_force_does_not_depend_on_the_order_of_the_radii() {
 }
 
 #[test]
-fn no_body_between_the_radii_has_a_smaller_force_than_the_worst_one() {
+fn no_body_between_the_radii_has_a_force_below_the_worst_force() {
     let between = punctured("radius_over_t = 3\nradius_to_over_t = -40");
     let worst = between.measures.between.force.expect("a force");
     for k in 0..=32 {

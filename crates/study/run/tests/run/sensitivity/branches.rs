@@ -54,7 +54,7 @@ fn ends(
     ends.into_values().collect()
 }
 
-/// Returns a steep design with a large critical tilt; a few of these end with rare contacts.
+/// Returns a steep design with a large critical tilt; a few of these designs end with rare contacts.
 pub fn steep_case(number: u64) -> Case {
     let mut case = random_case(number);
     case.puncture.critical_tilt_deg = 10.0 + 25.0 * (number % 7) as f64 / 7.0;
@@ -63,7 +63,7 @@ pub fn steep_case(number: u64) -> Case {
     case
 }
 
-/// The two designs end with all four kinds of contact, and their derivatives match differences.
+/// The paths of the two designs end with all four kinds of contact.
 #[test]
 fn derivatives_match_differences_for_every_kind_of_contact() {
     let exercised = [43, 97].into_par_iter().flat_map_iter(|number| {

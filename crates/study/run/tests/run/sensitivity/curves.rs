@@ -24,17 +24,17 @@ fn moments(e: &Evaluator, case: &Case, by: &[&'static Parameter], at: &[f64]) ->
 ///
 /// Skips points at which differences with a step and with half a step disagree. Returns the number
 /// of comparisons.
-fn compare(case: &Case, keys: &[&str], places: &[f64], curve: CurveOf) -> usize {
+fn compare(case: &Case, keys: &[&str], positions: &[f64], curve: CurveOf) -> usize {
     let evaluator = Evaluator::new(&[]);
     let parameters: Vec<_> =
         keys.iter().map(|key| Parameter::named(key).expect("a parameter")).collect();
-    let points = curve(&evaluator, case, &parameters, places);
+    let points = curve(&evaluator, case, &parameters, positions);
     let mut compared = 0;
     for (j, parameter) in parameters.iter().enumerate() {
         let Some(size) = parameter.size(case) else { continue };
         let around = [-2e-4, -1e-4, 1e-4, 2e-4].map(|by| {
             let moved = parameter.moved(case, by * size).expect("a number");
-            curve(&evaluator, &moved, &[], places)
+            curve(&evaluator, &moved, &[], positions)
         });
         for (k, point) in points.iter().enumerate() {
             let Some((point, rate)) = point.as_ref().and_then(|p| Some((p, p.rates[j]?))) else {
@@ -50,7 +50,7 @@ fn compare(case: &Case, keys: &[&str], places: &[f64], curve: CurveOf) -> usize 
                 continue;
             }
             let off = (rate * size - (4.0 * near - far) / 3.0).abs() / point.value.abs();
-            assert!(off <= TOLERANCE, "{} at {}: {off:e}, {case:?}", parameter.key, places[k]);
+            assert!(off <= TOLERANCE, "{} at {}: {off:e}, {case:?}", parameter.key, positions[k]);
             compared += 1;
         }
     }
@@ -88,8 +88,9 @@ fn derivatives_of_force_curves_match_differences() {
         let solved = Evaluator::new(&[Measure::Puncture]).solve(number(), &case);
         let end = solved.puncture.and_then(|p| Some(p.path.last()?.displacement));
         let Some(end) = end.filter(|end| *end > 0.0) else { return 0 };
-        let places: Vec<_> = [0.1, 0.37, 0.62, 0.93, 1.2].iter().map(|part| part * end).collect();
-        compare(&case, &OF_PUNCTURE, &places, forces)
+        let positions: Vec<_> =
+            [0.1, 0.37, 0.62, 0.93, 1.2].iter().map(|part| part * end).collect();
+        compare(&case, &OF_PUNCTURE, &positions, forces)
     });
     let compared: Vec<_> = compared.collect();
     assert!(compared.iter().sum::<usize>() > 16 * count as usize, "{compared:?}");
@@ -111,8 +112,8 @@ fn derivatives_of_moment_curves_match_differences() {
         let solved = Evaluator::new(&[Measure::Flexure]).solve(number(), &case);
         let end = solved.flexure.and_then(|f| Some(f.path.last()?.curvature));
         let Some(end) = end.filter(|end| *end > 0.0) else { return 0 };
-        let places: Vec<_> = [0.1, 0.4, 0.8].iter().map(|part| part * end).collect();
-        compare(&case, &keys, &places, moments)
+        let positions: Vec<_> = [0.1, 0.4, 0.8].iter().map(|part| part * end).collect();
+        compare(&case, &keys, &positions, moments)
     });
     let compared: Vec<_> = compared.collect();
     assert!(compared.iter().sum::<usize>() > 100, "{compared:?}");
@@ -131,7 +132,7 @@ fn a_parameter_that_the_case_does_not_use_has_no_derivative() {
     assert!(points[1].is_none(), "no path reaches this depth");
 }
 
-/// The derivative with respect to a length in mm, times the thickness, equals the relative one.
+/// The derivative by a length in mm, times the thickness, is the derivative by length/thickness.
 #[test]
 fn derivatives_by_lengths_in_mm_equal_scaled_derivatives_by_relative_lengths() {
     let text = "name = 'x'\n[designs]\ngap_mm = 0.5\nlength_mm = 2.0\nslant_deg = 40\n[material]\nthickness_mm = 2.0\nsubstrate_modulus_MPa = 0.1";

@@ -15,13 +15,13 @@ pub type Direction = [(&'static Parameter, f64)];
 /// Finite differences of the measures of one design.
 pub struct Differences<'a> {
     case: &'a Case,
-    /// Shared by all solutions, so that equal footprints are solved once.
+    /// Evaluator of all solutions, so that the springs of equal footprints are computed once.
     evaluator: Evaluator,
     /// Results by direction and number of steps.
     solved: RefCell<HashMap<(String, i32), DesignResult>>,
 }
 
-/// Length of the smallest step.
+/// Length of the smallest step, as a factor of the rates of a direction.
 const STEP: f64 = 1.25e-5;
 
 /// Step lengths as multiples of the smallest step.
@@ -54,11 +54,11 @@ impl<'a> Differences<'a> {
         Self { case, evaluator, solved: RefCell::default() }
     }
 
-    /// Returns the error of a directional derivative `ours`, relative to itself.
+    /// Returns the error of a directional derivative `ours`, divided by `ours`.
     ///
     /// The reference is a central difference. Of the errors with different steps, the first one
-    /// below the tolerance is returned, or else the smallest. Returns `None` if the measure does
-    /// not exist near the design or has a kink there.
+    /// below the tolerance is returned, or else the smallest. Returns `None` if the measure has a
+    /// kink or no value near the design.
     pub fn off(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
         let mut estimates = STEPS.into_iter().filter_map(|steps| {
@@ -68,8 +68,8 @@ impl<'a> Differences<'a> {
             let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
             Some((fine + (fine - rough) / 3.0, f64::from(steps) * STEP))
         });
-        // The difference of estimates with successive steps measures their accuracy. If they do not
-        // agree, there is a kink between the solutions.
+        // The difference of estimates with successive steps measures their accuracy. If these
+        // estimates do not agree, there is a kink between the solutions.
         let (mut rough, _) = estimates.next()?;
         let mut offs = estimates.filter_map(|(fine, step)| {
             let pair = [std::mem::replace(&mut rough, fine), fine];

@@ -34,7 +34,7 @@ fn first_failure_derivatives_match_differences_of_solutions() {
         let mut case = random_case(number);
         case.judge_failure = true;
         let whole = failure(&case);
-        // Half of the force at the first failure, in units of E_s t².
+        // The needle force is half of the force at the first failure, in units of E_s t².
         let plane_strain = 1.0 - case.puncture.poisson_ratio.powi(2);
         case.needle_force =
             whole.force.map(|force| 0.5 * force * case.design.length / plane_strain);
@@ -97,7 +97,7 @@ fn elastic_scale_derivatives_match_differences_of_solutions() {
     }
 }
 
-/// Half of the designs have a gap across of their own, the others the gap of the row.
+/// Half of the designs have a separate gap across; the other half uses the gap of the row.
 #[test]
 fn force_across_derivatives_match_differences_of_solutions() {
     for number in 0..4 {

@@ -69,8 +69,8 @@ fn one_sided_derivatives_at_a_closing_contact_with_friction_match_differences() 
         let mut case = random_case(number);
         if number == 7 {
             // With an exponent of 1.1 the stiffness of a contact grows from zero with the power 0.1
-            // of its approach. Differences then do not converge on the side on which it closes; for
-            // this soft contact their error is 0.1 to 0.2 %.
+            // of its approach. Differences then do not converge on the side on which the contact
+            // closes; for this soft contact the error of differences is 0.1 to 0.2 %.
             case.common.law.c2 = 1.0;
         }
         case.common.friction = [0.05, 0.2, 0.5][number as usize % 3];
@@ -157,8 +157,8 @@ fn a_change_of_the_mesh_grading_causes_no_kink() {
 
 /// One-sided derivatives of these designs of the paper differ only by rounding.
 ///
-/// In the first list, the tilt is largest at the critical tilt on both sides. In the second list,
-/// scales are upright, and both corners meet an edge at the same curvature.
+/// In the first list, the tilt is largest at the critical tilt for smaller and larger parameters. In
+/// the second list, scales are upright, and both corners touch an edge at the same curvature.
 #[test]
 fn rounding_differences_between_two_sides_are_not_kinks() {
     let paper = Sweep::parse("name = 'paper'", "paper.toml", &[]).unwrap();
@@ -215,7 +215,7 @@ fn the_compliance_has_no_derivative_at_first_contact() {
         case.design.slant_deg = slant_deg;
         let curvature = skin::flexure::contact_curvature(&case.design, &case.flexure);
         let touching = curvature.unwrap().unwrap() * case.flexure.membrane_length / 2.0;
-        // Rotations that differ by rounding: in some of them the last step includes the contact.
+        // The rotations differ by rounding: for some of them the last step includes the contact.
         for off in [-1e-12, -1e-15, 0.0, 1e-15] {
             case.flexure.max_end_rotation_deg = (touching * (1.0 + off)).to_degrees();
             let derivatives = derivatives(&case);
@@ -230,7 +230,7 @@ fn the_compliance_has_no_derivative_at_first_contact() {
 
 /// While contacts of a strip stick, derivatives are computed as differences of solutions.
 ///
-/// The text of their kink states this.
+/// The text of the kink of these derivatives states this.
 #[test]
 fn derivatives_of_sticking_strips_match_differences() {
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.3\nlength_over_t = 1\nslant_deg = 75\n[contact]\nfriction = 0.5";
