@@ -79,10 +79,10 @@ pub(crate) struct TestCurve {
     pub(crate) turn: f64,
     /// Events within the fitted range, e.g. first contact, reversals, holds and drops.
     pub(crate) events: Vec<CurveEvent>,
-    /// The specimen: the design of the definition with the parameters in `own`.
+    /// The specimen: the design of the definition with the parameters in `fixed`.
     pub(crate) case: Case,
     /// Parameters set in the table of this curve. Unknowns do not change them.
-    pub(crate) own: Vec<&'static Parameter>,
+    pub(crate) fixed: Vec<&'static Parameter>,
 }
 
 /// Error in the definition of a fit.
@@ -248,8 +248,8 @@ fn per_specimen(
             not_accepted(&entry.place, PER_SPECIMEN, &entry.value, "names of [variables]")
         })?;
         let shared = unknowns.remove(index);
-        let own = curves.iter().enumerate().filter(|(_, curve)| !curve.own.contains(&parameter));
-        let own: Vec<_> = own
+        let open = curves.iter().enumerate().filter(|(_, curve)| !curve.fixed.contains(&parameter));
+        let own: Vec<_> = open
             .map(|(k, curve)| Unknown {
                 name: format!("{} of {}", shared.name, curve.measured.file),
                 source: Source::Specimen(parameter, k),

@@ -16,7 +16,7 @@ use crate::definition::{FitDefinition, Source, TestCurve, Unknown};
 use crate::error::FitError;
 use crate::measured_curve::{CurveEvent, CurveEventKind, MeanCurve};
 use crate::model::ModelCurve;
-use crate::profile::{Aborted, Interval, Profiles, is_at_end};
+use crate::profile::{Aborted, Interval, Profiles, is_at_bound};
 use crate::search::{Minimum, Noise, Residuals};
 
 /// Result of a fit.
@@ -166,7 +166,7 @@ const SETTLED: f64 = 1e-3;
 const LEAST_NOISE: f64 = 1e-8;
 /// Singular values below this fraction of the largest singular value are round-off.
 const ROUND_OFF: f64 = 1e-6;
-/// Maximum number of minima for which profiles are computed: the first, and those from restarts.
+/// Maximum number of minima with profiles: the first minimum, and the minima after restarts.
 const RESTARTS: usize = 6;
 /// Correlation above which the curves determine only a combination of undetermined unknowns.
 const TOGETHER: f64 = 0.9;
@@ -174,11 +174,11 @@ const TOGETHER: f64 = 0.9;
 ///
 /// Independent residuals exceed this limit in one of 44 curves.
 const BEYOND_CHANCE: f64 = 2.0;
-/// Significant difference of the mean fitted and measured force before contact.
+/// Least significant difference of the mean fitted and the mean measured force before contact.
 ///
-/// Its unit is the standard error of the measured mean.
+/// In standard errors of the measured mean.
 const ABOVE_NOISE: f64 = 4.0;
-/// Least value of this difference, as a fraction of the largest force.
+/// Least significant difference of these two means, as a fraction of the largest force.
 const ABOVE_TOE: f64 = 0.01;
 /// Fraction of the size of a curve below which noise is not examined for correlation.
 const NEGLIGIBLE: f64 = 1e-4;
@@ -346,7 +346,7 @@ impl Residuals<'_> {
             .map(|((unknown, &scaled), interval)| Estimate {
                 value: unknown.value(scaled),
                 interval: interval.ends.map(|end| end.map(|end| unknown.value(end))),
-                at_end: is_at_end(scaled),
+                at_end: is_at_bound(scaled),
                 rests_on: interval.rests_on,
                 unknown: unknown.clone(),
             })
@@ -514,7 +514,8 @@ mod tests {
         for (k, (x, point)) in places.iter().zip(&curve).enumerate() {
             let force = point.as_ref().expect("a point").value;
             // Deterministic noise.
-            writeln!(text, "{x},{}", force + 1e-3 * (7.0 * k as f64).sin()).expect("a text");
+            writeln!(text, "{x},{}", force + 1e-3 * (7.0 * k as f64).sin())
+                .expect("writing to a string succeeds");
         }
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("test.toml");

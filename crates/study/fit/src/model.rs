@@ -15,7 +15,9 @@ pub(crate) struct ModelCurve {
     pub(crate) values: Vec<f64>,
     /// Derivatives of `values`, one vector per unknown.
     pub(crate) rates: Vec<Vec<f64>>,
-    /// Number of points without load, before contact or after unloading. The model value is zero.
+    /// Number of points without load, before contact or after unloading.
+    ///
+    /// Their value is the offset of force or moment.
     pub(crate) before: usize,
     /// Number of points beyond the end of the path. They have the last value of the path.
     pub(crate) beyond: usize,
@@ -111,10 +113,10 @@ impl FitDefinition {
         for (unknown, &value) in self.unknowns.iter().zip(values) {
             let rates = match unknown.of(Some((number, curve))) {
                 Some(parameter) => {
-                    let by = By { solved: &solved, unknown, parameter, value };
-                    let own = by.own_rates(index, &mut model.differenced)?;
+                    let by = ParameterRates { solved: &solved, unknown, parameter, value };
+                    let rates = by.model_rates(index, &mut model.differenced)?;
                     index += 1;
-                    by.with_units(&own)
+                    by.with_units(&rates)
                 }
                 None => solved.offset_rates(unknown.source),
             };
@@ -207,7 +209,7 @@ impl SolvedCurve<'_> {
 }
 
 /// Differentiates the values of a solved curve with respect to a fitted parameter.
-struct By<'a> {
+struct ParameterRates<'a> {
     solved: &'a SolvedCurve<'a>,
     unknown: &'a Unknown,
     parameter: &'static Parameter,
@@ -215,12 +217,12 @@ struct By<'a> {
     value: f64,
 }
 
-impl By<'_> {
+impl ParameterRates<'_> {
     /// Returns the derivatives of force or moment at constant position, in model units.
     ///
     /// `k` is the index of the parameter in `point.rates`. Derivatives that the path does not
     /// provide are replaced by differences of two solutions, and counted in `differenced`.
-    fn own_rates(&self, k: usize, differenced: &mut usize) -> Result<Vec<f64>, Outcome> {
+    fn model_rates(&self, k: usize, differenced: &mut usize) -> Result<Vec<f64>, Outcome> {
         let SolvedCurve { curve, case, path, positions, .. } = self.solved;
         let mut rates = self.solved.on_curve(|_, point| point.rates[k].unwrap_or(f64::NAN));
         let unknown: Vec<_> = (0..rates.len()).filter(|&i| rates[i].is_nan()).collect();
@@ -251,9 +253,9 @@ impl By<'_> {
 
     /// Converts derivatives from model units to the units of the measured curve.
     ///
-    /// `own` are derivatives at constant position. If the units depend on the parameter, the
-    /// measured point also has another position on the model curve; this change is added.
-    fn with_units(&self, own: &[f64]) -> Vec<f64> {
+    /// `rates` are derivatives at constant position in model units. If the units depend on the
+    /// parameter, a measured point changes its position in model units; this effect is added.
+    fn with_units(&self, rates: &[f64]) -> Vec<f64> {
         let SolvedCurve { curve, case, units, .. } = self.solved;
         let step = STEP * (self.unknown.to - self.unknown.from);
         let sides = [-step, step].map(|by| Some(curve.units(&self.parameter.moved(case, by)?)));
@@ -264,7 +266,7 @@ impl By<'_> {
         let moved = self.solved.on_curve(|at, point| {
             rises[1] * point.value - units[1] * point.slope * at * rises[0] / units[0]
         });
-        moved.into_iter().zip(own).map(|(moved, own)| moved + units[1] * own).collect()
+        moved.into_iter().zip(rates).map(|(moved, rate)| moved + units[1] * rate).collect()
     }
 }
 
@@ -276,7 +278,7 @@ impl Unknown {
     fn of(&self, curve: Option<(usize, &TestCurve)>) -> Option<&'static Parameter> {
         match (self.source, curve) {
             (Source::Parameter(p), None) => Some(p),
-            (Source::Parameter(p), Some((_, curve))) => (!curve.own.contains(&p)).then_some(p),
+            (Source::Parameter(p), Some((_, curve))) => (!curve.fixed.contains(&p)).then_some(p),
             (Source::Specimen(p, of), Some((number, _))) => (of == number).then_some(p),
             (Source::Specimen(..), None) | (Source::Offset(..), _) => None,
         }
@@ -321,7 +323,7 @@ impl Path<'_> {
     }
 }
 
-/// Returns the positive displacements or curvatures. Only these can lie on the path.
+/// Returns the positive displacements or curvatures. Other values cannot lie on the path.
 fn touching(wanted: &[f64]) -> Vec<f64> {
     wanted.iter().copied().filter(|at| *at > 0.0).collect()
 }
@@ -345,7 +347,9 @@ fn positions(wanted: &[f64], found: CurvePoints, loading: usize) -> Vec<Position
     positions
 }
 
-/// Returns the force or moment at the largest position that the path reaches, otherwise 0.
+/// Returns the force or moment at the largest position in `wanted` that the path reaches.
+///
+/// Returns 0 if the path reaches none of them.
 fn last(wanted: &[f64], points: &CurvePoints) -> f64 {
     let reached = wanted.iter().zip(points).filter_map(|(at, point)| Some((at, point.as_ref()?)));
     reached.max_by(|a, b| a.0.total_cmp(b.0)).map_or(0.0, |(_, point)| point.value)

@@ -13,9 +13,10 @@ use crate::search::{Minimum, Residuals};
 
 /// Ratio of successive distances from the estimate at which the profile is sampled.
 const OUTWARD: f64 = 1.5;
-/// Square root of the rise of a profile at which its sampling stops, as a multiple of `t`.
+/// Height of a profile at which its sampling stops, as a multiple of `t`.
 ///
-/// Beyond this rise the profile is not expected to fall to another minimum.
+/// The height is the square root of the rise above the minimum. Beyond this height the profile is
+/// not expected to fall to another minimum.
 const FAR: f64 = 4.0;
 /// Bounds of the first distance from the estimate that is sampled, as fractions of the range.
 const FIRST: [f64; 2] = [1e-9, 0.06];
@@ -32,7 +33,7 @@ const BETTER: f64 = 0.05;
 /// Distance from a bound within which a value counts as at the bound, as a fraction of the range.
 ///
 /// The search never reaches a bound: its iterates stay strictly between the bounds.
-pub(crate) const AT_END: f64 = 1e-3;
+pub(crate) const AT_BOUND: f64 = 1e-3;
 
 /// Computes profiles of the weighted sum of squares around a minimum.
 pub(crate) struct Profiles<'r, 'a> {
@@ -112,7 +113,9 @@ impl Profiles<'_, '_> {
         for end in ends.iter().flatten() {
             let others = (0..end.scaled.len()).filter(|i| *i != j);
             rests_on.extend(
-                others.filter(|&i| is_at_end(end.scaled[i]) && !is_at_end(self.minimum.scaled[i])),
+                others.filter(|&i| {
+                    is_at_bound(end.scaled[i]) && !is_at_bound(self.minimum.scaled[i])
+                }),
             );
         }
         rests_on.sort_unstable();
@@ -204,7 +207,7 @@ impl Profiles<'_, '_> {
         for (i, scaled) in start.iter_mut().enumerate() {
             // Far from the minimum the prediction is unreliable, so limit its step.
             let step = (moved * self.covariance[(i, j)]).clamp(-0.25, 0.25);
-            *scaled = (*scaled + step).clamp(AT_END, 1.0 - AT_END);
+            *scaled = (*scaled + step).clamp(AT_BOUND, 1.0 - AT_BOUND);
         }
         start[j] = at;
         let found = self.residuals.minimise(start, Some(j))?;
@@ -217,6 +220,6 @@ impl Profiles<'_, '_> {
 }
 
 /// Returns true if a scaled value is at a bound of its range.
-pub(crate) fn is_at_end(scaled: f64) -> bool {
-    !(AT_END..=1.0 - AT_END).contains(&scaled)
+pub(crate) fn is_at_bound(scaled: f64) -> bool {
+    !(AT_BOUND..=1.0 - AT_BOUND).contains(&scaled)
 }

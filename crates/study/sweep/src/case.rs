@@ -22,7 +22,7 @@ pub struct Case {
     ///
     /// The critical tilts of a free needle are the arctangents of these numbers. `None`: not given.
     pub needle_friction: Option<Scalar>,
-    /// Distance of the load from the top right corner, inward, over the thickness.
+    /// Distance of the load from the top right corner, inward, divided by the thickness.
     ///
     /// `None` if `puncture.load_position` gives the position of the load.
     pub load_inset: Option<f64>,
@@ -36,19 +36,19 @@ pub struct Case {
     pub needle_force_n: Option<f64>,
     /// Whether the row across (perpendicular to this row) is also solved.
     pub across: bool,
-    /// Gap of the row across, over the thickness. `None`: equal to the gap of this row.
+    /// Gap of the row across, divided by the thickness. `None`: equal to the gap of this row.
     pub gap_across: Option<f64>,
     /// Parameters of bending.
     pub flexure: flexure::FlexureParameters,
-    /// Thickness of the substrate over the scale thickness. `None` for a half-space.
+    /// Thickness of the substrate divided by the scale thickness. `None` for a half-space.
     pub tissue_thickness: Option<f64>,
-    /// Radius of the body below the skin, over the scale thickness.
+    /// Radius of the body below the skin, divided by the scale thickness.
     ///
     /// Negative for a concave body. `None` if `puncture.curvature` gives the curvature.
     pub body_radius: Option<f64>,
-    /// Radius of the last body of a range of bodies, over the scale thickness.
+    /// Radius of the last body of a range of bodies, divided by the scale thickness.
     ///
-    /// The range starts at the body of this case. `None`: this body only.
+    /// The range starts at the body of this case. `None`: the range contains only this body.
     pub body_radius_to: Option<f64>,
     /// Neighbours that the substrate couples to a scale: the nearest, or all relevant ones.
     pub coupling: Coupling,
@@ -58,7 +58,7 @@ pub struct Case {
     pub samples: Samples,
     /// Thickness, moduli, strengths and density in physical units; each is optional.
     pub material: Material,
-    /// Lengths given in mm. The lengths over the thickness follow from them.
+    /// Lengths given in mm, from which the ratios of these lengths to the thickness follow.
     pub in_mm: Millimetres,
 }
 
@@ -106,13 +106,13 @@ pub struct Samples {
     pub seed: usize,
 }
 
-/// Maximum inset of the load in the row across, as a fraction of the top of a scale.
+/// Maximum inset of the load in the row across, divided by the length of the top of a scale.
 const MAX_INSET: f64 = 0.5 - 1e-8;
 
 impl Case {
     /// Returns the parameters of the puncture for the solver.
     ///
-    /// Lengths are over the thickness.
+    /// Lengths are divided by the thickness.
     ///
     /// The needle friction is the friction of a guided needle; for a free needle its arctangents
     /// are the critical tilts. An inset of more than half the top places the load at the middle of
@@ -143,7 +143,7 @@ impl Case {
         punctured
     }
 
-    /// Returns the body below the skin. Lengths are over the thickness.
+    /// Returns the body below the skin. Lengths are divided by the thickness.
     pub fn body(&self) -> Body {
         Body { curvature: self.body_radius.map_or(self.puncture.curvature, f64::recip) }
     }
@@ -154,7 +154,7 @@ impl Case {
         Self { common: Common { detail, ..self.common }, ..*self }
     }
 
-    /// Returns this case on a body of the range of radii; `None` without such a range.
+    /// Returns this case on a body of its range of radii; `None` if the case has no such range.
     ///
     /// The curvature is linear in `fraction`: 0 is the body of this case, 1 the body of radius
     /// `body_radius_to`. The returned case requests only the critical force.
@@ -192,7 +192,7 @@ impl Case {
         }
     }
 
-    /// Returns the pitch of the row, base plus gap, over the thickness.
+    /// Returns the pitch of the row, base plus gap, divided by the thickness.
     pub fn pitch(&self) -> f64 {
         2.0 * self.design.half_base() + self.design.gap
     }
@@ -227,16 +227,16 @@ impl Case {
         let position = self.puncture.load_position;
         let from_corner = position.min(1.0 - position).max(0.0) * design.width;
         let inset = self.load_inset.unwrap_or(from_corner);
-        // Keep the load off the exact middle, where the scale would not tilt: that equilibrium is
-        // unstable.
+        // Keep the load off the exact middle of the scale: a load at the middle does not tilt the
+        // scale, and this equilibrium is unstable.
         let load_inset = Some(inset.min(MAX_INSET * design.length));
         Some(Self { design, load_inset, ..self.for_critical_force(0.0) })
     }
 
     /// Returns the factor that converts `F*` of the row across to `F*` of this row.
     ///
-    /// `F*` is a force over the length of a scale, which is the width of this row in the row
-    /// across.
+    /// `F*` is a force divided by the length of a scale. A scale of the row across has the width of
+    /// this row as its length.
     pub fn across_factor(&self) -> f64 {
         self.design.width / self.design.length
     }
@@ -250,7 +250,7 @@ impl Case {
 
     /// Returns the dimensions of bases and substrate, which determine the springs.
     ///
-    /// Lengths are over the thickness.
+    /// Lengths are divided by the thickness.
     pub fn bases(&self) -> Bases {
         Bases {
             half_width: self.design.half_base(),
@@ -265,8 +265,8 @@ impl Case {
     ///
     /// # Errors
     ///
-    /// If the ratio of two lengths of the design exceeds an `f64`, or the substrate is too thin for
-    /// its springs.
+    /// If the ratio of two lengths of the design exceeds the range of `f64`, or the substrate is
+    /// too thin for its springs.
     pub fn footprint(&self) -> Result<Footprint, OutOfRange> {
         self.bases().footprint()
     }

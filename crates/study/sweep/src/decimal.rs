@@ -104,7 +104,7 @@ pub(crate) enum InvalidRange {
     #[error("{to} is not reached in steps of {step}, expected a `to` of {below} or {above}")]
     Missed { to: String, step: String, below: String, above: String },
     /// The range has too many values for a list in memory.
-    #[error("the range has {count} values, expected at most {LONGEST}, with a larger step")]
+    #[error("the range has {count} values, expected at most {LONGEST}; choose a larger step")]
     TooLong { count: i128 },
     /// Neighbouring numbers are equal up to round-off, or have too many digits.
     #[error(
@@ -157,7 +157,8 @@ pub(crate) fn range(
 
 /// Returns true if neighbouring numbers of a range differ by more than round-off.
 ///
-/// Checks only both ends, because the relative difference is smallest at one of them.
+/// Checks only the first and the last pair, because one of them has the smallest relative
+/// difference.
 fn are_distinct(numbers: &[Decimal]) -> bool {
     let mut pairs = numbers.windows(2);
     let ends = [pairs.clone().next(), pairs.next_back()].into_iter().flatten();
@@ -192,7 +193,7 @@ mod tests {
         insta::assert_snapshot!(message("0", "1", "-0.5"), @"the step is -0.5, expected one above 0");
         insta::assert_snapshot!(message("1", "0", "0.5"), @"`to` is below `from`, expected a `to` of at least 1");
         insta::assert_snapshot!(message("0.1", "1", "0.4"), @"1 is not reached in steps of 0.4, expected a `to` of 0.9 or 1.3");
-        insta::assert_snapshot!(message("0", "1", "1e-6"), @"the range has 1000001 values, expected at most 1000000, with a larger step");
+        insta::assert_snapshot!(message("0", "1", "1e-6"), @"the range has 1000001 values, expected at most 1000000; choose a larger step");
         insta::assert_snapshot!(message("0", "1e30", "1e-30"), @"the step 1e-30 is too fine, expected numbers that differ by more than a part in 10^9");
         insta::assert_snapshot!(message("1", "1.000000000000000001", "1e-18"), @"the step 1e-18 is too fine, expected numbers that differ by more than a part in 10^9");
     }

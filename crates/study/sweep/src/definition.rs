@@ -103,9 +103,9 @@ impl Sweep {
         &self.grid
     }
 
-    /// Returns the variables, which no design fixes.
+    /// Returns the variables: the parameters that a search or a random draw sets.
     ///
-    /// A variable has the middle of its range until a search or a random draw sets it.
+    /// In the designs of the grid, a variable has the value in the middle of its range.
     pub fn variables(&self) -> &[Variable] {
         &self.variables
     }
@@ -121,9 +121,9 @@ impl Sweep {
         Self { grid: self.grid.only(index), ..self.clone() }
     }
 
-    /// Returns this sweep with a single design, which has the values of `case` on every axis.
+    /// Returns this sweep with a single design, for which `case` gives the value on every axis.
     ///
-    /// The values need not be values of the axes. The returned sweep has no variables.
+    /// The axes of this sweep need not contain these values. The returned sweep has no variables.
     #[must_use]
     pub fn at(&self, case: &Case) -> Self {
         Self { grid: self.grid.at(case), variables: Vec::new(), ..self.clone() }
@@ -132,7 +132,7 @@ impl Sweep {
     /// Returns true if any design is also solved with imperfections.
     pub fn is_imperfect(&self) -> bool {
         ["gap_cv", "slant_sd_deg"].into_iter().any(|key| {
-            // Check the largest value: with one imperfect design the table has sample columns.
+            // Check the largest value, because a single imperfect design adds sample columns.
             let largest = self.grid.axis(key).map(|axis| axis.span().1);
             largest
                 .or_else(|| Parameter::named(key)?.get(self.grid.base()).number())
@@ -164,8 +164,8 @@ impl Sweep {
 
     /// Returns true if another parameter of the skin follows from `parameter`.
     ///
-    /// Lengths over the thickness follow from the thickness and from lengths in mm. Ratios follow
-    /// from moduli, strengths and the force.
+    /// Ratios of lengths to the thickness follow from the thickness and from lengths in mm. Ratios
+    /// to a modulus follow from moduli, strengths and the force.
     pub fn has_followers(&self, parameter: &Parameter) -> bool {
         match parameter.key {
             key::THICKNESS => self.gives_millimetres() || self.gives(key::NEEDLE_FORCE_N),
@@ -180,7 +180,7 @@ impl Sweep {
 
     /// Returns notes on values that are valid but doubtful.
     pub fn notes(&self) -> Vec<String> {
-        self.question().into_iter().chain(self.narrow_body()).collect()
+        self.stiff_tissue().into_iter().chain(self.narrow_body()).collect()
     }
 
     /// Returns a note on a convex body that is narrow for the pitch of the scales.
@@ -212,7 +212,7 @@ impl Sweep {
     /// Returns a note on a substrate modulus that is too large for soft tissue.
     ///
     /// Such a modulus is probably in `kPa` or `Pa` instead of `MPa`.
-    fn question(&self) -> Option<String> {
+    fn stiff_tissue(&self) -> Option<String> {
         let parameter = Parameter::named(key::SUBSTRATE_MODULUS)?;
         // Check the largest value of the axis or the variable.
         let axis = self.grid.axis(parameter.key).map(|axis| axis.span().1);
@@ -238,8 +238,8 @@ impl Sweep {
 
     /// Returns the parameters shared by all designs, with their values.
     ///
-    /// Omits parameters that follow from others: from a length in mm, a modulus, or an alternative,
-    /// as the critical tilt of a free needle follows from its friction.
+    /// Omits parameters that follow from a length in mm, a modulus or an alternative. For example,
+    /// the critical tilt of a free needle follows from its friction.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
         // Filter the list once, because comparing all pairs of parameters is slow.
         let alone: Vec<_> = PARAMETERS.iter().filter(|other| self.gives_alone(other)).collect();
@@ -251,7 +251,7 @@ impl Sweep {
                     && !parameter.follows(self.grid.base())
                     && !alone
                         .iter()
-                        .any(|other| parameter.is_determined_by(other, self.grid.base()))
+                        .any(|other| parameter.is_alternative_of(other, self.grid.base()))
             })
             .map(|p| (p, p.get(self.grid.base())))
     }
@@ -335,7 +335,8 @@ pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
 
 /// Estimates the number of keys and sections of a TOML text.
 ///
-/// Neither parses the text nor allocates memory. The estimate is at most a few too high.
+/// Neither parses the text nor allocates memory. The estimate is too high if texts or comments
+/// contain `=`.
 fn keys(text: &str) -> usize {
     text.matches('=').count()
         + text

@@ -6,8 +6,8 @@ use text::number;
 
 /// Deviation of a parameter from its nominal value.
 ///
-/// The part `batch` is common to all scales of a batch; the part `scale_sd`, a standard deviation,
-/// varies from scale to scale.
+/// The deviation has two parts: `batch` is common to all scales of a batch, and `scale_sd` is the
+/// standard deviation of the part that varies from scale to scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviation {
     pub(crate) parameter: &'static Parameter,
@@ -30,7 +30,7 @@ impl BatchDeviation {
         match self {
             Self::Normal(deviation) => deviation,
             // The variance of a uniform distribution is a third of its half-width squared.
-            Self::Uniform(most) => most / 3.0_f64.sqrt(),
+            Self::Uniform(half_width) => half_width / 3.0_f64.sqrt(),
         }
     }
 }
@@ -38,7 +38,7 @@ impl BatchDeviation {
 impl Deviation {
     /// Returns the parameter that deviates.
     ///
-    /// For a deviation in mm this is the same length over the thickness.
+    /// For a deviation in mm, returns the parameter of the same length divided by the thickness.
     pub fn parameter(&self) -> &'static Parameter {
         self.parameter.over_t().unwrap_or(self.parameter)
     }
@@ -57,7 +57,7 @@ impl Deviation {
         own.into_iter().chain(self.parameter.is_in_mm().then_some(key::THICKNESS))
     }
 
-    /// Returns the deviation common to all scales of a batch.
+    /// Returns the part of the deviation that is common to all scales of a batch, if there is one.
     pub fn batch(&self) -> Option<BatchDeviation> {
         self.batch
     }
@@ -73,7 +73,7 @@ impl Deviation {
     ///
     /// `by` is in the unit of this deviation. The value may leave its bounds. A deviation of the
     /// thickness keeps all other lengths in mm. A deviation of the modulus of substrate or membrane
-    /// keeps the modulus and the strengths of scales and bonds.
+    /// keeps the modulus of the scales and the strengths of scales and bonds.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
         match self.parameter.key {
             key::THICKNESS => length::with_thickness(case, case.material.thickness_mm? + by),
@@ -103,9 +103,9 @@ impl Deviation {
     /// Like [`Self::moved`], but returns `None` if a parameter leaves its bounds.
     pub fn applied(&self, case: &Case, by: f64) -> Option<Case> {
         let moved = self.moved(case, by)?;
-        let is_made =
+        let is_valid =
             Parameter::with(Role::Made).all(|parameter| parameter.contains(parameter.get(&moved)));
-        (is_made && moved.has_valid_load_position()).then_some(moved)
+        (is_valid && moved.has_valid_load_position()).then_some(moved)
     }
 
     /// Returns the unit of the parameter in the unit of the deviation: the thickness in mm, or 1.
@@ -117,7 +117,7 @@ impl Deviation {
     pub fn to_toml(&self) -> String {
         let batch = self.batch.map(|batch| match batch {
             BatchDeviation::Normal(deviation) => format!("batch_sd = {}", number::text(deviation)),
-            BatchDeviation::Uniform(most) => format!("batch_within = {}", number::text(most)),
+            BatchDeviation::Uniform(width) => format!("batch_within = {}", number::text(width)),
         });
         let scale = self.scale_sd.map(|sd| format!("scale_sd = {}", number::text(sd)));
         let both: Vec<_> = batch.into_iter().chain(scale).collect();

@@ -164,7 +164,7 @@ impl Grid {
     ///
     /// # Errors
     ///
-    /// If it is not a number of the grid.
+    /// If `text` is not the number of a design of this grid.
     pub fn parse_number(&self, text: &str) -> Result<u64, NoSuchDesign> {
         let number = text.parse::<u64>().ok().filter(|number| (1..=self.count).contains(number));
         number

@@ -23,7 +23,7 @@
 //! | [`Variable`], [`VariableValues`] | an entry of `[variables]`: a parameter that a search or a random draw varies |
 //! | [`Deviation`], [`BatchDeviation`] | an entry of `[tolerance]`: a manufacturing deviation |
 //! | [`Material`] | thickness, moduli, strengths and density of the skin, in physical units |
-//! | [`JudgedModes`] | the failure modes, each judged or with the reason if it is not |
+//! | [`JudgedModes`] | the failure modes; for each mode that is not judged, the reason |
 //! | [`NamedValues`] | values that a name, such as `PLA`, supplies to a definition |
 //! | [`SCALE_MATERIALS`], [`TISSUE_MATERIALS`], [`BODIES`] | the named materials and bodies |
 //! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | the designs that a run solves |

@@ -1,7 +1,7 @@
 //! Tables of named materials and bodies.
 //!
-//! `docs/materials.md` and `docs/bodies.md` show the same values with their sources; tests compare
-//! both.
+//! `docs/materials.md` and `docs/bodies.md` list the same values with their sources. Tests compare
+//! these documents with the tables.
 
 use crate::parameter::key;
 
@@ -14,7 +14,9 @@ pub struct NamedValues {
     pub values: &'static [(&'static str, f64)],
 }
 
-/// Lists materials of scales as `name: modulus in MPa, strength in MPa, density in kg/m³`.
+/// Creates a table of scale materials from lines with the name, and modulus, strength and density.
+///
+/// Modulus and strength are in `MPa`, the density is in kg/m³.
 macro_rules! scales {
     ($($name:literal: $modulus:literal, $strength:literal, $density:literal;)*) => {
         &[$(NamedValues {
@@ -44,7 +46,7 @@ pub const SCALE_MATERIALS: &[NamedValues] = scales! {
 
 /// Materials of the substrate.
 ///
-/// Living tissue has no bond strength: it depends on the adhesive.
+/// Living tissue has no bond strength in this table, because its strength depends on the adhesive.
 pub const TISSUE_MATERIALS: &[NamedValues] = &[
     NamedValues {
         name: "silicone",
@@ -62,7 +64,7 @@ pub const TISSUE_MATERIALS: &[NamedValues] = &[
     NamedValues { name: "muscle", values: &[(key::SUBSTRATE_MODULUS, 0.015)] },
 ];
 
-/// Lists bodies as `name: radius in mm, thickness of the tissue on the bone in mm`.
+/// Creates a table of bodies from lines with the name, and radius and tissue thickness in mm.
 macro_rules! bodies {
     ($($name:literal: $radius:literal, $tissue:literal;)*) => {
         &[$(NamedValues {
@@ -91,7 +93,7 @@ pub(crate) struct NameKey {
 }
 
 impl NameKey {
-    /// Returns the values of a name, in upper or lower case.
+    /// Returns the known name that equals `name`, in upper or lower case, with its values.
     pub fn find(&self, name: &str) -> Option<&'static NamedValues> {
         self.known.iter().find(|known| known.name.eq_ignore_ascii_case(name))
     }
@@ -107,7 +109,9 @@ pub(crate) const NAME_KEYS: [NameKey; 3] = [
     NameKey { section: "body", key: "name", known: BODIES },
 ];
 
-/// Returns the key that is set if a section is given a name, as in `material = "PLA"`.
+/// Returns the key that a name as the value of a whole section sets, as in `material = "PLA"`.
+///
+/// `None` if a name cannot be the value of the section.
 pub(crate) fn short_name_key(section: &str) -> Option<&'static NameKey> {
     NAME_KEYS.iter().find(|name| name.section == section)
 }

@@ -78,7 +78,7 @@ pub(crate) enum ParameterKind {
         get: fn(&Case) -> Option<usize>,
         set: fn(&mut Case, Option<usize>),
     },
-    /// A number, an ascending list of up to [`MOST_NUMBERS`] numbers, or `word`, if there is one.
+    /// A number, an ascending list of up to [`MOST_NUMBERS`] numbers, or the word `word`, if any.
     Numbers {
         range: Range,
         word: Option<&'static str>,
@@ -108,7 +108,7 @@ pub(crate) struct CountRange {
     pub high: usize,
 }
 
-/// Word that represents a missing number. A definition cannot contain it.
+/// Word that represents a missing number. A definition cannot contain this word.
 const NOT_GIVEN: &str = "not given";
 
 /// A value that a parameter does not accept.
@@ -258,7 +258,7 @@ impl Parameter {
         }
     }
 
-    /// Converts a number of a range to a value of this parameter.
+    /// Converts `number`, a number of a range, to a value of this parameter.
     pub(crate) fn scalar(&self, number: Decimal) -> Scalar {
         match self.kind {
             ParameterKind::Number { .. }
@@ -283,7 +283,7 @@ impl Parameter {
         changed
     }
 
-    /// Returns `case` with this parameter set to `value`, although another key may define it.
+    /// Returns `case` with this parameter set to `value`, even if another key defines it.
     ///
     /// The same length in mm is updated to agree with `value`. A number given for an alternative of
     /// this parameter, such as the radius for the curvature, is removed.

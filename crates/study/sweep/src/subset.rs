@@ -44,9 +44,9 @@ pub struct NoShard(String);
 
 /// The sample is larger than the grid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("--sample {asked}: there are only {designs} designs, expected from 1 to {designs}")]
+#[error("--sample {requested}: there are only {designs} designs, expected from 1 to {designs}")]
 pub struct SampleTooLarge {
-    asked: u64,
+    requested: u64,
     designs: u64,
 }
 
@@ -166,7 +166,7 @@ impl SubsetDesigns {
 /// See Bentley & Floyd 1987, doi 10.1145/30401.315746.
 fn draw(designs: u64, sample: RandomSample) -> Result<Vec<u64>, SampleTooLarge> {
     if !(1..=designs).contains(&sample.designs) {
-        return Err(SampleTooLarge { asked: sample.designs, designs });
+        return Err(SampleTooLarge { requested: sample.designs, designs });
     }
     // The output of ChaCha8 never changes; a default generator of `rand` may change.
     let mut random = ChaCha8Rng::seed_from_u64(sample.seed);

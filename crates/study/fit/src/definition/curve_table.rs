@@ -60,7 +60,7 @@ fn number_schema(about: &str) -> Json {
 /// In longer curves, neighbouring points are averaged.
 const MOST_POINTS: usize = 200;
 
-/// Returns the `[[curve]]` tables of a definition. It must have at least one.
+/// Returns the `[[curve]]` tables of a definition. The definition must have at least one.
 pub(super) fn tables<'e>(
     entries: &'e KeyValues,
     name: &str,
@@ -197,7 +197,7 @@ impl CurveTable<'_> {
         })
     }
 
-    /// Returns whether the loading branch and whether the unloading branch is fitted.
+    /// Returns whether the loading branch (first) and the unloading branch (second) are fitted.
     fn fitted_branches(&self, test: Test, case: &Case) -> Result<[bool; 2], InvalidFit> {
         let Some(entry) = self.entry("branch") else {
             let unloads = match test {
@@ -218,7 +218,7 @@ impl CurveTable<'_> {
         fitted.ok_or_else(|| self.wrong("branch", "\"loading\", \"unloading\" or \"both\""))
     }
 
-    /// Selects the fitted points: the chosen branches between the keys `from` and `to`.
+    /// Selects the fitted points: the chosen branches, limited by the keys `from` and `to`.
     ///
     /// Neighbouring points of long curves are averaged.
     pub fn branches(
@@ -253,7 +253,7 @@ impl CurveTable<'_> {
             let key = if self.entry("from").is_some() { "from" } else { "to" };
             return Err(self.wrong(key, "a range with points of the file in it"));
         }
-        // Average neighbouring points: machines record thousands, with correlated noise.
+        // Average neighbouring points: machines record thousands of points with correlated noise.
         let part = count.div_ceil(MOST_POINTS);
         let [loading, unloading] = [loading, unloading].map(|branch| {
             let means = branch.chunks(part).map(|indices| mean_point(&curve.points, indices));
@@ -267,7 +267,7 @@ impl CurveTable<'_> {
             turn,
             events,
             case: *case,
-            own: own.to_vec(),
+            fixed: own.to_vec(),
         })
     }
 

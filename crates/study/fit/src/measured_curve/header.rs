@@ -15,7 +15,7 @@ pub(super) struct Header {
     in_file: Vec<String>,
     /// True if `names` come from the definition, which may name only the first columns.
     pub is_given: bool,
-    /// True if `names` are given, or include names and units of a test that the file states.
+    /// True if the definition gives `names`, or if `names` include two columns of a test.
     is_known: bool,
     /// Rows of the names and their units in the file.
     rows: Range<usize>,

@@ -10,7 +10,8 @@ const LOST: f64 = 0.2;
 const BEFORE_LOSS: f64 = 0.5;
 /// Least drop of the force that is reported, as a fraction of the largest force.
 ///
-/// The drop between two points and the drop between the means of their neighbours must exceed it.
+/// Both the drop between two points and the drop between the means of their neighbours must exceed
+/// this value.
 const DROP: f64 = 0.25;
 /// Number of points before and after a drop in these means.
 const NEIGHBOURS: usize = 3;
@@ -27,8 +28,8 @@ const LEAST_APPROACH: (f64, usize) = (0.1, 5);
 const FLAT: f64 = 0.02;
 /// Least F statistic of a line with a bend at first contact, compared with a straight line.
 ///
-/// The statistic is the largest for many positions of the bend, so the limit exceeds the usual
-/// quantiles.
+/// The statistic is the maximum over many positions of the bend, so this limit exceeds the usual
+/// quantiles of the F distribution.
 const SIGNIFICANT: f64 = 20.0;
 /// Maximum number of positions of first contact that are compared.
 const CONTACTS: usize = 100;

@@ -6,7 +6,7 @@ const POINTS: usize = 60;
 /// Mean of the loading branches of several specimens of one design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeanCurve {
-    /// Names of the curves.
+    /// Names of the files of the averaged curves.
     pub files: Vec<String>,
     /// Displacement or curvature; mean and standard deviation of the force or moment.
     pub points: Vec<[f64; 3]>,

@@ -66,12 +66,12 @@ proptest! {
     }
 }
 
-/// The number of points does not grow faster than the number of rows with mistakes among them.
+/// Every second row has a mistake. `read` checks that the points do not outnumber the bytes.
 #[test]
 fn rows_with_mistakes_take_linear_memory() {
     let mut text = "displacement_mm;force_N\n".to_owned();
     for k in 0..20_000 {
-        writeln!(text, "{k};2\nx;3").expect("a text");
+        writeln!(text, "{k};2\nx;3").expect("writing to a string succeeds");
     }
     read(text.as_bytes());
 }

@@ -70,8 +70,9 @@ impl Trial {
         for (key, values, [from, to]) in unknowns {
             let value = random.random_range(values.clone());
             let name = key.split('.').next_back().unwrap_or(key);
-            writeln!(skin, "{key} = {value}").expect("a text");
-            writeln!(sought, "{name} = {{ from = {from}, to = {to} }}").expect("a text");
+            let success = "writing to a string succeeds";
+            writeln!(skin, "{key} = {value}").expect(success);
+            writeln!(sought, "{name} = {{ from = {from}, to = {to} }}").expect(success);
             truth.push(value);
         }
         Self {
@@ -196,9 +197,10 @@ impl Trial {
                 SyntheticCurve { noise, correlation, seed: 10 * number + curve.seed, ..*curve };
             squares.push(place.make(&specimen(&self.skin, keys), &curve));
             let file = curve.file;
-            write!(text, "[[curve]]\nfile = '{file}'\nkind = '{kind}'\n{keys}").expect("a text");
+            write!(text, "[[curve]]\nfile = '{file}'\nkind = '{kind}'\n{keys}")
+                .expect("writing to a string succeeds");
         }
-        let fitted = place.fit(&text).expect("an answer");
+        let fitted = place.fit(&text).expect("a fit");
         let excess = fitted.curves.iter().zip(squares).map(|(curve, true_squares)| {
             let squares: f64 = curve.points.iter().map(|[_, y, fitted]| (y - fitted).powi(2)).sum();
             curve.points.len() as f64 * (squares / true_squares).ln()
@@ -284,7 +286,7 @@ fn counted(kind: usize, number: u64, noise: [f64; 2]) -> Counts {
 }
 
 #[test]
-fn exact_curves_recover_the_parameters() {
+fn fits_of_exact_curves_recover_the_parameters() {
     // Kind 4, the tissue thickness, is slow. The test
     // `two_specimens_determine_thickness_and_modulus_of_tissue` covers the tissue.
     let step = if campaign()[0] == 0 { 2 } else { 1 };
@@ -429,7 +431,7 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
         "{shared}[variables]\nmembrane_modulus_MPa = {{ from = 1, to = 10 }}\nmembrane_thickness_over_t = {{ from = 0.05, to = 0.3 }}\n\
          [[curve]]\nfile = 'a.csv'\nkind = 'bending'\n"
     );
-    let fitted = place.fit(&sought).expect("an answer");
+    let fitted = place.fit(&sought).expect("a fit");
     assert_eq!(fitted.undetermined, [vec![0, 1]]);
     // The interval of the thickness ends where the modulus reaches its bounds.
     assert_eq!(fitted.estimates[0].interval, [None; 2]);
@@ -446,7 +448,7 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
         "membrane_thickness_over_t = { from = 0.05, to = 0.3 }\n",
         "[flexure]\nmembrane_thickness_over_t = 0.1\n",
     );
-    let fitted = place.fit(&one).expect("an answer");
+    let fitted = place.fit(&one).expect("a fit");
     let [low, high] = fitted.estimates[0].interval.map(|end| end.expect("an end"));
     assert!(fitted.undetermined.is_empty() && low > 3.9 && high < 4.1, "{low} {high}");
 }
@@ -521,7 +523,7 @@ fn loading_and_unloading_branches_are_fitted() {
     assert!(forces[places.len() + 4] < 0.9 * forces[4], "{forces:?}");
     let mut text = "displacement,force\n".to_owned();
     for (x, force) in places.iter().chain(&back).zip(forces) {
-        writeln!(text, "{x},{force}").expect("a text");
+        writeln!(text, "{x},{force}").expect("writing to a string succeeds");
     }
     place.write("a.csv", &text);
     let variables = "[variables]\nfriction = { from = 0.02, to = 0.9 }\n";
@@ -533,7 +535,7 @@ fn loading_and_unloading_branches_are_fitted() {
         ("puncture.unload = true\n", "", 19),
     ] {
         let text = format!("{shared}{unload}{variables}{curve}{branch}");
-        let fitted = place.fit(&text).expect("an answer");
+        let fitted = place.fit(&text).expect("a fit");
         let friction = fitted.estimates[0].value;
         assert!((friction - 0.3).abs() < 1e-3, "{unload}{branch}: {friction}");
         assert_eq!(fitted.curves[0].points.len(), points, "{unload}{branch}");
@@ -562,7 +564,7 @@ fn a_parameter_may_differ_from_specimen_to_specimen() {
          substrate_modulus_MPa = {{ from = 0.05, to = 2 }}\n\
          needle_friction = {{ from = 0.02, to = 0.9 }}\n{curves}"
     );
-    let fitted = place.fit(&sought).expect("an answer");
+    let fitted = place.fit(&sought).expect("a fit");
     assert_eq!(fitted.estimates.len(), 5);
     assert_eq!(fitted.estimates[1].unknown.name, "substrate_modulus_MPa of b.csv");
     for (estimate, modulus) in fitted.estimates.iter().zip(moduli) {

@@ -70,7 +70,7 @@ impl Place {
             error = curve.correlation * error + share * noise.sample(&mut random);
             squares += error * error;
             let [x, y] = [place(curve, k) + curve.offsets[0], value + curve.offsets[1] + error];
-            writeln!(text, "{x:.9},{y:.12}").expect("a text");
+            writeln!(text, "{x:.9},{y:.12}").expect("writing to a string succeeds");
         }
         self.write(curve.file, &text);
         squares

@@ -11,9 +11,9 @@ use crate::scalar::Scalar;
 use text::number;
 use text::toml_source::{self, KeyValues, Value};
 
-/// The axes of every grid, with the values of the paper as defaults.
+/// The default axes of a grid, with the values of the paper.
 ///
-/// The axes are a TOML text, so that its ranges give the same decimals as ranges in a file.
+/// The axes are written in TOML, so that their ranges give the same decimals as ranges in a file.
 const PAPER: &str = "
 gap_over_t = { from = 0.1, to = 1, step = 0.1 }
 length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]
@@ -34,7 +34,7 @@ pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Axis,
     }
 }
 
-/// Reads the values of a list, and refuses repeated ones.
+/// Reads the values of a list, and refuses repeated values.
 pub(crate) fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Problem> {
     if items.is_empty() {
         let expected = format!("a list of at least one value, each {}", parameter.expected());
@@ -128,9 +128,9 @@ fn decimal(value: &Value) -> Result<Decimal, String> {
 
 /// Returns `written` with the missing default axes, in the order of variation.
 ///
-/// Default axes that are not written come first and vary slowest. The written axes follow in their
-/// order, except the slant, which is last. A default axis is omitted if a written parameter
-/// determines its parameter, as a pitch determines the gap.
+/// Default axes that are not written are first in the list and vary slowest. The written axes
+/// follow in their order, except the slant, which is last. A default axis is omitted if a written
+/// parameter determines its parameter; for example, a pitch determines the gap.
 pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
     let mut axes = paper();
     axes.retain(|axis| {

@@ -8,11 +8,11 @@ use text::toml_source::{KeyValue, KeyValues, Value};
 /// Keys in the table of a deviation.
 const KEYS: [&str; 3] = ["batch_sd", "batch_within", "scale_sd"];
 
-/// Description of a deviation for messages.
+/// Examples of valid deviations, for messages.
 const EXAMPLE: &str =
     "e.g. { batch_sd = 0.02 }, { batch_within = 0.05 } or { batch_sd = 0.02, scale_sd = 0.01 }";
 
-/// Reads the deviation in `entry`, an entry of the section.
+/// Reads the deviation in `entry`, an entry of the section `[tolerance]`.
 pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
     let Some(parameter) = Parameter::named(&entry.key).filter(|p| p.has(Role::Made)) else {
         return Err(unknown(entry));

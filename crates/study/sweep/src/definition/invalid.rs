@@ -83,7 +83,7 @@ pub enum Problem {
     /// A parameter is set in its section and in the grid.
     #[error("{value} conflicts with {other} at {place}; keep one of the two")]
     Contradiction {
-        /// Value of the parameter here.
+        /// Value of the parameter in its section.
         value: String,
         /// The other key.
         other: String,
@@ -108,7 +108,7 @@ pub enum Problem {
         /// Position of the other key.
         place: Place,
     },
-    /// A length in mm or the scale modulus gives an invalid ratio.
+    /// A length in mm, a modulus, a strength or a force gives an invalid ratio.
     #[error("{value} with {beside} makes {key} {found}, expected {expected}")]
     LengthInMm {
         /// The given value.
@@ -122,7 +122,7 @@ pub enum Problem {
         /// Accepted values of the ratio.
         expected: String,
     },
-    /// Another key is required for the unit of a deviation or a length.
+    /// Another key, or a certain value of another key, is required.
     #[error("needs {0} to be set")]
     Needs(String),
     /// The smallest step exceeds another step.

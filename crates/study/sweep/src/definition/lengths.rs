@@ -1,7 +1,8 @@
-//! Checks lengths in mm, the modulus of the scales and the load position.
+//! Checks lengths in mm, moduli and strengths of the scales, radii and the load position.
 //!
-//! Refuses lengths in mm out of range for the thickness, scales longer than their pitch, scales
-//! softer than the material below, and sharp needles between two scales.
+//! Refuses lengths in mm with an invalid ratio to the thickness, scales longer than their pitch,
+//! scales softer than the material below, bodies with radii near zero, and sharp needles between
+//! two scales.
 
 use super::invalid::Problem;
 use crate::grid::{Axis, Grid};
@@ -10,10 +11,10 @@ use crate::scalar::Scalar;
 use crate::variable::{Variable, VariableValues};
 use text::number;
 
-/// Checks the parameter `given` in all designs of a grid and its variables.
+/// Checks the values of the parameter `given` in all designs and in the ranges of the variables.
 ///
-/// `given` is a length in mm, a modulus or strength in `MPa` or the load position; all
-/// other parameters pass.
+/// Only lengths in mm, radii, moduli and strengths in `MPa`, forces in N and load positions are
+/// checked; other parameters are accepted.
 pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
     if given.key == key::LOAD_POSITION {
         return check_load_position(given, grid, variables);
@@ -44,7 +45,7 @@ fn check_load_position(
     }
 }
 
-/// Minimum radius of a body, over the thickness (first) and in mm (second).
+/// Minimum radius of a body, divided by the thickness (first) and in mm (second).
 ///
 /// The radius must be at least the thickness of the scales. The minimum in mm is small, because the
 /// thickness may be small.
@@ -120,8 +121,8 @@ fn check_one(
 ///
 /// For words and lists of a variable, returns all values.
 fn ends(axis: &Axis, variables: &[Variable]) -> Vec<Scalar> {
-    let own = variables.iter().find(|variable| variable.parameter() == axis.parameter());
-    match own.map(Variable::values) {
+    let variable = variables.iter().find(|variable| variable.parameter() == axis.parameter());
+    match variable.map(Variable::values) {
         Some(VariableValues::Between(from, to)) => vec![Scalar::Number(*from), Scalar::Number(*to)],
         Some(VariableValues::OneOf(values)) => values.clone(),
         None if axis.parameter().takes_numbers() => {

@@ -10,9 +10,9 @@ use text::toml_source::Value;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Measure {
-    /// Coverage: the fraction of the scale layer that a line crosses as scale.
+    /// Coverage: the fraction of the scale layer that a vertical line crosses as solid scale.
     ///
-    /// The line is vertical and passes through the top right corner of a scale.
+    /// The line passes through the top right corner of a scale.
     Coverage,
     /// Puncture of the middle scale of a row.
     Puncture,

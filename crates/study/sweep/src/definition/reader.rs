@@ -1,4 +1,4 @@
-//! Builds a sweep from keys and values.
+//! Builds a sweep from the keys and values of a definition, or reports all errors.
 
 use super::axes;
 use super::deviations;
@@ -50,7 +50,7 @@ impl Reader {
         if self.refused.len() >= MOST {
             return;
         }
-        let understood = match entry.key.as_str() {
+        let result = match entry.key.as_str() {
             "name" => self.read_name(entry),
             "measures" => self.read_measures(entry),
             suggestion::VARIABLES => self.entries(entry, Self::read_variable),
@@ -62,7 +62,7 @@ impl Reader {
             },
             _ => Err(unknown("", entry)),
         };
-        self.refused.extend(understood.err());
+        self.refused.extend(result.err());
     }
 
     fn read_name(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
@@ -99,7 +99,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Sets the values of the named materials and body that the definition does not give itself.
+    /// Sets the values of the named materials and body, except values that the definition gives.
     fn supply_named(&mut self) {
         for (named, place) in std::mem::take(&mut self.named) {
             for (key, value) in named.values {
@@ -119,18 +119,18 @@ impl Reader {
         self.entries(entry, |reader, entry| reader.parameter(section, entry))
     }
 
-    /// Reads the entries of a section by `understand`, one by one, and collects their errors.
+    /// Reads each entry of a section with the function `read_entry`, and collects the errors.
     fn entries(
         &mut self,
         section: &KeyValue,
-        mut understand: impl FnMut(&mut Self, &KeyValue) -> Result<(), InvalidDefinition>,
+        mut read_entry: impl FnMut(&mut Self, &KeyValue) -> Result<(), InvalidDefinition>,
     ) -> Result<(), InvalidDefinition> {
         for entry in table(section)? {
             if self.refused.len() >= MOST {
                 break;
             }
-            let understood = understand(self, entry);
-            self.refused.extend(understood.err());
+            let result = read_entry(self, entry);
+            self.refused.extend(result.err());
         }
         Ok(())
     }
@@ -211,7 +211,7 @@ impl Reader {
         Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid, variables, deviations })
     }
 
-    /// Returns errors for invalid combinations of keys with individually valid values.
+    /// Returns errors for invalid combinations of keys, each of which has a valid value.
     fn wrong_together(&self, file: &Place) -> Vec<InvalidDefinition> {
         let mut wrong: Vec<_> = self.contradictions().collect();
         wrong.extend(self.fixed_variables());
@@ -226,7 +226,7 @@ impl Reader {
         wrong.extend(self.lengths_without_thickness());
         wrong.extend(self.ratios_without_modulus());
         wrong.extend(self.force_without_thickness());
-        // A refused step was replaced by its default, so do not compare it with the other steps.
+        // A refused step still has its default value, so do not compare it with the other steps.
         if self.refused.is_empty() {
             wrong.extend(self.check_steps(file).err());
         }
@@ -236,7 +236,7 @@ impl Reader {
 
     /// Returns an error for every variable that the definition also fixes.
     ///
-    /// A variable is fixed by a value of its parameter or of an alternative.
+    /// A value of its parameter, or of an alternative parameter, fixes a variable.
     fn fixed_variables(&self) -> impl Iterator<Item = InvalidDefinition> {
         let variables = self.variables.iter().enumerate();
         variables.filter_map(|(k, (variable, place))| {
@@ -300,8 +300,9 @@ impl Reader {
 
     /// Checks the friction of the needle.
     ///
-    /// A guided needle needs one path per friction, so it accepts no list. The critical tilt of a
-    /// free needle follows from its friction, so 0 is refused.
+    /// A guided needle needs one path per friction, so it accepts no list of frictions. The
+    /// critical tilt of a free needle is the arctangent of its friction, so a friction of 0 is
+    /// refused.
     fn check_needle(&self) -> Result<(), InvalidDefinition> {
         let Some((frictions, path, place)) = self.values(key::NEEDLE_FRICTION) else {
             return Ok(());
@@ -395,7 +396,7 @@ impl Reader {
         })
     }
 
-    /// Returns an error for every numerator of a ratio with a missing modulus as denominator.
+    /// Returns an error for every numerator of a ratio without the modulus in its denominator.
     ///
     /// Numerators are the modulus of the scales, strengths and the force; denominators are the
     /// moduli of substrate and membrane. Only ratios that the requested measures use are checked.
@@ -435,7 +436,7 @@ impl Reader {
         Err(refuse(place, &parameter.path(), problem))
     }
 
-    /// Returns true if all designs have a word, such as `auto`, as the value of a parameter.
+    /// Returns true if no design gives the parameter a number: its value is a word, or missing.
     fn leaves_open(&self, parameter: &Parameter) -> bool {
         let is_axis = self.axes.iter().any(|written| written.axis.parameter() == parameter);
         !is_axis && matches!(parameter.get(&self.case), Scalar::Word(_))
@@ -489,7 +490,9 @@ impl Reader {
         self.written().any(|(_, parameter, _)| parameter.is_or_determines(key))
     }
 
-    /// Returns the position in the definition at which a parameter is set, if it is.
+    /// Returns the position in the definition of the axis or the value of a parameter.
+    ///
+    /// `None` if the parameter is neither an axis nor set in its section.
     fn place(&self, key: &str) -> Option<&Place> {
         let axes = self.axes.iter().map(|written| (written.axis.parameter(), &written.place));
         let shared = self.shared.iter().map(|(parameter, place)| (*parameter, place));
@@ -497,7 +500,9 @@ impl Reader {
     }
 }
 
-/// Returns the problem of two parameters that exclude each other.
+/// Creates the error of two parameters that exclude each other.
+///
+/// `other` is the key of the parameter `two`, and `there` its position in the definition.
 fn conflict(one: &Parameter, two: &Parameter, other: String, there: &Place) -> Problem {
     let place = there.clone();
     if one == two || [one, two].iter().all(|parameter| parameter.key != key::PITCH) {

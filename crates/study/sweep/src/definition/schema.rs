@@ -44,7 +44,7 @@ fn measures() -> Value {
 fn section_schema(section: &str) -> Value {
     if section == "designs" {
         let axes = PARAMETERS.iter().map(|p| (p.key, p.axis_schema()));
-        return section_of("Axes of the grid; any parameter may be one", axes);
+        return section_of("Axes of the grid; any parameter may be an axis", axes);
     }
     let own = PARAMETERS.iter().filter(|p| p.section == section).map(|p| (p.key, p.schema()));
     let names = NAME_KEYS.iter().filter(|name| name.section == section);

@@ -59,7 +59,7 @@ impl Setting {
         // An argument may have several lines, but a message must have one line.
         let place = Place::Argument(Arc::from(text::one_line(option)));
         let refuse = |problem: String| InvalidSetting { place: place.clone(), problem };
-        // Split at the first `=`: a table or a text may contain more of them.
+        // Split at the first `=`, because the value may be a table or a text with further `=`.
         let (key, value) =
             text.split_once('=').ok_or_else(|| refuse("there is no `=`".to_owned()))?;
         let mut path: Vec<_> = key.split('.').map(|part| part.trim().to_owned()).collect();
@@ -82,7 +82,7 @@ impl Setting {
         Ok(Self { path, value, place })
     }
 
-    /// Returns the parameter that is set, if the key is a parameter.
+    /// Returns the parameter that this setting sets; `None` if its key is not a parameter.
     pub fn parameter(&self) -> Option<&'static Parameter> {
         match self.path.as_slice() {
             [section, key] => Parameter::named(key).filter(|parameter| {
@@ -97,7 +97,7 @@ impl Setting {
         &self.place
     }
 
-    /// Replaces or adds the value in `table`.
+    /// Replaces or adds the value of this setting in `table`.
     pub(crate) fn apply(&self, table: &mut KeyValues) {
         self.supersede(table);
         self.put(table, &self.path);
@@ -145,7 +145,7 @@ impl Setting {
         }
     }
 
-    /// If this setting names a material or body, removes the values of the file that it replaces.
+    /// Removes the values of the file that the material or body named by this setting supplies.
     ///
     /// A name in the file supplies only values that the file does not give. A name in a setting
     /// replaces values of the file, because a definition that squama wrote gives every value. Axes

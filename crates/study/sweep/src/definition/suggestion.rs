@@ -1,4 +1,4 @@
-//! Suggests keys in place of unknown ones.
+//! Suggests known keys in place of unknown keys.
 
 use text::nearest;
 
@@ -8,7 +8,7 @@ use crate::parameter::{PARAMETERS, Parameter, key};
 /// Section of the axes.
 pub(crate) const DESIGNS: &str = "designs";
 
-/// Section of the parameters that are not fixed by any design.
+/// Section of the variables: parameters that a search or a random draw varies.
 pub(crate) const VARIABLES: &str = "variables";
 
 /// Section of the manufacturing deviations.
@@ -42,8 +42,8 @@ pub(crate) fn for_key(section: &str, key: &str) -> String {
         let path = own.map_or_else(|| parameter.path(), |own| format!("{section}.{own}"));
         return format!("did you mean {path}?");
     }
-    // For a key that does not end like `mm`, suggest the length over the thickness, although the
-    // name of the length in mm is more similar.
+    // For a key that does not end in `m`, suggest the length divided by the thickness, although
+    // the name of the length in mm is more similar.
     match nearest(key, &known).map(|near| {
         let of = Parameter::named(near).filter(|_| !key.ends_with('m')).and_then(Parameter::over_t);
         of.map_or(near, |of| of.key)

@@ -13,9 +13,9 @@ const LEAST_FRICTION: f64 = 1e-4;
 impl Parameter {
     /// Returns this parameter's value in `case`; `None` if another key defines it.
     fn written_value(&self, case: &Case) -> Option<Scalar> {
-        let first = self.instead().map(|first| first.get(case));
+        let alternative = self.instead().map(|alternative| alternative.get(case));
         // If the alternative is a word, such as `auto` or `none`, this parameter is used.
-        let follows = first.is_some_and(|value| !matches!(value, Scalar::Word(_)));
+        let follows = alternative.is_some_and(|value| !matches!(value, Scalar::Word(_)));
         (!follows).then(|| self.get(case))
     }
 

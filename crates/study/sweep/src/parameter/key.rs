@@ -1,4 +1,7 @@
-//! Keys of the parameters that code refers to. Moduli and strengths are in `MPa`.
+//! Keys of the parameters that code refers to. The text at each key describes its parameter.
+//!
+//! Moduli and strengths are in `MPa`. Lengths are divided by the thickness of the scales unless
+//! their keys end in `_mm`.
 
 /// Gap between neighbouring bases.
 pub const GAP: &str = "gap_over_t";
@@ -68,7 +71,7 @@ pub const DEPTH: &str = "depth_over_t";
 /// Depth of the punctured point at which `force_at_depth` is measured, in mm.
 pub const DEPTH_MM: &str = "depth_mm";
 
-/// Force of the needle at which the pressure on the tissue is measured, over `E_s t²`.
+/// Force of the needle at which the pressure on the tissue is measured, divided by `E_s t²`.
 pub const NEEDLE_FORCE: &str = "force_over_substrate";
 
 /// Force of the needle at which the pressure on the tissue is measured, in N.
@@ -101,19 +104,19 @@ pub const SUBSTRATE_MODULUS: &str = "substrate_modulus_MPa";
 /// Modulus of the scales.
 pub const SCALE_MODULUS: &str = "scale_modulus_MPa";
 
-/// Modulus of the scales in contact over the modulus of the substrate.
+/// Modulus of the scales in contact divided by the modulus of the substrate.
 pub const CONTACT_OVER_SUBSTRATE: &str = "contact_modulus_over_substrate";
 
-/// Modulus of the scales in contact over the modulus of the membrane.
+/// Modulus of the scales in contact divided by the modulus of the membrane.
 pub const CONTACT_OVER_MEMBRANE: &str = "contact_modulus_over_membrane";
 
 /// Whether to find the first failure even if no strength is given.
 pub const FAILURE: &str = "failure";
 
-/// Strength of the scales over the modulus of the substrate.
+/// Strength of the scales divided by the modulus of the substrate.
 pub const SCALE_STRENGTH_OVER_SUBSTRATE: &str = "scale_strength_over_substrate";
 
-/// Strength of the bonds over the modulus of the substrate.
+/// Strength of the bonds divided by the modulus of the substrate.
 pub const BOND_STRENGTH_OVER_SUBSTRATE: &str = "bond_strength_over_substrate";
 
 /// Strength of the scales.

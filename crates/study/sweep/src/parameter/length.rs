@@ -1,8 +1,8 @@
-//! Lengths in mm, and the lengths over the thickness that follow from them.
+//! Computes relative lengths, divided by the scale thickness `t`, from lengths in mm.
 //!
-//! The solvers read only lengths over the thickness. After every change of a parameter, [`settle`]
-//! computes them from the lengths given in mm, e.g. `gap_over_t = gap_mm/t`. The order of setting
-//! length and thickness does not matter.
+//! The solvers read only relative lengths. After every change of a parameter, [`settle`] computes
+//! them from the lengths given in mm, e.g. `gap_over_t = gap_mm/t`. The order of setting length and
+//! thickness does not matter.
 
 use std::sync::LazyLock;
 
@@ -11,7 +11,7 @@ use crate::case::{Case, Millimetres};
 use crate::scalar::Scalar;
 use text::number;
 
-/// Pairs of parameters: a length in mm, and the length over the thickness that it determines.
+/// Pairs of parameters: a length in mm, and the relative length that it determines.
 ///
 /// Cached, because [`settle`] runs for every design and the search by key is slow.
 static LENGTHS_IN_MM: LazyLock<Vec<(&Parameter, &Parameter)>> = LazyLock::new(|| {
@@ -25,14 +25,14 @@ static LENGTHS_IN_MM: LazyLock<Vec<(&Parameter, &Parameter)>> = LazyLock::new(||
 });
 
 impl Parameter {
-    /// Returns the parameter of the same length over the thickness.
+    /// Returns the parameter of the same length divided by the thickness.
     ///
     /// `None` if this parameter is not a length in mm.
     pub fn over_t(&self) -> Option<&'static Self> {
         LENGTHS_IN_MM.iter().find(|(in_mm, _)| *in_mm == self).map(|&(_, over_t)| over_t)
     }
 
-    /// Returns the parameters in mm that determine this length over the thickness.
+    /// Returns the parameters in mm that determine this relative length.
     pub fn in_mm(&self) -> impl Iterator<Item = &'static Self> {
         Self::with(Role::InMm(self.key))
     }
@@ -79,7 +79,7 @@ impl Parameter {
 
 /// Returns the lengths that a case gives in mm.
 ///
-/// Each item holds the parameter in mm, the parameter over the thickness, and the length in mm.
+/// Each item holds the parameter in mm, the parameter of the relative length, and the length in mm.
 fn given(case: &Case) -> impl Iterator<Item = (&'static Parameter, &'static Parameter, f64)> {
     // Skip the search if no length is given in mm, because a sweep creates one case per design.
     let is_none = case.in_mm == Millimetres::default();
@@ -87,7 +87,7 @@ fn given(case: &Case) -> impl Iterator<Item = (&'static Parameter, &'static Para
     all.iter().filter_map(|&(in_mm, over_t)| Some((in_mm, over_t, in_mm.get(case).number()?)))
 }
 
-/// Computes the lengths over the thickness from the lengths in mm.
+/// Computes the relative lengths from the lengths in mm.
 pub(super) fn settle(case: &mut Case) {
     let Some(thickness) = case.material.thickness_mm else { return };
     for (in_mm, over_t, length) in given(case).collect::<Vec<_>>() {
@@ -121,7 +121,7 @@ fn quotient(length: f64, thickness: f64) -> f64 {
     number::short_decimal(length / thickness, length / thickness)
 }
 
-/// Returns a length in mm, without the round-off of the product.
+/// Multiplies a relative length by the thickness, and removes the round-off of the product.
 fn product(length: f64, thickness: f64) -> f64 {
     number::short_decimal(length * thickness, length * thickness)
 }
@@ -143,7 +143,7 @@ pub(super) fn keep_in_step(case: &mut Case, changed: &Parameter) {
     }
 }
 
-/// Updates the lengths in mm after a change of `moved`, a length over the thickness.
+/// Updates the lengths in mm after a change of the relative length `moved`.
 fn restate(case: &mut Case, moved: &Parameter) {
     let Some(thickness) = case.material.thickness_mm else { return };
     // Update the pitch too, because otherwise the next `settle` would revert the change.

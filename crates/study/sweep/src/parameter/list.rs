@@ -266,16 +266,16 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "number of load positions evaluated for weakest_force, from the left corner of the top to the right, for a round tip over one pitch";
         key::CONTACT_OVER_SUBSTRATE, "-", [Continuous, Made],
             number(STIFF, |c| &mut c.puncture.contact_modulus_over_substrate),
-            "modulus of the scales in contact, E_ct, over the modulus of the substrate, E_s";
+            "modulus of the scales in contact, E_ct, divided by the modulus of the substrate, E_s";
         key::FAILURE, "-", [],
             words!(judge_failure: "false" = false, "true" = true),
             "whether to find the first failure and the largest stresses; a strength of scales or bonds requests them, too";
         key::SCALE_STRENGTH_OVER_SUBSTRATE, "-", [Continuous, Made],
             optional(POSITIVE, |c| &mut c.strengths.scale),
-            "strength of the scales over the modulus of the substrate, E_s; scales cannot break unless given";
+            "strength of the scales divided by the modulus of the substrate, E_s; scales cannot break unless given";
         key::BOND_STRENGTH_OVER_SUBSTRATE, "-", [Continuous, Made],
             optional(POSITIVE, |c| &mut c.strengths.bond),
-            "strength of the bonds between scales and substrate over E_s; bonds cannot fail unless given";
+            "strength of the bonds between scales and substrate, divided by E_s; bonds cannot fail unless given";
     }
 
     "array" {
@@ -335,7 +335,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "rotation of each end at which bending ends; negative values bend the other way, with the scales outside";
         key::CONTACT_OVER_MEMBRANE, "-", [Continuous, Made],
             number(STIFF, |c| &mut c.flexure.contact_modulus_over_membrane),
-            "modulus of the scales in contact, E_ct, over the modulus of the membrane, E_m";
+            "modulus of the scales in contact, E_ct, divided by the modulus of the membrane, E_m";
     }
 
     "imperfection" {

@@ -1,8 +1,8 @@
 //! Moduli and strengths in `MPa` and a force in N, and the ratios that follow from them.
 //!
 //! The solvers read only the contact ratios `E_ct/E_s` and `E_ct/E_m` of Eq. (5), the strengths
-//! over `E_s`, and the force over `E_s t²`. The stiffness and the strength of a scale are
-//! properties of its material, not of its substrate. If they are given in `MPa`, the ratios
+//! divided by `E_s`, and the force divided by `E_s t²`. The stiffness and the strength of a scale
+//! are properties of its material, not of its substrate. If they are given in `MPa`, the ratios
 //! therefore follow from them, also when another modulus varies.
 
 use super::{Parameter, key};
@@ -33,7 +33,9 @@ impl Parameter {
             .any(|[ratio, above, _]| *ratio == self.key && numerator(case, above).is_some())
     }
 
-    /// Returns the ratios with this parameter as numerator, each with the key of the modulus below.
+    /// Returns the ratios with this parameter as numerator.
+    ///
+    /// Each item also has the key of the modulus in the denominator.
     pub(crate) fn ratios(&self) -> impl Iterator<Item = (&'static Self, &'static str)> {
         let of_this = RATIOS.into_iter().filter(|[_, above, _]| *above == self.key);
         of_this.filter_map(|[ratio, _, below]| Some((Self::named(ratio)?, below)))

@@ -50,17 +50,17 @@ impl Parameter {
     ///
     /// A definition gives either this parameter or one of its alternatives.
     pub(crate) fn others_in(&self, case: &Case) -> impl Iterator<Item = &'static Self> {
-        PARAMETERS.iter().filter(|other| self.is_determined_by(other, case))
+        PARAMETERS.iter().filter(|other| self.is_alternative_of(other, case))
     }
 
     /// Returns true if `other` is an alternative of this parameter in a case.
     ///
     /// Critical tilt and needle friction are alternatives only for a free needle. A pitch is an
     /// alternative of the length if the case also gives a gap, otherwise of the gap.
-    pub(crate) fn is_determined_by(&self, other: &Self, case: &Case) -> bool {
+    pub(crate) fn is_alternative_of(&self, other: &Self, case: &Case) -> bool {
         let origin = |parameter: &Self| {
-            let says_length = parameter.key == key::PITCH && case.in_mm.pitch_determines_length;
-            if says_length { key::LENGTH } else { parameter.origin() }
+            let sets_length = parameter.key == key::PITCH && case.in_mm.pitch_determines_length;
+            if sets_length { key::LENGTH } else { parameter.origin() }
         };
         // Alternatives are in the same section. Compare sections first, because `origin` is slow.
         let is_same = other.section == self.section
@@ -129,7 +129,7 @@ mod tests {
             let key = parameter.key;
             let case = Case::default();
             let mut others = parameter.others_in(&case);
-            assert!(others.all(|other| other.is_determined_by(parameter, &case)), "{key}");
+            assert!(others.all(|other| other.is_alternative_of(parameter, &case)), "{key}");
             let origin = Parameter::named(parameter.origin()).expect("a parameter");
             assert_eq!(origin.section, parameter.section, "{key}");
             if let Some(instead) = parameter.instead() {

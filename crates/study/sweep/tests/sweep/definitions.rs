@@ -84,12 +84,12 @@ fn settings_replace_values_of_the_file() {
 }
 
 #[test]
-fn the_record_of_a_run_is_a_definition() {
+fn the_record_of_a_run_can_be_read_as_a_definition() {
     let text = "[run]\nversion = '1'\n[definition]\nname = 'x'\n[definition.contact]\nc1 = 2";
     assert_eq!(sweep(text).grid().case(0).common.law.c1.to_bits(), 2.0_f64.to_bits());
 }
 
-/// The notations are an inset over the thickness, and a depth in mm.
+/// The notations are an inset divided by the thickness, and a depth in mm.
 #[test]
 fn load_position_and_depth_are_written_back_in_their_notation() {
     let text = "puncture = { load_inset_over_t = 0.05, depth_mm = 1 }\nmaterial.thickness_mm = 2\n\
@@ -282,7 +282,7 @@ fn critical_tilts_are_given_in_degrees_or_by_friction() {
 }
 
 #[test]
-fn deviations_move_a_case_in_their_own_unit() {
+fn deviations_change_a_case_in_the_unit_of_the_deviation() {
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\nslant_deg = 45\n[material]\n\
                 thickness_mm = 8\nsubstrate_modulus_MPa = 0.3\n[tolerance]\ngap_mm = { scale_sd = 0.4 }\n\
                 slant_deg = { batch_within = 3 }\nthickness_mm = { batch_sd = 0.1 }\n\
@@ -377,7 +377,7 @@ fn the_size_of_a_parameter_that_may_be_zero_is_at_least_one() {
     assert!(found[2].is_some_and(|size| size < 1.0) && found[3] == Some(1.0), "{found:?}");
 }
 
-/// The lengths in mm are the lengths over the thickness times the thickness of 2 mm.
+/// Each length in mm is the relative length times the thickness of 2 mm.
 ///
 /// The pitch is base plus gap: 3 mm + 0.5 mm.
 #[test]
@@ -420,9 +420,8 @@ fn lengths_in_mm_and_over_the_thickness_give_the_same_case() {
     }
 }
 
-/// A change of the thickness or of a length in mm updates the lengths over the thickness.
 #[test]
-fn lengths_in_mm_follow_changes_of_the_thickness() {
+fn relative_lengths_follow_changes_of_the_thickness_and_of_lengths_in_mm() {
     let text = "name = 'x'\n[designs]\ngap_mm = 0.5\npitch_mm = 3.5\nthickness_mm = 2\n";
     let case = Sweep::parse(text, "x.toml", &[]).unwrap().grid().case(0);
     let moved = |key: &str, by| sweep::Parameter::named(key).unwrap().moved(&case, by).unwrap();
@@ -430,16 +429,16 @@ fn lengths_in_mm_follow_changes_of_the_thickness() {
     assert_eq!((thick.design.gap, thick.design.length), (0.125, 0.75));
     assert_eq!(moved("pitch_mm", 0.5).design.length, 1.75);
     assert_eq!(moved("gap_mm", 0.5).design.length, 1.25);
-    // A change of the gap over the thickness updates the pitch in mm and keeps the length.
+    // A change of the relative gap updates the pitch in mm and keeps the length.
     let wide = moved("gap_over_t", 0.25);
     assert_eq!((wide.design.gap, wide.design.length, wide.in_mm.pitch), (0.5, 1.5, Some(4.0)));
     let length = sweep::Parameter::named("width_mm").unwrap().moved(&wide, 1.0).unwrap();
     assert_eq!((length.design.width, length.design.gap), (1.5, 0.5));
 }
 
-/// The gap, its deviation and the depth, all in mm, follow the variable thickness.
+/// The relative gap, its deviation and the relative depth follow from mm and the middle thickness.
 #[test]
-fn a_thickness_may_vary_beside_lengths_in_mm() {
+fn lengths_in_mm_stay_constant_if_the_thickness_varies() {
     let text = "name = 'x'\npuncture.depth_mm = 1\n[designs]\ngap_mm = 0.5\n[variables]\n\
         thickness_mm = { from = 1, to = 3 }\n[tolerance]\ngap_mm = { batch_sd = 0.1, scale_sd = 0.1 }";
     let sweep = Sweep::parse(text, "x.toml", &[]).unwrap();
@@ -462,7 +461,7 @@ fn a_setting_in_mm_replaces_the_length_over_the_thickness() {
 }
 
 #[test]
-fn lengths_in_mm_are_short_decimals_over_the_thickness() {
+fn lengths_in_mm_give_short_decimals_as_relative_lengths() {
     let tenths = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
     for axis in [
         "gap_mm = { from = 0.3, to = 3, step = 0.3 }",
@@ -477,7 +476,7 @@ fn lengths_in_mm_are_short_decimals_over_the_thickness() {
 }
 
 #[test]
-fn values_are_found_up_to_round_off() {
+fn designs_are_found_by_values_equal_up_to_round_off() {
     let sweep = Sweep::parse("name = 'x'", "x.toml", &[]).expect("valid");
     let mut case = sweep.grid().case(417);
     case.design.gap *= 1.0 + 4.0 * f64::EPSILON;

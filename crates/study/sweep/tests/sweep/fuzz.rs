@@ -118,8 +118,9 @@ fn paper() -> &'static [u8] {
 
 /// Parses a definition and checks the result.
 ///
-/// In a valid definition designs are found by their parameters, and its complete form reads back as
-/// the same definition. The error of an invalid one has lines that name the file.
+/// For a valid definition, checks that its designs are found by their parameters, and that its
+/// complete form reads back as the same definition. For an invalid definition, checks that each
+/// line of the error names the file.
 fn read(text: &str) -> Result<(), TestCaseError> {
     match Sweep::parse(text, "x.toml", &[]) {
         Ok(sweep) => {

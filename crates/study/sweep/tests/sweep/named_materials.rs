@@ -45,7 +45,7 @@ fn a_ratio_overrides_the_named_value() {
 }
 
 #[test]
-fn the_scales_may_be_named_without_a_section() {
+fn the_value_of_the_section_material_may_be_a_scale_material() {
     let settings =
         ["material.substrate_modulus_MPa=0.3", "material.membrane_modulus_MPa=1", "material=abs"];
     assert_eq!(materials("", &settings).scale_strength_mpa, Some(33.0));
@@ -56,7 +56,7 @@ fn the_scales_may_be_named_without_a_section() {
 }
 
 #[test]
-fn a_complete_definition_states_the_values() {
+fn a_complete_definition_states_the_values_of_a_named_material() {
     let text = format!("[material]\nscale = 'PLA'\n{MODULI}");
     let written = read(&text, &[]).expect("valid").to_toml();
     assert!(written.contains("scale_strength_MPa = 50\n") && !written.contains("PLA"), "{written}");

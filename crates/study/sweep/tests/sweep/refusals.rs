@@ -53,10 +53,10 @@ fn extreme_lengths_and_moduli_are_refused() {
             let message = Sweep::parse(&text, "x.toml", &[]).err().map(|error| error.to_string());
             // The range of these lengths contains 1e-30, so this value is not out of range. In mm
             // the length is still refused, because the thickness is missing.
-            let places = ["load_inset", "membrane_axis_offset", "radius_mm", "radius_to_mm"];
-            let is_place = places.iter().any(|place| parameter.key.starts_with(place));
+            let small = ["load_inset", "membrane_axis_offset", "radius_mm", "radius_to_mm"];
+            let may_be_small = small.iter().any(|start| parameter.key.starts_with(start));
             let is_refused = message.is_some_and(|message| message.contains("out of range"));
-            assert!(is_refused || (value == "1e-30" && is_place), "{text}");
+            assert!(is_refused || (value == "1e-30" && may_be_small), "{text}");
             count += 1;
         }
     }
@@ -136,7 +136,7 @@ fn invalid_ranges_are_refused() {
 }
 
 #[test]
-fn contradictory_and_superfluous_keys_are_refused() {
+fn contradictory_keys_and_too_many_values_are_refused() {
     insta::assert_snapshot!(all(&[
         "contact.c1 = 2\ndesigns.c1 = [1, 2]",
         "designs.c1 = { from = 0.001, to = 1e6, step = 0.001 }",
@@ -205,7 +205,7 @@ proptest::proptest! {
     }
 }
 
-/// Comparing all pairs of values would take minutes.
+/// The time limit excludes algorithms that compare all pairs of values, which take minutes.
 #[test]
 fn a_long_list_with_a_repeated_value_is_refused_quickly() {
     let numbers = (1..=300_000).map(|k| format!("{k}e-3")).chain(["0.001".to_owned()]);
@@ -251,7 +251,7 @@ fn long_lists_and_many_keys_are_processed_quickly() {
 }
 
 #[test]
-fn deep_settings_are_refused() {
+fn deeply_nested_settings_are_refused() {
     let deep = format!("{}x=1", "a.".repeat(20_000));
     let error = sweep::Setting::parse(&deep).expect_err("refused").to_string();
     assert!(error.contains("a key of 20001 parts"), "{}", &error[error.len() - 100..]);
@@ -334,7 +334,7 @@ fn invalid_scale_moduli_are_refused() {
     insta::assert_snapshot!(all(&texts.each_ref().map(String::as_str)));
 }
 
-/// The thickness is missing, a length is given twice, or a length over the thickness is too small.
+/// The thickness is missing, a length is given twice, or a relative length is too small.
 #[test]
 fn invalid_lengths_in_mm_are_refused() {
     insta::assert_snapshot!(all(&[
