@@ -1,9 +1,9 @@
 //! Finite-element deck of a punctured row, for `CalculiX` and Abaqus.
 //!
-//! One row of scales stands on a block of substrate; the middle scale is pushed down along a line
-//! across its top. The elements are quadratic hexahedra, for one half of the symmetric row in `y`.
-//! Bases and substrate share nodes; neighbouring scales have contact. Lengths in mm, forces in N,
-//! stresses in `MPa`.
+//! The deck contains a row of scales on a block of substrate. The middle scale is pushed down along
+//! a line across its top. The row is symmetric in `y`, and the deck models one half with quadratic
+//! hexahedra. Bases and substrate share nodes; neighbouring scales have contact. Lengths are in mm,
+//! forces in N, stresses in `MPa`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -23,13 +23,13 @@ const HEIGHT: usize = 3;
 const GAP: usize = 2;
 /// Distance of the outer faces of the block from the scales, in units of the larger of base and
 /// width of a scale.
-// At a distance of 10 a single base is 4 % too stiff.
+// With a distance of 10 a single base is 4 % stiffer than on an infinite half-space.
 const MARGIN: f64 = 10.0;
 /// Ratio of the lengths of successive elements towards the outer faces.
 const GROWTH: f64 = 1.8;
 /// Displacement of the load, divided by the thickness of a scale.
 const DEPTH: f64 = 0.1;
-/// Largest Poisson's ratio: elements of an incompressible material need a pressure as an unknown.
+/// Largest Poisson's ratio of a deck: larger ratios need elements with the pressure as an unknown.
 const MOST_POISSON: f64 = 0.49;
 
 /// Materials and load of a deck.
@@ -56,7 +56,7 @@ pub struct Puncture {
 )]
 pub struct NoDeck(usize);
 
-/// Block of a node, and its indices in the grid of half elements.
+/// Block of a node, and its indices along, across and upwards in the grid of half elements.
 ///
 /// Block 0 is the substrate, and block `k + 1` is scale `k`.
 type NodeIndex = [usize; 4];
@@ -93,14 +93,17 @@ const NODES: [[usize; 3]; 20] = [
     [0, 2, 1],
 ];
 
-/// Returns the coordinate of index `i`, in half elements, of a grid with these `lines`.
+/// Returns the coordinate at the index `i`, counted in half elements.
+///
+/// `lines` contains the coordinates of the boundaries between elements.
 fn at(lines: &[f64], i: usize) -> f64 {
     f64::midpoint(lines[i / 2], lines[i.div_ceil(2)])
 }
 
-/// Returns the lengths of elements that fill the length `total` and grow by [`GROWTH`].
+/// Returns the lengths of elements that fill the length `total`.
 ///
-/// The first element is at most `first` long.
+/// The first element is at most `first` long, and each other element is longer than the previous
+/// one by the factor [`GROWTH`].
 fn growing(first: f64, total: f64) -> Vec<f64> {
     let mut lengths = Vec::new();
     let (mut sum, mut next) = (0.0, first.min(total));
@@ -112,12 +115,12 @@ fn growing(first: f64, total: f64) -> Vec<f64> {
     lengths.iter().map(|length| length * total / sum).collect()
 }
 
-/// Lines of the grid along the row, across it and upwards, mm.
+/// Coordinates of the grid lines along the row, across the row and upwards, mm.
 struct Grid {
     xs: Vec<f64>,
     ys: Vec<f64>,
     zs: Vec<f64>,
-    /// Lines of a base along the row, from 0 to 1.
+    /// Positions of the grid lines along a base, from 0 at its left end to 1 at its right end.
     base: [f64; ALONG + 1],
     /// Number of elements to the left of the first base.
     before: usize,
@@ -143,7 +146,7 @@ impl Grid {
         Self { xs, ys, zs, base: lines, before }
     }
 
-    /// Returns the numbers of elements along, across and in depth.
+    /// Returns the numbers of elements of the substrate along, across and in depth.
     fn sizes(&self) -> [usize; 3] {
         [&self.xs, &self.ys, &self.zs].map(|lines| lines.len() - 1)
     }
@@ -156,9 +159,9 @@ impl Grid {
 
 impl Mesh {
     /// Returns the number of a node, which is created at its first use.
-    fn node(&mut self, place: NodeIndex, coordinates: [f64; 3]) -> usize {
+    fn node(&mut self, index: NodeIndex, coordinates: [f64; 3]) -> usize {
         let next = self.nodes.len() + 1;
-        let number = *self.nodes.entry(place).or_insert(next);
+        let number = *self.nodes.entry(index).or_insert(next);
         if number == next {
             self.coordinates.push(coordinates);
         }
@@ -167,7 +170,8 @@ impl Mesh {
 
     /// Adds a block of elements, and returns their indices, which increase along the first axis.
     ///
-    /// `node` returns index and coordinates of the node at given half elements in the block.
+    /// The array contains the numbers of elements. `node` receives a position in the block, counted
+    /// in half elements, and returns index and coordinates of the node at this position.
     fn block(
         &mut self,
         [along, across, height]: [usize; 3],
@@ -177,8 +181,8 @@ impl Mesh {
         for element in 0..along * across * height {
             let (i, j, k) = (element % along, element / along % across, element / (along * across));
             let nodes = NODES.map(|[di, dj, dk]| {
-                let (place, coordinates) = node([2 * i + di, 2 * j + dj, 2 * k + dk]);
-                self.node(place, coordinates)
+                let (index, coordinates) = node([2 * i + di, 2 * j + dj, 2 * k + dk]);
+                self.node(index, coordinates)
             });
             self.elements.push(nodes);
         }
@@ -191,7 +195,9 @@ impl Mesh {
         self.block(sizes, |[i, j, k]| ([0, i, j, k], [at(xs, i), at(ys, j), at(zs, k)]))
     }
 
-    /// Adds the scales, and returns for each the numbers of the elements at its left and right.
+    /// Adds the scales, and returns the numbers of the elements at their left and right sides.
+    ///
+    /// Each of the two lists contains one list of element numbers per scale.
     fn add_scales(&mut self, grid: &Grid, patch: &Patch) -> [Vec<Vec<usize>>; 2] {
         let (t, shift) = (patch.thickness(), patch.shift());
         let up: Vec<f64> = (0..=HEIGHT).map(|k| t * k as f64 / HEIGHT as f64).collect();
@@ -212,7 +218,7 @@ impl Mesh {
         [left, right]
     }
 
-    /// Returns the nodes on the line of the load across the top of a scale.
+    /// Returns the nodes on the loaded line across the top of a scale.
     fn loaded(&self, grid: &Grid, scale: usize, load_position: f64) -> Vec<usize> {
         let column = grid.start(scale) + 2 * load_column(&grid.base, load_position);
         let line = (0..=2 * ACROSS).map(|j| [scale + 1, column, j, 2 * HEIGHT]);
@@ -282,8 +288,8 @@ fn heading(title: &str, puncture: &Puncture, t: f64) -> String {
          ** Puncture of a row of scales, for CalculiX (ccx) and Abaqus, written by squama.\n\
          ** Lengths in mm, forces in N, stresses in MPa. The deck is one half by symmetry in y:\n\
          ** the force is twice the sum of the reactions RF3 of LOADED.\n\
-         ** Compare it with path.csv of squama design with puncture.scales equal to the scales here:\n\
-         ** displacement {} mm.\n",
+         ** Compare the force with path.csv of squama design at a displacement of {} mm,\n\
+         ** with puncture.scales equal to the number of scales in this deck.\n",
         DEPTH * t
     );
     if ratio < puncture.poisson_ratio {
@@ -305,7 +311,10 @@ fn edge_spaced(j: usize) -> f64 {
     angle.sin()
 }
 
-/// Returns the lines along a base, from 0 to 1: closer at its ends, and one at the load.
+/// Returns the positions of the grid lines along a base, from 0 at its left end to 1.
+///
+/// Lines are closer near the ends of the base. The line nearest to the load is moved to the load,
+/// unless this line is an end of the base.
 fn base_lines(load: f64) -> [f64; ALONG + 1] {
     let mut lines = std::array::from_fn(|i| {
         let angle = std::f64::consts::PI * i as f64 / ALONG as f64;
@@ -318,13 +327,13 @@ fn base_lines(load: f64) -> [f64; ALONG + 1] {
     lines
 }
 
-/// Returns the index of the line of a base that is nearest to the load.
+/// Returns the index of the grid line of a base that is nearest to the load.
 fn load_column(lines: &[f64; ALONG + 1], load: f64) -> usize {
     let distances = lines.map(|line| (line - load).abs());
     (0..=ALONG).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(ALONG)
 }
 
-/// Returns the running sums of `lengths` after `start`.
+/// Returns the cumulative sums of `lengths`, each increased by `start`.
 fn running(start: f64, lengths: &[f64]) -> Vec<f64> {
     let mut sum = start;
     lengths
@@ -336,7 +345,10 @@ fn running(start: f64, lengths: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the lines of the grid along the row; the first base begins at 0.
+/// Returns the coordinates of all grid lines along the row; the first base begins at 0.
+///
+/// `lines` contains the positions of the lines along a base, from 0 to 1, and `margin` the lengths
+/// of the elements beyond the first and the last base.
 fn lines_along(lines: &[f64], base: f64, gap: f64, count: usize, margin: &[f64]) -> Vec<f64> {
     let mut xs: Vec<f64> = running(0.0, margin).iter().rev().map(|x| -x).collect();
     for scale in 0..count {
@@ -365,7 +377,7 @@ fn elements(text: &mut String, set: &str, all: &[[usize; 20]], range: Range<usiz
     }
 }
 
-/// Writes numbers, at most eight in a line.
+/// Writes numbers, at most eight on each line.
 fn list(text: &mut String, numbers: &[usize]) {
     for some in numbers.chunks(8) {
         let some: Vec<_> = some.iter().map(usize::to_string).collect();
@@ -406,7 +418,7 @@ fn contacts(
             }
         }
     }
-    // Under a pressure of E_s, surfaces overlap by a thousandth of the thickness.
+    // Under a pressure of E_s, surfaces overlap by a thousandth of the thickness of a scale.
     let stiffness = 1e3 * puncture.substrate / t;
     let _ = write!(
         text,
@@ -423,7 +435,7 @@ fn contacts(
     }
 }
 
-/// Writes supports, the displacement of the load, and the output.
+/// Writes the supports, the prescribed displacement of the loaded nodes, and the output.
 fn step(text: &mut String, displacement: f64) {
     let _ = write!(
         text,
@@ -465,7 +477,7 @@ mod tests {
     #[test]
     fn elements_have_positive_volume_and_fill_the_scales() {
         let patch = patch();
-        let text = deck(&patch, &PUNCTURE, "x").expect("a deck");
+        let text = deck(&patch, &PUNCTURE, "x").expect("a valid deck");
         let nodes: BTreeMap<usize, [f64; 3]> = numbers(&text, "*NODE, NSET=ALL")
             .into_iter()
             .map(|row| (row[0] as usize, [row[1], row[2], row[3]]))
@@ -486,18 +498,19 @@ mod tests {
             }
         }
         let expected = 5.0 * patch.scale_volume() / 2.0;
-        assert!((volume / expected - 1.0).abs() < 1e-6, "{volume}, not {expected}");
+        assert!((volume / expected - 1.0).abs() < 1e-6, "{volume}, expected {expected}");
     }
 
     #[test]
-    fn load_is_on_the_top_of_the_middle_scale_at_its_position() {
+    fn loaded_nodes_are_on_top_of_the_middle_scale_at_the_load_position() {
         let patch = patch();
         let nodes = |text: &str| -> BTreeMap<usize, Vec<f64>> {
             let rows = numbers(text, "*NODE, NSET=ALL").into_iter();
             rows.map(|row| (row[0] as usize, row[1..].to_vec())).collect()
         };
         for load_position in [0.0, 0.3, 0.5, 0.96, 1.0] {
-            let text = deck(&patch, &Puncture { load_position, ..PUNCTURE }, "x").expect("a deck");
+            let text =
+                deck(&patch, &Puncture { load_position, ..PUNCTURE }, "x").expect("a valid deck");
             let nodes = nodes(&text);
             let loaded = numbers(&text, "*NSET, NSET=LOADED").concat();
             assert_eq!(loaded.len(), 2 * ACROSS + 1);

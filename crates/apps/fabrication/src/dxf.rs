@@ -7,7 +7,7 @@ use crate::Sheet;
 /// Colour numbers of [`Sheet::LAYERS`]: red, blue, grey.
 const COLORS: [u8; 3] = [1, 5, 8];
 
-/// Lines of a DXF: pairs of a group code and a value.
+/// Text of a DXF file: lines in pairs of a group code and a value.
 struct Groups {
     text: String,
     /// The last assigned handle.
@@ -31,7 +31,7 @@ pub(crate) fn write(sheet: &Sheet) -> String {
         for outline in sheet.outlines() {
             groups.entity("LWPOLYLINE", MODEL);
             groups.add(&[(100, "AcDbEntity"), (8, outline.layer), (100, "AcDbPolyline")]);
-            // 70 = 1: closed polyline.
+            // Group code 90 is the number of corners; code 70 with value 1 closes the polyline.
             groups.add(&[(90, &outline.corners.len().to_string()), (70, "1")]);
             for [x, y] in &outline.corners {
                 groups.add(&[(10, &x.to_string()), (20, &y.to_string())]);
@@ -43,15 +43,16 @@ pub(crate) fn write(sheet: &Sheet) -> String {
         groups.add(&[(281, "1"), (3, "ACAD_GROUP"), (350, "D")]);
         groups.add(&[(0, "DICTIONARY"), (5, "D"), (330, "C"), (100, "AcDbDictionary"), (281, "1")]);
     });
-    // The header is created last, because it contains the next free handle, but it is placed first.
+    // The header is created last, because it contains the next free handle. In the file it is
+    // first.
     let mut header = Groups { text: String::new(), handle: 0 };
-    // 999 is a comment.
+    // Group code 999 is a comment.
     header.add(&[(999, "squama")]);
     let [low, high] = sheet.bounds().map(|at| at.map(|length| length.to_string()));
     header.section("HEADER", |header| {
         header.add(&[(9, "$ACADVER"), (1, "AC1015")]);
         header.add(&[(9, "$HANDSEED"), (5, &format!("{:X}", groups.handle + 1))]);
-        // Unit 4 is millimetres, with metric measurement.
+        // The unit 4 is the millimetre, and the measurement 1 is metric.
         header.add(&[(9, "$INSUNITS"), (70, "4"), (9, "$MEASUREMENT"), (70, "1")]);
         header.add(&[(9, "$EXTMIN"), (10, &low[0]), (20, &low[1]), (30, "0")]);
         header.add(&[(9, "$EXTMAX"), (10, &high[0]), (20, &high[1]), (30, "0")]);
@@ -72,7 +73,7 @@ impl Groups {
         self.add(&[(0, "ENDSEC")]);
     }
 
-    /// Begins an entity with the next handle, owned by `owner`.
+    /// Begins an entity with the next handle; `owner` is the handle of its owner.
     fn entity(&mut self, kind: &str, owner: &str) {
         self.handle += 1;
         let handle = format!("{:X}", self.handle);
@@ -143,7 +144,9 @@ impl Groups {
         self.add(&[(100, "AcDbSymbolTableRecord"), (100, class), (2, name), (70, "0")]);
     }
 
-    /// Writes an empty block. Its content is in the section `ENTITIES`.
+    /// Writes an empty block, because its entities are in the section `ENTITIES`.
+    ///
+    /// `record` is the handle of the block record; `begin` and `end` are handles of the block.
     fn block(&mut self, name: &str, record: &str, [begin, end]: [&str; 2]) {
         self.add(&[(0, "BLOCK"), (5, begin), (330, record), (100, "AcDbEntity"), (8, "0")]);
         self.add(&[(100, "AcDbBlockBegin"), (2, name), (70, "0")]);
@@ -162,7 +165,7 @@ mod tests {
 
     #[test]
     fn outlines_are_closed_and_handles_are_used_once() {
-        let text = write(&Sheet::new(&patch(), 0.1, 0.1).expect("a sheet"));
+        let text = write(&Sheet::new(&patch(), 0.1, 0.1).expect("a valid sheet"));
         let lines: Vec<_> = text.lines().map(str::trim).collect();
         let pairs: Vec<_> = lines.chunks(2).map(|pair| (pair[0], pair[1])).collect();
         assert_eq!(pairs.iter().filter(|pair| **pair == ("0", "LWPOLYLINE")).count(), 42);

@@ -7,7 +7,7 @@ use geometry::{Body, Frame, Row, Vec2};
 /// Maximum number of scales, at which files reach some 100 MB.
 const MOST_SCALES: usize = 20_000;
 
-/// Range of every length of a patch, mm.
+/// Valid range of each length of a patch, mm.
 // STL files have single-precision numbers, in which these lengths are neither zero nor infinite.
 pub(crate) const LENGTHS: [f64; 2] = [1e-6, 1e6];
 
@@ -16,12 +16,13 @@ pub(crate) const LENGTHS: [f64; 2] = [1e-6, 1e6];
 /// All lengths are in millimetres.
 ///
 /// `x` runs along a row, `y` across the rows, `z` upwards. The origin is the lowest corner of the
-/// membrane. The bases of the scales stand on its upper face, which extends a gap beyond them on
-/// every side.
+/// membrane. The bases of the scales lie on the upper face of the membrane, which extends by one
+/// gap beyond the bases on every side.
 ///
-/// On a curved body, the rows lie on its arc with their middle on top, and the nodes of the scales
-/// have equal distances along the arc. The upper face of the membrane is plane under each base and
-/// in each gap. The origin is then the lowest corner of the bounding box.
+/// On a curved body, the rows lie on the arc of the body, with the middle of the membrane at the
+/// top. The nodes of the scales have equal distances along the arc. The upper face of the membrane
+/// is plane under each base and in each gap. The origin is then the lowest corner of the bounding
+/// box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     row: Row,
@@ -35,13 +36,13 @@ pub struct Patch {
     body: Body,
 }
 
-/// Errors of a patch.
+/// Error of a patch that cannot be created.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoPatch {
     /// A length is out of range.
     #[error("{0} is {1} mm, expected a length from {low:e} to {high:e}", low = LENGTHS[0], high = LENGTHS[1])]
     Length(&'static str, f64),
-    /// No scale, or too many.
+    /// The number of scales is zero or too large.
     #[error("{0}x{1} scales: out of range, expected at least 1x1 and at most {MOST_SCALES} in all")]
     Scales(usize, usize),
     /// The rows are longer than the circumference of the body.
@@ -59,8 +60,9 @@ pub enum NoPatch {
 
 /// A solid between two parallel faces.
 ///
-/// The outline lies in the x–z plane and is extruded along `y`. It has `n` corners. Rung `k` joins
-/// the corners `k` and `n − 1 − k`. Two neighbouring rungs bound a convex quadrilateral.
+/// The outline lies in the x–z plane and is extruded along `y`. It has an even number `n` of
+/// corners. Straight lines between the corners `k` and `n − 1 − k`, the *rungs*, divide the outline
+/// into convex quadrilaterals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prism {
     /// Corners of the outline, `[x, z]`, mm, counter-clockwise seen along `y`.
@@ -72,20 +74,21 @@ pub struct Prism {
 /// The solids of a patch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solids {
-    /// The membrane; one strip per row if rows are shifted on a curved body.
+    /// The membrane: one prism, or one for each row of a brick-laid patch on a curved body.
     pub membrane: Vec<Prism>,
     /// The scales, row by row.
     pub scales: Vec<Prism>,
 }
 
 impl Patch {
-    /// Creates a patch from rows like `row`, with `scales` along and across.
+    /// Creates a flat patch of parallel rows with the scales and gaps of `row`.
     ///
-    /// The lengths of `row` are divided by the `thickness` of the scales. The other lengths are the
-    /// width of the scales, the thickness of the membrane and the gap across, mm.
+    /// `scales` contains the numbers of scales along and across. The lengths of `row` are in units
+    /// of the `thickness` of the scales. The array contains the width of the scales, the thickness
+    /// of the membrane and the gap across. It is in mm, like `thickness`.
     ///
     /// # Errors
-    /// If a length is out of range, or the number of scales is out of range.
+    /// If a length or the number of scales is out of range.
     pub fn new(
         row: Row,
         thickness: f64,
@@ -93,7 +96,7 @@ impl Patch {
         scales: [usize; 2],
     ) -> Result<Self, NoPatch> {
         let [along, across] = scales;
-        // The product is checked, because two large counts could overflow to a small product.
+        // `checked_mul` refuses large counts that would otherwise overflow to a small product.
         match along.checked_mul(across) {
             Some(1..=MOST_SCALES) => {}
             _ => return Err(NoPatch::Scales(along, across)),
@@ -150,7 +153,7 @@ impl Patch {
         Ok(patch)
     }
 
-    /// Returns the radius of the body, negative for a concave body; `None` for a flat patch.
+    /// Returns the radius of the body, mm: negative for a concave body, `None` for a flat patch.
     pub fn radius(&self) -> Option<f64> {
         (!self.body.is_flat()).then(|| self.thickness / self.body.curvature)
     }
@@ -160,12 +163,14 @@ impl Patch {
         self.radius().map_or(0.0, |radius| (self.membrane_size()[0] / radius.abs()).to_degrees())
     }
 
-    /// Returns the distance between the faces of two neighbours in a row.
+    /// Returns the shortest distance between two neighbouring scales of a row.
     pub fn clearance(&self) -> f64 {
         self.row.clearance_on(self.body) * self.thickness
     }
 
-    /// Returns the corners of two neighbours in the frame of the left scale, in thicknesses.
+    /// Returns the corners of two neighbouring scales in the frame of the left scale.
+    ///
+    /// Lengths are in units of the thickness.
     fn neighbours(&self) -> [[Vec2; 4]; 2] {
         let (corners, frame) = (self.row.scale().corners(), self.body.frame(self.row.pitch()));
         [corners, corners.map(|corner| frame.origin + frame.outward(corner))]
@@ -221,7 +226,7 @@ impl Patch {
     pub fn membrane_size(&self) -> [f64; 3] {
         let ([along, across], [nx, ny]) = (self.gaps(), self.scales.map(|n| n as f64));
         let [px, py] = self.pitches();
-        // The second row ends farthest to the right.
+        // In a brick-laid patch the second row ends farthest to the right.
         let shift = if self.scales[1] > 1 { self.row_shift(1) } else { 0.0 };
         [nx * px + along + shift, ny * py + across, self.membrane]
     }
@@ -269,11 +274,11 @@ impl Patch {
     /// Returns the solids on the arc of the body.
     fn curved_solids(&self) -> Solids {
         let (mut membrane, mut scales) = (Vec::new(), Vec::new());
-        let ([length, breadth, _], places) =
+        let ([length, breadth, _], corners) =
             (self.membrane_size(), self.base_corners().collect::<Vec<_>>());
-        for (j, row) in places.chunks(self.scales[0]).enumerate() {
-            // Each rung joins a point of the surface, from left to right, to the point below it on
-            // the lower face of the membrane.
+        for (j, row) in corners.chunks(self.scales[0]).enumerate() {
+            // From left to right, each rung joins a point on the upper face of the membrane to the
+            // point below it on the lower face.
             let mut rungs = vec![self.rung(&self.frame(0.0), 0.0)];
             for [x, y] in row {
                 let frame = self.frame(x + 0.5 * self.base());
@@ -284,7 +289,7 @@ impl Patch {
             }
             rungs.push(self.rung(&self.frame(length), 0.0));
             // A shifted row bends the membrane at different positions than its neighbours, so each
-            // row has its own strip.
+            // row of a brick-laid patch has its own strip.
             let rows = if self.is_brick { self.scales[1] } else { 1 };
             if j < rows {
                 let from = if j == 0 { 0.0 } else { self.middle_before(j) };
@@ -304,17 +309,20 @@ impl Patch {
         0.5 * self.gap_across + row as f64 * self.pitches()[1]
     }
 
-    /// Returns the tangent frame at a distance along the arc from the left end of the membrane.
+    /// Returns the tangent frame at the arc length `x`, in mm, from the left end of the membrane.
     fn frame(&self, x: f64) -> Frame {
         self.body.frame((x - 0.5 * self.membrane_size()[0]) / self.thickness)
     }
 
-    /// Returns the position, in mm, of a point of a tangent frame, in thicknesses.
+    /// Converts a point of a tangent frame, in units of the thickness, to a position in mm.
     fn placed(&self, frame: &Frame, point: Vec2) -> [f64; 2] {
         ((frame.origin + frame.outward(point)) * self.thickness).into()
     }
 
-    /// Returns a point on the upper face of the membrane, and the point below it along the radius.
+    /// Returns a point on the upper face of the membrane, and the point below it on the lower face.
+    ///
+    /// `along` is the coordinate along the tangent, in units of the thickness. The two points lie
+    /// on one radius of the body.
     fn rung(&self, frame: &Frame, along: f64) -> [[f64; 2]; 2] {
         let upper = Vec2::new(along, 0.0);
         let outwards = Vec2::new(along * self.body.curvature, 1.0).normalize();
@@ -323,9 +331,9 @@ impl Patch {
     }
 }
 
-/// Returns true if an edge of one of two convex polygons separates them.
+/// Returns true if two convex polygons neither touch nor overlap.
 ///
-/// Otherwise they touch or overlap.
+/// In this case an edge of one polygon separates the polygons.
 fn are_apart(one: &[Vec2; 4], other: &[Vec2; 4]) -> bool {
     [(one, other), (other, one)].into_iter().any(|(polygon, points)| {
         (0..4).any(|k| {
@@ -342,7 +350,8 @@ impl Solids {
         self.scales.iter().chain(&self.membrane)
     }
 
-    /// Moves the lowest corner of the bounding box to the origin.
+    /// Moves all solids in `x` and `z`, so that the lowest corner of the bounding box is the
+    /// origin.
     fn move_to_origin(&mut self) {
         let corners = self.all().flat_map(|prism| &prism.outline);
         let lowest = corners
@@ -391,19 +400,20 @@ pub(crate) mod tests {
 
     /// Creates a patch of 5 by 4 scales of 60° with a thickness of 2 mm and a base of 1.6 mm.
     pub fn patch() -> Patch {
-        let row = Row::new(Parallelogram::new(0.4, 60.0).expect("a scale"), 0.3).expect("a row");
-        Patch::new(row, 2.0, [3.0, 0.25, 0.6], [5, 4]).expect("a patch")
+        let row = Row::new(Parallelogram::new(0.4, 60.0).expect("a valid scale"), 0.3)
+            .expect("a valid row");
+        Patch::new(row, 2.0, [3.0, 0.25, 0.6], [5, 4]).expect("a valid patch")
     }
 
     #[test]
-    fn scales_stand_on_the_membrane_at_their_pitch() {
+    fn scales_lie_on_the_membrane_at_their_pitch() {
         let patch = patch();
         let scales = patch.solids().scales;
         assert_eq!(scales.len(), 20);
         let [first, second, sixth] = [&scales[0], &scales[1], &scales[5]];
-        assert_eq!(first.outline[0], [0.6, 0.25], "a gap from the rim, on top of the membrane");
+        assert_eq!(first.outline[0], [0.6, 0.25], "one gap from the rim, on the membrane");
         assert!((second.outline[0][0] - first.outline[0][0] - 2.2).abs() < 1e-12);
-        assert!((second.outline[0][0] - first.outline[1][0] - 0.6).abs() < 1e-12, "the gap");
+        assert!((second.outline[0][0] - first.outline[1][0] - 0.6).abs() < 1e-12, "the gap along");
         assert!((sixth.across[0] - first.across[1] - 0.6).abs() < 1e-12, "the gap across");
         let [length, width, _] = patch.membrane_size();
         assert!((length - scales[19].outline[1][0] - 0.6).abs() < 1e-12);
@@ -413,38 +423,38 @@ pub(crate) mod tests {
     #[test]
     fn every_second_row_of_a_brick_laid_patch_is_shifted_by_half_a_pitch() {
         let patch = patch().brick_laid();
-        let places: Vec<_> = patch.base_corners().collect();
+        let corners: Vec<_> = patch.base_corners().collect();
         let half = patch.pitches()[0] / 2.0;
-        assert!((places[5][0] - places[0][0] - half).abs() < 1e-12);
-        assert_eq!(places[10][0], places[0][0]);
-        let end = places[9][0] + patch.base();
-        assert!((patch.membrane_size()[0] - end - 0.6).abs() < 1e-12, "a gap from the rim");
+        assert!((corners[5][0] - corners[0][0] - half).abs() < 1e-12);
+        assert_eq!(corners[10][0], corners[0][0]);
+        let end = corners[9][0] + patch.base();
+        assert!((patch.membrane_size()[0] - end - 0.6).abs() < 1e-12, "one gap from the rim");
     }
 
-    /// Returns patches on a convex body with a radius of 10 mm and a concave one of 40 mm.
+    /// Returns patches on a convex body of radius 10 mm and on a concave body of radius 40 mm.
     fn curved() -> [Patch; 2] {
         [10.0, -40.0]
-            .map(|radius| patch().on_body(Body { curvature: 2.0 / radius }).expect("a patch"))
+            .map(|radius| patch().on_body(Body { curvature: 2.0 / radius }).expect("a valid patch"))
     }
 
     #[test]
-    fn scales_stand_along_the_normals_of_a_curved_body() {
+    fn scales_on_a_curved_body_are_aligned_with_its_normals() {
         for patch in curved() {
-            let radius = patch.radius().expect("curved");
+            let radius = patch.radius().expect("a curved patch");
             let solids = patch.solids();
             let nodes: Vec<_> = solids.scales[..5]
                 .iter()
                 .map(|scale| [0, 1].map(|k| 0.5 * (scale.outline[0][k] + scale.outline[1][k])))
                 .collect();
             // The third of five scales is in the middle, where the normal is vertical.
-            let [_, _, top, next, _] = nodes[..] else { panic!("five") };
+            let [_, _, top, next, _] = nodes[..] else { panic!("{nodes:?}") };
             let centre = [top[0], top[1] - radius];
             for (node, scale) in nodes.iter().zip(&solids.scales) {
                 let normal = [node[0] - centre[0], node[1] - centre[1]];
                 assert!((normal[0].hypot(normal[1]) - radius.abs()).abs() < 1e-12);
                 let [from, to] = [scale.outline[0], scale.outline[1]];
                 let along = (to[0] - from[0]) * normal[0] + (to[1] - from[1]) * normal[1];
-                assert!(along.abs() < 1e-12, "the base is a tangent");
+                assert!(along.abs() < 1e-12, "the base lies along the tangent");
             }
             // Nodes have equal distances along the arc; the chord of a pitch is 2 R sin(p/2R).
             let chord = 2.0 * radius * (patch.pitches()[0] / (2.0 * radius)).sin();
@@ -453,7 +463,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn faces_on_a_curved_body_are_as_far_apart_as_in_the_contact_model() {
+    fn the_clearance_on_a_curved_body_equals_the_gap_of_the_contact_model() {
         use contact::{CornerEdge, Pair, Pose};
         use geometry::polygon_distance;
         for patch in curved() {
@@ -465,7 +475,7 @@ pub(crate) mod tests {
             let on_edge = gaps.iter().filter(|gap| (0.0..=1.0).contains(&gap.foot));
             let least = on_edge.map(|gap| gap.value).fold(f64::INFINITY, f64::min);
             assert!((patch.clearance() / (2.0 * least) - 1.0).abs() < 1e-12, "{least}");
-            // The distance between the outlines of two neighbouring solids.
+            // The outlines of two neighbouring solids have the same distance.
             let solids = patch.solids();
             let [left, right] = [1, 2].map(|k| -> [Vec2; 4] {
                 std::array::from_fn(|c| Vec2::from(solids.scales[k].outline[c]))
@@ -476,7 +486,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn bases_stand_on_the_membrane_of_a_curved_body() {
+    fn bases_on_a_curved_body_coincide_with_the_membrane() {
         for patch in curved().map(Patch::brick_laid) {
             let solids = patch.solids();
             assert_eq!(solids.membrane.len(), 4, "one strip per row");
@@ -496,7 +506,7 @@ pub(crate) mod tests {
 
     #[test]
     fn a_nearly_flat_body_gives_the_flat_patch() {
-        let nearly = patch().on_body(Body { curvature: 1e-9 }).expect("a patch").solids();
+        let nearly = patch().on_body(Body { curvature: 1e-9 }).expect("a valid patch").solids();
         let flat = patch().solids();
         let lowest = flat.all().flat_map(|p| &p.outline).fold(f64::INFINITY, |x, at| x.min(at[0]));
         assert_eq!(lowest, 0.0);
@@ -523,7 +533,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn impossible_patches_are_refused() {
+    fn lengths_and_counts_out_of_range_are_refused() {
         let row = patch().row;
         let refused = |lengths, scales| Patch::new(row, 2.0, lengths, scales).unwrap_err();
         assert_eq!(

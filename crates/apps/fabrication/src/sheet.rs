@@ -43,12 +43,13 @@ pub enum NoSheet {
 }
 
 impl Sheet {
-    /// The layers in the order of cutting: holes before their parts.
+    /// Names of the layers, in the order of the outlines.
     pub const LAYERS: [&'static str; 3] = ["PROFILES", "GLUE_TEMPLATE", "CHECK_100_MM"];
 
     /// Creates the outlines of a patch.
     ///
     /// The laser removes a line of width `kerf`; `template` is the thickness of the template sheet.
+    /// The kerf and the thickness are in mm.
     ///
     /// # Errors
     /// If a length is out of range, or the kerf is as wide as a hole.
@@ -58,7 +59,8 @@ impl Sheet {
                 return Err(NoSheet::Length(name, length));
             }
         }
-        // A hole is longer by the shift of a slanted scale over the thickness of the template.
+        // A slanted scale shifts along the row within the thickness of the template. A hole is
+        // longer than the base by this shift.
         let lean = patch.shift() / patch.thickness() * template;
         let hole = [patch.base() + lean, patch.width()];
         let smallest = hole[0].min(hole[1]);
@@ -70,7 +72,8 @@ impl Sheet {
         let mut sheet = Self { outlines: Vec::new(), web: (along - lean).min(across) };
         let top = sheet.profiles(patch, kerf);
         let top = if sheet.has_template() { sheet.template(patch, hole, kerf, top) } else { top };
-        // The square is only measured, so it has no kerf.
+        // The outline of the square is not offset by the kerf, because the drawing itself is
+        // measured.
         sheet.add(Self::LAYERS[2], rectangle([0.0, top + SPACING], [CHECK; 2], 0.0));
         Ok(sheet)
     }
@@ -80,7 +83,7 @@ impl Sheet {
         &self.outlines
     }
 
-    /// Returns the narrowest web of the template, mm; negative if holes overlap.
+    /// Returns the width of the narrowest web of the template, mm; negative if holes overlap.
     pub fn web(&self) -> f64 {
         self.web
     }
@@ -103,43 +106,46 @@ impl Sheet {
         self.outlines.push(Outline { layer, corners: corners.to_vec() });
     }
 
-    /// Adds a profile for each scale, in the rows of the patch; returns their largest `y`.
+    /// Adds a profile for each scale, in rows as in the patch; returns a `y` above all profiles.
     fn profiles(&mut self, patch: &Patch, kerf: f64) -> f64 {
-        // The laser would remove half of the kerf from the part, so the outline is larger.
+        // The laser removes half of the kerf from each side of the part, so the outline is larger.
         let profile = grown(patch.profile(), kerf / 2.0);
-        // The slanted sides of the parts are parallel, so their perpendicular distance matters.
+        // The facing sides of two parts are parallel and slanted. Their perpendicular distance is
+        // the spacing.
         let slant = (patch.shift() / patch.thickness()).atan();
         let step = patch.base() + (SPACING + kerf) / slant.cos();
         let [nx, ny] = patch.scales();
-        let rise = patch.thickness() + kerf + SPACING;
+        let row_step = patch.thickness() + kerf + SPACING;
         for (i, j) in (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))) {
-            let place = [i as f64 * step, j as f64 * rise];
-            self.add(Self::LAYERS[0], profile.map(|at| [at[0] + place[0], at[1] + place[1]]));
+            let offset = [i as f64 * step, j as f64 * row_step];
+            self.add(Self::LAYERS[0], profile.map(|at| [at[0] + offset[0], at[1] + offset[1]]));
         }
-        ny as f64 * rise
+        ny as f64 * row_step
     }
 
-    /// Adds the template above y = `top`; returns its largest `y`.
+    /// Adds the template above y = `top`; returns a `y` above the template.
+    ///
+    /// `hole` contains length and width of a hole.
     fn template(&mut self, patch: &Patch, hole: [f64; 2], kerf: f64, top: f64) -> f64 {
         let [length, width, _] = patch.membrane_size();
         let size = [length + 2.0 * RIM, width + 2.0 * RIM];
         let origin = [0.0, top + SPACING];
         // Cut holes before the rim, because a part may shift once it is cut out.
         for [x, y] in patch.base_corners() {
-            let place = [origin[0] + RIM + x, origin[1] + RIM + y];
-            self.add(Self::LAYERS[1], rectangle(place, hole, -kerf / 2.0));
+            let corner = [origin[0] + RIM + x, origin[1] + RIM + y];
+            self.add(Self::LAYERS[1], rectangle(corner, hole, -kerf / 2.0));
         }
         self.add(Self::LAYERS[1], rectangle(origin, size, kerf / 2.0));
         origin[1] + size[1] + kerf
     }
 }
 
-/// Returns the rectangle with this lower left corner and size, offset outwards by `by`.
+/// Returns a rectangle, given by lower left corner and size, with its sides moved outwards by `by`.
 fn rectangle([x, y]: [f64; 2], [length, width]: [f64; 2], by: f64) -> [[f64; 2]; 4] {
     grown([[x, y], [x + length, y], [x + length, y + width], [x, y + width]], by)
 }
 
-/// Offsets the sides of a parallelogram outwards by `by`.
+/// Returns a parallelogram with its sides moved outwards by `by`.
 fn grown(corners: [[f64; 2]; 4], by: f64) -> [[f64; 2]; 4] {
     let side = |from: usize| -> [f64; 2] {
         let (a, b) = (corners[from], corners[(from + 1) % 4]);
@@ -147,7 +153,7 @@ fn grown(corners: [[f64; 2]; 4], by: f64) -> [[f64; 2]; 4] {
         [u / u.hypot(v), v / u.hypot(v)]
     };
     std::array::from_fn(|k| {
-        // Each corner moves by the distance `by` from both adjacent sides.
+        // Each new corner is at the distance `by` from both adjacent sides of the old corner.
         let (before, after) = (side((k + 3) % 4), side(k));
         let sine = before[0] * after[1] - before[1] * after[0];
         std::array::from_fn(|axis| corners[k][axis] + by * (before[axis] - after[axis]) / sine)
@@ -171,13 +177,13 @@ mod tests {
     }
 
     #[test]
-    fn parts_have_nominal_size_after_the_kerf() {
+    fn cut_parts_and_holes_have_their_nominal_size() {
         let (patch, kerf) = (patch(), 0.15);
         let sheet = Sheet::new(&patch, kerf, 0.1).expect("a sheet");
         let [profiles, template] = [of(&sheet, 0), of(&sheet, 1)];
         assert_eq!((profiles.len(), template.len()), (20, 21));
         for profile in profiles {
-            let corners: [_; 4] = profile.corners.clone().try_into().expect("four");
+            let corners: [_; 4] = profile.corners.clone().try_into().expect("4 corners");
             let part = grown(corners, -kerf / 2.0);
             assert!((area(&part) - patch.base() * patch.thickness()).abs() < 1e-12);
             assert!((part[1][0] - part[0][0] - patch.base()).abs() < 1e-12);
@@ -193,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_separated_by_more_than_the_kerf() {
+    fn outlines_of_parts_are_separated_by_the_spacing() {
         let sheet = Sheet::new(&patch(), 0.15, 0.1).expect("a sheet");
         let profiles = of(&sheet, 0);
         let [first, second] = [profiles[0], profiles[1]].map(|outline| outline.corners.clone());
@@ -214,12 +220,13 @@ mod tests {
     }
 
     #[test]
-    fn kerfs_as_wide_as_a_hole_are_rejected() {
+    fn negative_kerfs_and_kerfs_as_wide_as_a_hole_are_rejected() {
         let refused = |kerf| Sheet::new(&patch(), kerf, 0.0).unwrap_err();
         assert_eq!(refused(1.6), NoSheet::Kerf(1.6, 1.6));
         assert_eq!(refused(-0.1), NoSheet::Length("the kerf", -0.1));
-        let row = Row::new(Parallelogram::new(0.4, 0.0).expect("a scale"), 0.3).expect("a row");
-        let upright = Patch::new(row, 2.0, [3.0, 0.25, 0.6], [1, 1]).expect("a patch");
+        let row = Row::new(Parallelogram::new(0.4, 0.0).expect("a valid scale"), 0.3)
+            .expect("a valid row");
+        let upright = Patch::new(row, 2.0, [3.0, 0.25, 0.6], [1, 1]).expect("a valid patch");
         assert!(Sheet::new(&upright, 0.2, 5.0).expect("a sheet").has_template());
     }
 }

@@ -7,9 +7,9 @@ use nalgebra::Vector3;
 
 use crate::{Patch, Prism, Solids};
 
-/// The header of a product in millimetres with an accuracy of 1e-7 mm.
+/// Header and first entities of a file: a product in millimetres with an accuracy of 1e-7 mm.
 ///
-/// The representation of the product, entity 20, is written after the solids.
+/// Entity 20, the representation of the product, lists the solids and is written after them.
 // The date is fixed, so that equal designs give equal files.
 const PRODUCT: &str = "ISO-10303-21;
 HEADER;
@@ -60,6 +60,7 @@ pub(crate) fn write(patch: &Patch) -> String {
 /// The entities of the file, numbered in order.
 struct Entities {
     text: String,
+    /// Number of the last entity.
     last: usize,
 }
 
@@ -84,7 +85,7 @@ impl Entities {
         let points: Vec<usize> = corners.iter().map(|corner| self.point(*corner)).collect();
         let vertices = points.iter().map(|point| self.add(&format!("VERTEX_POINT('',#{point})")));
         let vertices: Vec<usize> = vertices.collect();
-        // Two faces share each edge, and traverse it in opposite directions.
+        // Two faces share each edge and traverse the edge in opposite directions.
         let mut edges: HashMap<[usize; 2], usize> = HashMap::new();
         let mut faces = Vec::new();
         for face in prism.faces() {

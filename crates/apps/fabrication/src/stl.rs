@@ -16,14 +16,15 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
     let mut facets = Vec::new();
     let mut count: u32 = 0;
     for prism in patch.solids().all() {
-        // Round before computing normals, so that they belong to the written corners.
+        // Round the corners before computing normals, so that the normals fit the written corners.
         let corners = prism.corners().into_iter();
         let corners: Vec<_> =
             corners.map(|corner| Vector3::from(corner).map(|at| at as f32)).collect();
         for triangle in triangles(prism) {
             let [a, b, c] = triangle.map(|k| corners[k]);
             let [u, v] = [b, c].map(|to| (to - a).map(f64::from));
-            // Rounding may flatten a facet. Readers compute a normal that is given as zero.
+            // Rounding may reduce a facet to a line, which has no normal. The normal is then
+            // written as zero, and readers compute it themselves.
             let normal = u.cross(&v).try_normalize(0.0).unwrap_or_default().map(|part| part as f32);
             for value in [normal, a, b, c].iter().flatten() {
                 facets.extend(value.to_le_bytes());
@@ -48,8 +49,8 @@ mod tests {
         assert_eq!(file[80..84], (21_u32 * 12).to_le_bytes());
         let front: Vec<_> = file[84..96]
             .chunks(4)
-            .map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four")))
+            .map(|bytes| f32::from_le_bytes(bytes.try_into().expect("4 bytes")))
             .collect();
-        assert_eq!(front, [0.0, -1.0, 0.0], "the first normal points to the front");
+        assert_eq!(front, [0.0, -1.0, 0.0], "the first normal points towards negative y");
     }
 }

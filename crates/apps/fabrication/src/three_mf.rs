@@ -1,4 +1,4 @@
-//! 3MF: zipped XML with units, so that slicers need not guess the scale.
+//! 3MF: zipped XML with a unit of length, so that slicers need not guess the size.
 
 use std::fmt::Write as _;
 use std::io::{Cursor, Write as _};
@@ -41,7 +41,7 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
 
 /// Writes scales and membrane as two parts of one object.
 ///
-/// Slicers assign a material to each part and keep their relative positions.
+/// Slicers can assign a material to each part, and keep the relative position of the parts.
 fn model(patch: &Patch) -> String {
     let solids = patch.solids();
     let scales = object(1, "scales", &solids.scales);
@@ -69,7 +69,7 @@ fn object(id: u32, name: &str, prisms: &[Prism]) -> String {
         for [x, y, z] in &corners {
             let _ = writeln!(vertices, r#"    <vertex x="{x}" y="{y}" z="{z}"/>"#);
         }
-        // Each prism has its own corners, so it is a closed mesh.
+        // Prisms do not share corners, so the mesh of each prism is closed.
         for [a, b, c] in triangles(prism).map(|triangle| triangle.map(|k| first + k)) {
             let _ = writeln!(faces, r#"    <triangle v1="{a}" v2="{b}" v3="{c}"/>"#);
         }
@@ -87,7 +87,7 @@ mod tests {
     use crate::patch::tests::patch;
 
     #[test]
-    fn the_model_names_its_unit_and_has_two_parts() {
+    fn the_model_states_millimetres_and_has_two_parts() {
         let model = model(&patch());
         assert!(model.contains(r#"unit="millimeter""#));
         assert_eq!(model.matches("<vertex ").count(), 21 * 8);

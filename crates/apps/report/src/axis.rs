@@ -39,7 +39,8 @@ impl ChartAxis {
         if low > 0.0 && high / low > SPANS_DECADES {
             Self::logarithmic(label, low, high)
         } else {
-            // Starting at zero makes heights proportional, and less than half of the axis is empty.
+            // An axis from zero shows heights in proportion to the values. Less than half of this
+            // axis is empty.
             Self::linear(label, if low > 0.0 && low < 0.5 * high { 0.0 } else { low }, high)
         }
     }
@@ -56,13 +57,13 @@ impl ChartAxis {
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
         let size = low.abs().max(high.abs());
         // Values that differ only by round-off still need an axis of finite length.
-        let air = match high - low {
+        let margin = match high - low {
             span if span > 1e-9 * size => 0.05 * span,
             _ if size > 0.0 => 0.05 * size,
             _ => 0.05,
         };
-        let below = if low == 0.0 { low } else { low - air };
-        let above = if high == 0.0 && low < 0.0 { high } else { high + air };
+        let below = if low == 0.0 { low } else { low - margin };
+        let above = if high == 0.0 && low < 0.0 { high } else { high + margin };
         Self { label: label.to_owned(), scale: AxisScale::Linear, low: below, high: above }
     }
 
@@ -73,8 +74,9 @@ impl ChartAxis {
 
     /// Creates a logarithmic axis, with a margin of 5 % of its length beyond `low` and `high`.
     pub(crate) fn logarithmic(label: &str, low: f64, high: f64) -> Self {
-        let air = (high / low).powf(0.05);
-        Self { label: label.to_owned(), scale: AxisScale::Log, low: low / air, high: high * air }
+        let factor = (high / low).powf(0.05);
+        let (low, high) = (low / factor, high * factor);
+        Self { label: label.to_owned(), scale: AxisScale::Log, low, high }
     }
 
     /// Returns the position of `value` along the axis: 0 at the low end, 1 at the high end.
@@ -103,7 +105,8 @@ impl ChartAxis {
         // Accept a step up to 10 % too narrow: the next wider step may halve the number of ticks.
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * unit >= 0.9 * rough);
         let step = step.unwrap_or(10.0) * unit;
-        // The casts cannot overflow: an axis is longer than 1e-9 times its larger end.
+        // The casts cannot overflow: the length of an axis exceeds 1e-9 times the absolute value of
+        // each end.
         let first = (self.low / step - 1e-9).ceil() as i64;
         let last = (self.high / step + 1e-9).floor() as i64;
         let ends = self.low.abs().max(self.high.abs());
@@ -128,7 +131,7 @@ impl ChartAxis {
             let value = f64::from(digit) * 10f64.powi(decade);
             let is_labelled = match digit {
                 1 => decade.rem_euclid(every) == 0,
-                // Powers of ten alone would give only one or two labels.
+                // On a short axis, powers of ten alone would give only one or two labels.
                 2 | 5 => decades < 2.2 && wanted > 3,
                 _ => false,
             };

@@ -166,7 +166,7 @@ impl<'a> ChartPanel<'a> {
 /// Draws the name of a vertical axis, centred at `spot` and at most `room` px long.
 ///
 /// A longer name loses its formula, the text after ` = `, but keeps its unit. If the shortened name
-/// is still too long, its letters shrink.
+/// is still too long, it has a smaller font.
 pub(crate) fn upright_name(name: &str, spot: Spot, room: f64) -> Element {
     let is_long = width(name, NAME) > room;
     let short = name.split_once(" = ").filter(|_| is_long).map(|(symbol, formula)| {
@@ -206,7 +206,7 @@ impl MarkLook {
         }
     }
 
-    /// Draws `mark` in this style at the origin, in the colour that each use sets.
+    /// Draws `mark` in this style at the origin; each `use` element sets the colour.
     fn draw(self, mark: Mark) -> Element {
         let shape = mark.draw([0.0, 0.0], MARK);
         match self {
@@ -267,7 +267,7 @@ pub(crate) fn design_mark(
 /// Height of a line of a legend, px.
 pub(crate) const LINE: f64 = 18.0;
 
-/// Draws a legend of the slants at `(x, y)`, and returns it with the y coordinate below it.
+/// Draws a legend of the slants at `(x, y)`; also returns the y coordinate below the legend.
 ///
 /// If `has_folds`, the legend also explains the marks of designs with folds. An entry that would
 /// extend beyond `right` starts a new line.

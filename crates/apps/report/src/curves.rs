@@ -22,15 +22,16 @@ use crate::palette::SlantPalette;
 use crate::paper::Paper;
 use crate::svg::{Element, Spot, circle, line, polygon, polyline};
 use limits::limits;
-use values::{CurveValues, bodies, flexure, places, puncture};
+use values::{CurveValues, bodies, flexure, load_positions, puncture};
 
 pub use limits::FailureLimit;
 
 const WIDTH: f64 = 760.0;
 /// Margins for the axes, px: left, right, below.
 const MARGINS: [f64; 3] = [78.0, 24.0, 62.0];
-/// Height of a panel on wide and narrow paper, px.
+/// Height of a panel on wide paper, px.
 const HEIGHT: f64 = 292.0;
+/// Height of a panel on narrow paper, px.
 const NARROW_HEIGHT: f64 = 230.0;
 /// Vertical position of the first line of the legend, px.
 const LEGEND: f64 = 70.0;
@@ -42,7 +43,7 @@ const DASHES: [&str; 5] = ["none", "7 4", "2 3", "9 3 2 3", "12 5"];
 /// Dashes of parts of a path that are unstable under a held depth.
 const UNSTABLE: &str = "1 2.5";
 /// Dashes of an unloading path.
-const BACK: &str = "5 3";
+const UNLOADING: &str = "5 3";
 /// Arguments of [`shaded`] that distinguish designs of the same slant.
 const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 
@@ -59,7 +60,7 @@ pub struct DesignCurves<'a> {
     pub puncture: Option<&'a Puncture>,
     /// The path in bending, if it was solved.
     pub flexure: Option<&'a Flexure>,
-    /// Curvature `t/R` of each of several bodies, and the critical force of the design on it.
+    /// Curvature `t/R` of each body, and the critical force of the design on this body.
     ///
     /// The force is `None` if the design has no critical tilt on this body.
     pub on_bodies: &'a [(f64, Option<f64>)],
@@ -103,7 +104,7 @@ pub fn curves(
         |text, values, measured| one_panel(name, text, designs, values, measured, paper);
     let candidates = [
         ("force-displacement-curves", one_panel(&FORCE, puncture, measured_force)),
-        ("force-over-place", one_panel(&PLACES, places, None)),
+        ("force-over-place", one_panel(&POSITIONS, load_positions, None)),
         ("force-over-radius", one_panel(&BODIES, bodies, None)),
         ("moment-curvature-curves", one_panel(&MOMENT, flexure, measured_moment)),
         ("puncture-energies", energies::puncture(name, designs, paper)),
@@ -143,7 +144,7 @@ const FORCE: FigureText = FigureText {
     ],
     units: |case| puncture_units(case).map(|[mm, newton, _]| [mm, newton]),
 };
-const PLACES: FigureText = FigureText {
+const POSITIONS: FigureText = FigureText {
     title: "puncture force against the load position",
     axes: [[POSITION, FORCE.axes[0][1]], [POSITION, FORCE.axes[1][1]]],
     notes: ["", "○ the weakest position", "fine dots: positions without a critical force"],
@@ -179,7 +180,7 @@ impl FigureText {
     }
 }
 
-/// A function that returns the curve of a design; `None` if it was not solved.
+/// A function that returns the curve of a design; `None` if the curve was not solved.
 type ValuesOf = fn(&DesignCurves) -> Option<CurveValues>;
 
 fn one_panel(
@@ -191,8 +192,8 @@ fn one_panel(
     paper: Paper,
 ) -> Option<String> {
     // If the measured curves are dimensionless, the computed curves are dimensionless, too.
-    let is_wanted = measured.is_none_or(|measured| measured.is_physical);
-    let units = text.physical(designs).filter(|_| is_wanted);
+    let may_have_units = measured.is_none_or(|measured| measured.is_physical);
+    let units = text.physical(designs).filter(|_| may_have_units);
     let labels = text.axes[usize::from(units.is_some())];
     let curves = curves_of(designs, values, &units.unwrap_or_default());
     if curves.is_empty() {
@@ -256,7 +257,7 @@ fn notes(text: &FigureText, curves: &[Curve]) -> String {
         (ring, |values| !values.rings.is_empty()),
         (dotted, |values| values.unstable.contains(&true)),
         ("▼ passing", |values| !values.passing.is_empty()),
-        ("thin dashes: unloading", |values| !values.back.is_empty()),
+        ("thin dashes: unloading", |values| !values.unloading.is_empty()),
         ("dots: limits of failure, the first one bold", |values| !values.limits.is_empty()),
     ];
     let shown = notes.into_iter().filter(|(words, occurs)| {
@@ -368,7 +369,7 @@ impl Curve {
     ///
     /// Returns points, dash pattern and line width of each part.
     fn parts(&self) -> Vec<(&[[f64; 2]], &'static str, f64)> {
-        let CurveValues { points, back, .. } = &self.values;
+        let CurveValues { points, unloading, .. } = &self.values;
         let mut parts = Vec::new();
         let mut start = 0;
         for end in 1..points.len() {
@@ -381,7 +382,7 @@ impl Curve {
             }
         }
         // The stability of the unloading path is unknown.
-        parts.extend((!back.is_empty()).then_some((&back[..], BACK, 1.1)));
+        parts.extend((!unloading.is_empty()).then_some((&unloading[..], UNLOADING, 1.1)));
         parts
     }
 }
@@ -415,7 +416,7 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
         .containing(passing)
 }
 
-/// Removes spots within [`CROSS`] of the previous spot, because crosses would hide a steep curve.
+/// Removes spots within [`CROSS`] of the previous spot, so that crosses do not hide the curve.
 fn apart(spots: Vec<Spot>) -> Vec<Spot> {
     let mut kept: Vec<Spot> = Vec::new();
     for [x, y] in spots {

@@ -68,7 +68,7 @@ impl Designs {
         (0..self.count()).filter_map(move |row| self.number(column, row))
     }
 
-    /// Returns for each design whether its value in a column is positive.
+    /// Returns true for each design with a positive value in a column.
     pub(crate) fn positive(&self, column: &str) -> Vec<bool> {
         (0..self.count()).map(|row| self.number(column, row).is_some_and(|v| v > 0.0)).collect()
     }
@@ -100,9 +100,10 @@ impl Designs {
         })
     }
 
-    /// Returns the column in mm of the length `axis`, which is divided by the thickness.
+    /// Returns the column that contains the length ratio `axis` as a length in mm.
     ///
-    /// Returns `axis` itself if the table has no equivalent column in mm.
+    /// `axis` is a length divided by the thickness, such as `gap_over_t`. Returns `axis` itself if
+    /// the table has no equivalent column in mm.
     pub(crate) fn in_mm(&self, axis: &str) -> String {
         let in_mm = axis.replace("_over_t", "_mm");
         if self.are_equivalent(axis, &in_mm) { in_mm } else { axis.to_owned() }

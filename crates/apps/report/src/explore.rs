@@ -16,9 +16,9 @@ const PAGE: &str = concat!(
 );
 /// The HTML section with the interactive design.
 const SECTION: &str = include_str!("../assets/explore/explorer.html");
-/// The style of the section on any page.
+/// The style of this section, for any page that contains the section.
 pub(crate) const STYLE: &str = include_str!("../assets/explore/explore.css");
-/// Further styles of a page that has only this section.
+/// Additional styles of a page that contains only this section.
 const STYLES: [&str; 2] =
     [include_str!("../assets/page/styles/theme.css"), include_str!("../assets/explore/page.css")];
 /// The scripts of the page, in the order in which they run.
@@ -44,7 +44,8 @@ pub struct Explorer {
     pub sweep: Sweep,
     /// If the design is an optimum, the variables of the search that found it.
     pub variables: Vec<Variable>,
-    /// Solved designs of the sweep, as candidates for requirements.
+    /// Solved designs of the sweep, at which the search for a design that meets requirements
+    /// starts.
     pub solved: SolvedTable,
     /// The definition or results folder with its settings, as on the command line.
     pub source: String,
@@ -86,7 +87,7 @@ struct Control {
     max: f64,
     /// Change of the value for each press of an arrow key.
     step: f64,
-    /// Initial value: a number or a word; null if another parameter determines it.
+    /// Initial value: a number or a word; null if another parameter determines the value.
     value: Value,
     /// Word for the value 0: `flat` for a body, `sharp` for a needle without a radius.
     zero: Option<&'static str>,
@@ -98,7 +99,7 @@ struct Control {
     is_radius: bool,
 }
 
-/// Default control of a parameter: key, label, range, initial value, and true if it is optional.
+/// Default control: key of the parameter, label, range, initial value, and true if optional.
 ///
 /// The initial value is a fraction of the range. Lengths are divided by the thickness; a definition
 /// in mm has controls in mm. Range and initial value apply if the definition has none. An optional
@@ -136,7 +137,7 @@ const OFFERED: [Offered; 14] = [
 struct Shown {
     name: &'static str,
     label: &'static str,
-    /// Column in physical units that the page shows instead of this measure, if it has a value.
+    /// Column in physical units, shown instead of this measure if the column has a value.
     physical: &'static str,
     /// A short explanation.
     words: &'static str,
@@ -162,7 +163,7 @@ fn shown(
     Shown { name, label, physical, words, is_curvature, has_goal, mode }
 }
 
-/// Returns the displayed measures, including the failure force if it is computed.
+/// Returns the displayed measures; if `seeks_failure`, they include the failure force.
 ///
 /// The page shows the first four, and the others on request.
 fn measures(seeks_failure: bool) -> Vec<Shown> {
@@ -285,7 +286,7 @@ impl Explorer {
         let in_mm = case.material.thickness_mm.map(|_| key::RADIUS_MM);
         let key = axis.map_or(in_mm.unwrap_or(key::RADIUS), |axis| axis.parameter().key);
         let is_in_mm = key == key::RADIUS_MM;
-        // Use a given radius in mm directly: a division by the thickness would round it.
+        // Use a given radius in mm directly: a division by the thickness would round the radius.
         let given = Parameter::named(key)?.get(&case).number();
         let value = match (given, case.material.thickness_mm) {
             (Some(number), _) => curvature(key, number),
@@ -398,7 +399,8 @@ impl Explorer {
         self.sweep.variables().iter().chain(&self.variables)
     }
 
-    /// Returns the thickness of the scales, in the middle of its range if it varies, mm.
+    /// Returns the thickness of the scales, mm: its value, or the middle of the range of a
+    /// variable.
     fn thickness(&self) -> f64 {
         let range = self.variables().find_map(|variable| interval(variable, key::THICKNESS));
         let middle = range.map(|[from, to]| 0.5 * (from + to));
@@ -407,9 +409,9 @@ impl Explorer {
     }
 }
 
-/// Returns the curvature of a body with this value of the parameter `key`.
+/// Returns the curvature of a body; `value` is the value of the parameter `key`.
 ///
-/// The parameter is a curvature or a radius.
+/// The parameter is either a curvature or a radius.
 fn curvature(key: &str, value: f64) -> f64 {
     if key == key::CURVATURE { value } else { value.recip() }
 }

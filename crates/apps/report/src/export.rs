@@ -55,7 +55,7 @@ pub enum ExportError {
     #[error(transparent)]
     Preferences(#[from] InvalidPreferences),
     /// The folder has no table of designs.
-    #[error("{}: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit", folder.display())]
+    #[error("{}: contains no designs.csv, expected the folder of a run, a search, a tolerance analysis or a fit", folder.display())]
     NoDesigns {
         /// The folder.
         folder: PathBuf,
@@ -118,7 +118,7 @@ pub fn export(
     folder.make()?;
     // The workbook library panics if it cannot write its temporary file.
     let written = catch_unwind(AssertUnwindSafe(|| write(results, &others, folder, name)));
-    written.unwrap_or_else(|panic| Err(unwritable(folder, name, &said(&*panic))))
+    written.unwrap_or_else(|panic| Err(unwritable(folder, name, &panic_message(&*panic))))
 }
 
 fn write(
@@ -183,7 +183,7 @@ fn unreadable(path: &Path, reason: String) -> ExportError {
     ExportError::Unreadable { file: path.to_owned(), reason }
 }
 
-/// Reads a table once: returns the profiles of its columns and its best values.
+/// Reads a table, and returns the profiles of its columns and its best values.
 fn profile_of_table(
     (path, file): (&Path, File),
 ) -> Result<(TableProfile, BestValues), ExportError> {
@@ -243,11 +243,11 @@ fn unwritable(folder: &ResultsFolder, name: &str, reason: &str) -> ExportError {
 /// Returns the message of a panic in one line.
 ///
 /// If the panic quotes a system error, the result is only the message of this error.
-fn said(panic: &(dyn Any + Send)) -> String {
+fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     let text = text.unwrap_or("the writer of workbooks failed");
-    // The rest of a panic that quotes a system error does not help the user.
+    // If the panic quotes a system error, only this error helps the user.
     let message = text.split_once("message: \"").and_then(|(_, rest)| rest.split_once('"'));
     message.map_or(text, |(message, _)| message).lines().collect::<Vec<_>>().join(" ")
 }

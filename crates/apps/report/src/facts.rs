@@ -6,7 +6,8 @@ use crate::page::Fact;
 
 /// Returns names and values of the entries of `[run]` in the text of `run.toml`.
 pub fn facts(text: &str) -> Vec<Fact> {
-    // A page rejects an invalid record before this call; a workbook just has no facts.
+    // An invalid record gives a workbook without facts. A page rejects such a record before this
+    // call.
     let table = toml_source::parse(text, "run.toml").unwrap_or_default();
     let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
     let Some(Value::Table(entries)) = run else { return Vec::new() };

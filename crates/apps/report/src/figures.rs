@@ -54,10 +54,10 @@ pub(crate) struct Quantity {
 }
 
 impl Quantity {
-    /// Chooses the columns that show a measure, in physical units if the table has them.
+    /// Chooses the columns that show a measure, in physical units if the table has such columns.
     ///
-    /// If designs have samples, these are the median, and the 5 % and 95 % quantiles as the band.
-    /// Otherwise it is the nominal value.
+    /// If designs have samples, the column is the median, and the band consists of the 5 % and 95 %
+    /// quantiles. Otherwise the column is the nominal value.
     pub(crate) fn of(designs: &Designs, measure: &str) -> Self {
         let [low, median, high] = ["p05", "p50", "p95"]
             .map(|end| Some(format!("{measure}_{end}")).filter(|name| designs.has(name)));
@@ -76,11 +76,11 @@ impl Quantity {
 }
 
 /// Returns true if a fold of the surface invalidates the values of a column.
-pub(crate) fn is_touched_by_folds(column: &str) -> bool {
+pub(crate) fn is_affected_by_folds(column: &str) -> bool {
     is_invalid_after_fold(column)
 }
 
-/// Returns the end of a title of a figure that shows perfect designs.
+/// Returns words that end the title of a figure of only the perfect designs.
 ///
 /// Empty if the sweep has no samples of random gaps.
 pub(crate) fn of_perfect(designs: &Designs) -> &'static str {
@@ -98,7 +98,7 @@ pub(crate) fn shown_column(designs: &Designs, measure: &str) -> String {
     physical(designs, measure).unwrap_or_else(|| measure.to_owned())
 }
 
-/// Returns the one of `headers` that holds a measure in physical units, if any.
+/// Returns the column among `headers` that contains a measure in physical units, if any.
 pub(crate) fn physical_of<'h>(
     headers: impl IntoIterator<Item = &'h str>,
     measure: &str,
@@ -112,13 +112,15 @@ pub(crate) fn physical_of<'h>(
     })
 }
 
-/// Maximum number of combinations of further parameters for which figures are drawn.
+/// Maximum number of combinations of parameter values for which figures are drawn.
+///
+/// The parameters are all varied parameters besides gap, aspect ratio and slant.
 pub(crate) const PARTS: usize = 24;
 
 /// Draws every figure for which the table has values.
 ///
-/// With a ranking, they include the Pareto fronts and the best designs for all weights. If a sweep
-/// has axes besides gap, aspect ratio and slant, each combination of their values has its own
+/// With a ranking, the figures include the Pareto fronts and the best designs for all weights. If a
+/// sweep has axes besides gap, aspect ratio and slant, each combination of their values has its own
 /// figures, for at most 24 combinations. The names and titles of these figures include the values.
 ///
 /// Fronts and best designs come from the whole ranking, even if only some `designs` are shown. On
@@ -164,13 +166,13 @@ fn are_the_papers(ranking: &Ranking<'_>) -> bool {
         })
 }
 
-/// Returns `name` with the values of further parameters, as a title of figures.
+/// Returns the title of a figure: `name` and the parameters `values`.
 fn title(name: &str, values: &[(&str, Cow<'_, str>)]) -> String {
     let words = values.iter().map(with_value);
     std::iter::once(name.to_owned()).chain(words).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns `file` with the values of further parameters, as a file name of a figure.
+/// Returns the file name of a figure: `file` and the parameters `values`.
 fn file_name(file: &str, values: &[(&str, Cow<'_, str>)]) -> String {
     let part = values.iter().map(|(axis, value)| format!("{}-{value}", axis.replace('_', "-")));
     std::iter::once(file.to_owned()).chain(part).collect::<Vec<_>>().join("-")
@@ -217,7 +219,9 @@ fn of_part(name: &str, designs: &Designs, paper: Paper) -> Vec<Figure> {
 /// Usual font size of a title, and smallest font size on narrow paper, px.
 const TITLE: [f64; 2] = [15.0, 10.0];
 
-/// Returns a figure with a title. A title that does not fit at the smallest size is cut.
+/// Returns a figure with a title.
+///
+/// A title that does not fit at the smallest font size is cut.
 pub(crate) fn sheet(width: f64, height: f64, title: &str, inside: Vec<Element>) -> String {
     // Bold letters are wider.
     let room = (width - 36.0) / 1.05;
@@ -247,7 +251,7 @@ const DRAWN: usize = 10_000;
 
 /// Selects the designs that get a mark in each of `panels` panels.
 ///
-/// Returns all indices below `count`, or every n-th of them if that would exceed [`DRAWN`] marks.
+/// Returns all indices below `count`, or every n-th index if all would exceed [`DRAWN`] marks.
 pub(crate) fn thinned(count: usize, panels: usize) -> impl Iterator<Item = usize> {
     (0..count).step_by((count * panels).div_ceil(DRAWN).max(1))
 }

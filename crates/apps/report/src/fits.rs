@@ -27,9 +27,9 @@ const TOP: f64 = 92.0;
 /// Horizontal and vertical space between panels, px.
 const ROOM: [f64; 2] = [92.0, 92.0];
 
-/// Draws each measured and fitted curve, and beside it the residuals.
+/// Draws each measured and fitted curve, with the residuals to the right of the curve.
 ///
-/// Two lines bound the range of 95 % of normally distributed residuals.
+/// Lines mark a residual of zero and the range of 95 % of normally distributed residuals.
 pub fn fit_figure(name: &str, curves: &[FitPanel]) -> String {
     let [width, height] = PANEL;
     let first = Area { left: 78.0, top: TOP, width, height };
@@ -51,7 +51,7 @@ pub fn fit_figure(name: &str, curves: &[FitPanel]) -> String {
 impl FitPanel<'_> {
     fn curve(&self, area: Area) -> Vec<Element> {
         let values = self.points.iter().flat_map(|point| [point[1], point[2]]);
-        let (x, y) = (self.places(), ChartAxis::spanning(&self.axes[1], values));
+        let (x, y) = (self.x_axis(), ChartAxis::spanning(&self.axes[1], values));
         let panel = ChartPanel::new(area, &x, &y);
         let mut fitted = self.points.to_vec();
         // The measured points may have any order, but the line needs sorted points.
@@ -63,22 +63,22 @@ impl FitPanel<'_> {
     }
 
     fn residuals(&self, area: Area) -> Vec<Element> {
-        let left: Vec<_> = self.points.iter().map(|p| [p[0], p[1] - p[2]]).collect();
+        let residuals: Vec<_> = self.points.iter().map(|p| [p[0], p[1] - p[2]]).collect();
         let bounds = [-1.96 * self.noise, 0.0, 1.96 * self.noise];
         let unit = self.axes[1].find(", ").map_or("", |end| &self.axes[1][end..]);
         let name = format!("measured − fitted{unit}");
-        let y = ChartAxis::spanning(&name, left.iter().map(|p| p[1]).chain(bounds));
-        let x = self.places();
+        let y = ChartAxis::spanning(&name, residuals.iter().map(|p| p[1]).chain(bounds));
+        let x = self.x_axis();
         let panel = ChartPanel::new(area, &x, &y);
         let bounds = bounds.into_iter().filter_map(|value| {
             let [_, y] = panel.place(self.points[0][0], value)?;
             Some(line([area.left, y], [area.right(), y], FAINT, 1.0))
         });
-        panel.axes(58.0).into_iter().chain(bounds).chain(dots(panel.spots(left))).collect()
+        panel.axes(58.0).into_iter().chain(bounds).chain(dots(panel.spots(residuals))).collect()
     }
 
     /// Returns the axis of the measured positions.
-    fn places(&self) -> ChartAxis {
+    fn x_axis(&self) -> ChartAxis {
         ChartAxis::spanning(&self.axes[0], self.points.iter().map(|point| point[0]))
     }
 }

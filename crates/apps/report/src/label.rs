@@ -2,7 +2,7 @@
 
 use crate::svg::{Element, Spot};
 
-/// The point of a label that lies at its given position.
+/// The point of a label that is placed at the position of the label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn indices_and_spaces_are_laid_out_in_svg() {
+    fn svg_labels_keep_subscripts_superscripts_and_spaces() {
         assert_eq!(plain("$F_c^*$, dimensionless"), "Fc*, dimensionless");
         let text = label("$F_{ct}^*$ x", [0.0, 0.0], 10.0, Anchor::Start).to_text();
         assert_eq!(

@@ -1,14 +1,14 @@
 //! Drawings of designs, and figures and pages of sweeps.
 //!
-//! This crate draws tables of a run and solved designs; it solves nothing itself. A drawing maps a
-//! point `(x, y)` of the plane, in units of `t`, to `(x₀ + s x, y₀ − s y)` px.
+//! This crate draws the tables of a run and solved designs; it does not solve designs itself. A
+//! drawing maps a point `(x, y)` of the plane, in units of `t`, to `(x₀ + s x, y₀ − s y)` px.
 //!
 //! | Item | Role |
 //! |---|---|
 //! | [`drawings`] | a punctured row of scales or a bent strip, to scale, as SVG or as an animation |
 //! | [`curves()`], [`MeasuredCurves`] | paths of solved designs, with test data overlaid |
 //! | [`figures()`], [`Figure`] | figures of a sweep, from its table |
-//! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with their bounds, and the sources of their spread |
+//! | [`Histogram`], [`share_bars`], [`Shares`] | histogram of samples of a measure; bars of the contributions to its variance |
 //! | [`fit_figure`], [`FitPanel`] | measured and fitted curves, and residuals |
 //! | [`SearchFigure`], [`SearchedDesign`] | history and front of a search |
 //! | [`map()`], [`MapRequest`] | map of any column over any two parameters, with contours |
@@ -25,7 +25,7 @@
 //! use substrate::calibrate;
 //! use sweep::Sweep;
 //!
-//! // A row of five scales at rest and when the middle one has tilted by 10°.
+//! // A row of five scales at rest, and with its middle scale tilted by 10°.
 //! let text = "name = 'x'\npuncture.scales = 5\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 0.5\ndesigns.slant_deg = 60";
 //! let case = Sweep::parse(text, "x.toml", &[])?.grid().case(0);
 //! let springs = calibrate(&case.footprint()?)?;

@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn decoding_reverses_packing_without_special_characters_of_html() {
+    fn encoded_bytes_can_be_decoded_and_contain_no_special_characters_of_html() {
         for length in 0..40_u32 {
             let bytes: Vec<u8> = (0..length).map(|k| (k * k * 37 % 251) as u8).collect();
             let text = in_sevens(&bytes);

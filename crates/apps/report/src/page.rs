@@ -2,7 +2,7 @@
 //!
 //! This crate draws the figures; the scripts of the page show and hide marks, and draw the row of
 //! the selected design. The page ranks designs like the crate `ranking`; `scripts/check-page`
-//! compares both.
+//! compares the two rankings.
 
 mod curves;
 mod data;
@@ -56,13 +56,13 @@ const SCRIPTS: [&str; 20] = [
     include_str!("../assets/page/scripts/page.js"),
 ];
 
-/// A name and its value.
+/// Name and value of a fact about a run.
 pub type Fact = (String, String);
 
 /// The content of a page.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
-    /// The interactive design with its solver; `None` for a page without it.
+    /// The interactive design with its solver; `None` for a page without interactive design.
     pub explorer: Option<Explorer>,
     /// The name of the sweep.
     pub name: String,
@@ -121,7 +121,8 @@ pub struct PageDesign {
 impl Page {
     /// Writes the page as a self-contained HTML file.
     ///
-    /// Figures are drawn, compressed and written one by one, because together they take 100 MB.
+    /// Figures are drawn, compressed and written one by one, because all figures together need
+    /// 100 MB of memory.
     ///
     /// # Errors
     /// Returns the errors of `out`.

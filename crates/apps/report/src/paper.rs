@@ -1,4 +1,4 @@
-//! Paper for which figures are laid out: its width limits their width and number of panels.
+//! Width of the printed paper, which limits the width of figures and their number of panels.
 
 /// Pixels per printed millimetre.
 ///
@@ -9,7 +9,7 @@ const NARROWEST: f64 = 320.0;
 /// Maximum number of rows of panels on narrow paper.
 const ROWS: usize = 2;
 
-/// The paper for which figures are laid out: as wide as they need, or narrower.
+/// The paper for which figures are laid out: as wide as each figure needs, or narrower.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paper {
     width: Option<f64>,
@@ -19,7 +19,7 @@ impl Paper {
     /// Paper as wide as each figure needs.
     pub const WIDE: Self = Self { width: None };
 
-    /// Returns paper of a printed width in mm, such as the column of a journal.
+    /// Returns paper with the width `mm` in millimetres, such as the column of a journal.
     pub fn of_width(mm: f64) -> Self {
         Self { width: Some((mm * PX_PER_MM).max(NARROWEST)) }
     }
@@ -54,7 +54,7 @@ impl Paper {
 }
 
 /// Selects at most `most` of `values`, evenly spaced, including the first and the last.
-pub(crate) fn some<T: Clone>(values: Vec<T>, most: usize) -> Vec<T> {
+pub(crate) fn evenly_spaced<T: Clone>(values: Vec<T>, most: usize) -> Vec<T> {
     match most {
         _ if values.len() <= most => values,
         0 | 1 => values.into_iter().take(most).collect(),
@@ -64,7 +64,7 @@ pub(crate) fn some<T: Clone>(values: Vec<T>, most: usize) -> Vec<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Paper, some};
+    use super::{Paper, evenly_spaced};
 
     #[test]
     fn narrow_paper_has_fewer_columns_and_panels() {
@@ -79,8 +79,8 @@ mod tests {
     #[test]
     fn selected_values_include_both_ends() {
         let all: Vec<usize> = (1..=10).collect();
-        assert_eq!(some(all.clone(), 4), [1, 4, 7, 10]);
-        assert_eq!(some(all.clone(), 1), [1]);
-        assert_eq!(some(all.clone(), 12), all);
+        assert_eq!(evenly_spaced(all.clone(), 4), [1, 4, 7, 10]);
+        assert_eq!(evenly_spaced(all.clone(), 1), [1]);
+        assert_eq!(evenly_spaced(all.clone(), 12), all);
     }
 }

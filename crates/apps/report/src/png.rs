@@ -22,7 +22,7 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 
 /// A drawing that cannot be converted to an image.
 #[derive(Debug, thiserror::Error)]
-#[error("drawing: cannot be made a PNG ({0}), expected a drawing of a size that fits in memory")]
+#[error("drawing: cannot be converted to PNG ({0}), expected a drawing that fits in memory")]
 pub struct NoImage(String);
 
 /// Renders `svg` as a PNG with `dpi` dots per inch; a drawing has 96 px per inch.
@@ -37,12 +37,12 @@ pub fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, NoImage> {
     };
     let tree = Tree::from_str(svg, &options).map_err(|error| NoImage(error.to_string()))?;
     // The precision of `f32` suffices for pixels.
-    let sharpness = (dpi / PX_PER_INCH) as f32;
-    let size = tree.size().to_int_size().scale_by(sharpness);
-    let size = size.ok_or_else(|| NoImage("it has no size".to_owned()))?;
+    let factor = (dpi / PX_PER_INCH) as f32;
+    let size = tree.size().to_int_size().scale_by(factor);
+    let size = size.ok_or_else(|| NoImage("the drawing has no size".to_owned()))?;
     let pixels = Pixmap::new(size.width(), size.height());
-    let mut pixels = pixels.ok_or_else(|| NoImage("it is too large".to_owned()))?;
-    let sharpness = Transform::from_scale(sharpness, sharpness);
-    resvg::render(&tree, sharpness, &mut pixels.as_mut());
+    let mut pixels = pixels.ok_or_else(|| NoImage("the image is too large".to_owned()))?;
+    let transform = Transform::from_scale(factor, factor);
+    resvg::render(&tree, transform, &mut pixels.as_mut());
     pixels.encode_png().map_err(|error| NoImage(error.to_string()))
 }

@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_fill_their_bar() {
+    fn variance_bars_state_the_fractions_and_the_sources() {
         let shares = vec![("gap_mm".to_owned(), 0.75), ("slant_deg".to_owned(), 0.25)];
         let svg = share_bars("x", &[("force".to_owned(), shares)]);
         for text in ["75 %", "25 %", "gap (mm)", "slant (°)"] {

@@ -133,7 +133,7 @@ pub(crate) fn document(width: f64, height: f64, title: &str, inside: Vec<Element
 /// Height of the title of a drawing, px.
 const TITLE: f64 = 32.0;
 
-/// Formats a text element as the title of a drawing; [`untitled`] finds it by its class.
+/// Formats a text element as the title of a drawing, with a class by which [`untitled`] finds it.
 pub(crate) fn heading(title: Element) -> Element {
     title.with("class", "title").with("fill", INK).with("font-weight", "bold")
 }

@@ -35,7 +35,7 @@ pub(crate) fn fill_head(
     out.write_all(text.as_bytes())
 }
 
-/// Writes data as JSON with `<` escaped, so that it cannot end its script element.
+/// Writes data as JSON, with `<` escaped, so that the data cannot end the script element.
 pub(crate) fn fill_json(out: &mut impl Write, data: &impl Serialize) -> io::Result<()> {
     out.write_all(serde_json::to_string(data)?.replace('<', "\\u003c").as_bytes())
 }

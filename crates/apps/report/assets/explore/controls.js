@@ -10,7 +10,7 @@
     return element("div", { class: "control" }, element("label", { for: `live-set-${control.key}` }, control.label), chosen);
   };
 
-  /** Returns the number in a field, without its unit. */
+  /** Parses the number in the text of a field, which may end with a unit. */
   const numberIn = (text) => Number(text.trim().replace(",", ".").replace("−", "-").replace(/\s*(mm|MPa|t|°)$/, ""));
   /** Parses a radius or "flat", and returns the curvature; null if it is invalid or out of range. */
   const typedRadius = (control, text) => {
@@ -76,8 +76,8 @@
     const measure = live.data.measures.find(({ name }) => name === live.chosen);
     const slope = live.answer?.slopes.find((one) => one.parameter === control.key && one.measure === live.chosen);
     control.better = slope?.better ?? 0;
-    const way = { 1: "larger", [-1]: "smaller", 0: "" }[control.better];
-    const words = slope ? (control.better === 0 ? `${control.label} is at its best value for ${measure.label.toLowerCase()}` : `A ${way} ${control.label.toLowerCase()} improves ${measure.label.toLowerCase()}`) : "";
+    const direction = { 1: "larger", [-1]: "smaller", 0: "" }[control.better];
+    const words = slope ? (control.better === 0 ? `${control.label} is at its best value for ${measure.label.toLowerCase()}` : `A ${direction} ${control.label.toLowerCase()} improves ${measure.label.toLowerCase()}`) : "";
     control.arrow.style.visibility = slope ? "visible" : "hidden";
     control.arrow.disabled = control.better === 0;
     control.arrow.textContent = { 1: "▶", [-1]: "◀", 0: "●" }[control.better];
@@ -85,7 +85,7 @@
     control.arrow.setAttribute("aria-label", words);
   };
 
-  // Further controls appear on request.
+  // Number of controls that are always shown; the other controls appear on request.
   const FIRST = 4;
   let listed = "";
   /** Updates the active controls, and rebuilds their list if it has changed. */

@@ -2,14 +2,14 @@
 
 (() => {
   const { at, live } = squama;
-  const told = (button, text) => {
+  const showBriefly = (button, text) => {
     const before = button.dataset.text ?? button.textContent;
     Object.assign(button.dataset, { text: before });
     button.textContent = text;
     setTimeout(() => { button.textContent = before; }, 1500);
   };
   const copies = (id, text) => at(id).addEventListener("click", async () => {
-    try { await navigator.clipboard.writeText(text()); told(at(id), "Copied"); }
+    try { await navigator.clipboard.writeText(text()); showBriefly(at(id), "Copied"); }
     catch { prompt("Copy this", text()); }
   });
   const command = () => `squama design ${live.data.source} ${(live.answer?.settings ?? []).join(" ")}`;

@@ -17,7 +17,7 @@
     const angle = arc * curvature, [cos, sin] = [Math.cos(angle), Math.sin(angle)];
     return { x: curvature ? sin / curvature : arc, y: curvature ? (cos - 1) / curvature : 0, cos, sin };
   };
-  // Arc length up to which scales are solved: there, the normal of the body is 80° from the load.
+  // Arc length up to which scales are solved, where the normal of the body is 80° from the load.
   const farthest = ({ curvature }) => radians(80) / Math.abs(curvature);
 
   const place = (view, [x, y]) => [view.left + view.scale * x, view.base - view.scale * y];
@@ -45,7 +45,7 @@
     const far = Math.min(most, farthest(own)), frames = Array.from({ length: 81 }, (_, k) => frame(own.curvature, ((k - 40) / 40) * far));
     return frames.map(({ x, y, cos, sin }) => [x - depth * sin, y - depth * cos]);
   };
-  /** Draws the tissue, and the bone below it if it is not deeper than the centre of the body. */
+  /** Draws the tissue, and the bone below the tissue if it lies above the centre of the body. */
   const soil = (view, own, { width, height }) => {
     const low = (view.base - height) / view.scale - 1, has_bone = own.tissue && own.tissue * own.curvature < 0.95;
     const filled = (line, kind) => svg("polygon", { points: points(view, [...line, [line.at(-1)[0], low], [line[0][0], low]]), class: kind });
@@ -69,7 +69,7 @@
       return { number, pose: [x, y, radians(turn)] };
     });
   };
-  /** Fits a row of about five scales into the available space, with some sky above it. */
+  /** Fits a row of about five scales into a drawing, with the height `sky`, in t, free above it. */
   const fitted = (own, { width, height }, most, sky = 0.37) => {
     const level = 1.53 + sky, wide = Math.min(width / Math.max(3.4, 4.5 * own.pitch + own.shift), height / level, most);
     // A body falls or rises from the punctured scale to the sides of the drawing.
@@ -87,7 +87,7 @@
     const toCorner = (half) => (curvature ? Math.atan(curvature * half) / curvature : half);
     const toPoint = ([x, y]) => (curvature ? Math.atan2(curvature * x, 1 + curvature * y) / curvature : x);
     return [
-      // The drawn base stays, and the corner follows the pointer. The height of the corner changes
+      // The drawn base does not move, and the corner follows the pointer. Its height changes
       // the thickness or, without a thickness in mm, the length divided by the thickness.
       { id: "slant", key: "slant_deg", spot: [own.half + own.shift, 1], above: true,
         drag: ([x, y], _, { half, values }) => {

@@ -1,4 +1,4 @@
-// Requirements as a sentence, and the search for the nearest design that meets them.
+// Requirements as a sentence, and the search for the nearest design that meets these requirements.
 
 (() => {
   const { at, live } = squama;
@@ -8,7 +8,7 @@
   const MOST = 160, SPREAD = 40;
   // Number of sliders that a search moves.
   const VARIED = 4;
-  // Number of bisections towards the present design. The last step is finer than a slider.
+  // Number of bisections towards the present design. The last step is finer than a slider step.
   const HALVINGS = 7;
   // Shortfall of a missing value, larger than any other shortfall.
   const MISSING = 100;
@@ -28,7 +28,7 @@
   ];
   const PLAIN = /^\w+ ?(>=|<=|>|<) ?-?[\d.]+$/;
 
-  /** Reads a clause such as "5 N", or a requirement such as "coverage >= 0.6"; null if it is neither. */
+  /** Reads a clause such as "5 N", or a requirement such as "coverage >= 0.6"; null for other texts. */
   const clause = (text) => {
     if (PLAIN.test(text)) return { requirement: text };
     for (const [pattern, meaning] of CLAUSES) {
@@ -59,7 +59,7 @@
     return "";
   };
 
-  /** Returns how far a design misses its requirements, relative to the limits; at most 0 if it meets them. */
+  /** Returns the largest violation of a requirement, relative to its limit; at most 0 if all are met. */
   const shortfall = ({ error, requirements }) => {
     if (error) return Infinity;
     const known = requirements.filter(({ margin }) => margin !== null);
@@ -87,13 +87,13 @@
   };
 
   let searching = null;
-  /** Searches the first sliders for the nearest design that meets the requirements. */
+  /** Searches for the nearest design that meets the requirements, by moving the first sliders. */
   const search = async () => {
     const own = {}, values = live.values(), varied = live.controls().slice(0, VARIED);
     searching = own;
     const settings = (point) => Object.fromEntries(varied.map(({ key, min, max }, j) => [key, Number((min + point[j] * (max - min)).toPrecision(6))]));
     let count = 0;
-    const look = async (point) => {
+    const evaluate = async (point) => {
       count += 1;
       say(`Searching … ${count} of at most ${MOST} designs`);
       const answer = await squama.solver.measure(live.request({ ...values, ...settings(point) }));
@@ -101,9 +101,9 @@
       return { point, answer, miss: shortfall(answer) };
     };
     const better = (one, other) => (other.miss < one.miss ? other : one);
-    const present = await look(varied.map((control) => share(control, control.value)));
+    const present = await evaluate(varied.map((control) => share(control, control.value)));
     let best = present, tried = [present];
-    for (const point of present.miss > 0 ? starts(varied, present.point) : []) tried.push(await look(point));
+    for (const point of present.miss > 0 ? starts(varied, present.point) : []) tried.push(await evaluate(point));
     const met = tried.filter(({ miss }) => miss <= 0).sort((one, other) => distance(one.point, present.point) - distance(other.point, present.point));
     best = met[0] ?? tried.reduce(better);
     // Pattern search from the best three: moves one slider at a time, and halves the step.
@@ -112,7 +112,7 @@
       for (let step = 0.16; step > 0.004 && best.miss > 0 && count < MOST - HALVINGS; step /= 2) {
         for (let j = 0, still = 0; still < 2 * varied.length && local.miss > 0 && count < MOST - HALVINGS; j += 1) {
           const side = j % 2 ? -step : step, axis = Math.floor(j / 2) % varied.length;
-          const next = await look(local.point.map((own, k) => Math.min(1, Math.max(0, k === axis ? own + side : own))));
+          const next = await evaluate(local.point.map((own, k) => Math.min(1, Math.max(0, k === axis ? own + side : own))));
           still = next.miss < local.miss ? 0 : still + 1;
           local = better(local, next);
         }
@@ -122,7 +122,7 @@
     // Bisects the line to the present design, down to the nearest design that meets the requirements.
     if (best.miss <= 0 && present.miss > 0) {
       for (let k = 0, [near, far] = [0, 1], from = best.point; k < HALVINGS; k += 1) {
-        const middle = (near + far) / 2, next = await look(between(present.point, from, middle));
+        const middle = (near + far) / 2, next = await evaluate(between(present.point, from, middle));
         if (next.miss <= 0) [far, best] = [middle, next];
         else near = middle;
       }

@@ -1,4 +1,5 @@
-// State of the explorer: parameters, pinned design, last answer, and its form in the address.
+// State of the explorer: parameters, pinned design and last answer of the solver. The address
+// contains the parameters.
 
 squama.live = (() => {
   const data = JSON.parse(squama.at("live-data").textContent);
@@ -8,12 +9,12 @@ squama.live = (() => {
   const listeners = { moved: [], answered: [] };
   const live = { data, answer: null, pinned: null, drawn: [1, 1], chosen: data.measures[1].name, said: "", times: [] };
 
-  // True if the user changed the design since it was opened.
+  // True if the user has changed the design since the page was opened.
   live.moved = false;
   live.listen = (topic, listener) => listeners[topic].push(listener);
   const tell = (topic) => listeners[topic].forEach((listener) => listener());
   live.show = () => tell("answered");
-  /** Returns a placeholder until there is an answer, otherwise null. */
+  /** Returns a placeholder text until the solver has answered, then null. */
   live.solving = () => (live.answer ? null : live.error ? "no answer" : "solving …");
 
   live.guided = () => controls.get("needle")?.value === "guided";
@@ -21,7 +22,7 @@ squama.live = (() => {
   live.controls = () => [...controls.values()].filter(({ only }) => !only || live.guided() === (only === "guided"));
   live.control = (key) => controls.get(key) ?? over.get(key);
   live.values = () => Object.fromEntries([...controls.values()].map(({ key, value }) => [key, value]));
-  /** Returns a value under its key in the definition, or a length divided by the thickness. */
+  /** Returns the value of the parameter `key`; converts a length in mm if `key` is a ratio to t. */
   live.value = (key, values = live.values()) => {
     const control = live.control(key);
     return values[control.key] / (key === control.key ? 1 : values.thickness_mm ?? data.thickness);
@@ -53,14 +54,14 @@ squama.live = (() => {
   /** Returns the requirements of the page of a run, otherwise of the definition and the sentence. */
   live.required = () => squama.required?.().filter(({ sign }) => sign !== "~").map(squama.ranking.written) ?? [...others(), ...live.wanted];
 
-  // The control of a radius holds a curvature, because its range contains a flat body.
+  // The control of a radius contains a curvature, because the range includes a flat body.
   const holdsCurvature = ({ is_radius, key }) => is_radius && key !== "curvature_times_t";
-  /** Returns the value of a parameter for the value that its control holds. */
+  /** Converts the value of a control to the value of its parameter. */
   const outside = (control, value) => {
     if (!holdsCurvature(control)) return value;
     return value === 0 ? "flat" : Number((1 / value).toPrecision(6));
   };
-  /** Returns the value that a control holds for the value of its parameter. */
+  /** Converts the value of a parameter to the value of its control. */
   const inside = (control, value) => {
     if (!holdsCurvature(control)) return value;
     return value === "flat" ? 0 : 1 / value;
@@ -73,7 +74,7 @@ squama.live = (() => {
   };
 
   const setting = (control, value) => (control.is_radius && value === 0 ? ["curvature_times_t", 0] : [control.key, outside(control, value)]);
-  // A value of null or a sharp needle means that a parameter is absent, so it is not set.
+  // The parameter is absent from a request if its value is null, or 0 for a sharp needle.
   const isSet = (control, value) => value !== null && (control.is_radius || !control.zero || value !== 0);
   /** Returns a request to solve the design with these values. */
   live.request = (values = live.values()) => {
@@ -92,12 +93,12 @@ squama.live = (() => {
   };
   for (const control of controls.values()) control.value = clamped(control, control.value);
   live.opened = live.values();
-  // Duration of an animated change to a limit, ms: slow enough to follow.
-  const WALK = 1200;
-  let walking = null;
+  // Duration of an animated change of a parameter, ms: slow enough to watch.
+  const ANIMATION = 1200;
+  let animation = null;
   /** Sets parameters within their ranges, and solves. User input ends an animated change. */
   live.set = (values, said = "", isStep = false) => {
-    if (!isStep) cancelAnimationFrame(walking);
+    if (!isStep) cancelAnimationFrame(animation);
     for (const [key, value] of Object.entries(values)) {
       const control = live.control(key);
       if (!control || !(control.words || value === null || Number.isFinite(value))) continue;
@@ -132,19 +133,19 @@ squama.live = (() => {
     tell("answered");
   };
 
-  const walk = ({ key, value, reason }) => {
-    const { label } = controls.get(key), from = live.current(controls.get(key)), begun = performance.now(), time = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : WALK;
+  const animate = ({ key, value, reason }) => {
+    const { label } = controls.get(key), from = live.current(controls.get(key)), begun = performance.now(), time = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : ANIMATION;
     const step = (now) => {
       const share = time > 0 ? Math.min(1, Math.max(0, (now - begun) / time)) : 1, is = share < 1;
       live.set({ [key]: from + share * (value - from) }, is ? `${label}: moving` : `${label}: ${reason}`, is);
-      if (is) walking = requestAnimationFrame(step);
+      if (is) animation = requestAnimationFrame(step);
     };
     step(begun);
   };
 
   live.take = (answer, question) => {
     if (question) live.times.push(performance.now() - question.at);
-    if (answer.follow) return walk(answer.follow);
+    if (answer.follow) return animate(answer.follow);
     live.error = answer.error ?? null;
     // A fast answer has no derivatives: the page keeps the previous ones until a complete answer.
     if (!answer.error) live.answer = answer.fine ? answer : { ...answer, slopes: live.answer?.slopes ?? [] };

@@ -1,6 +1,6 @@
 "use strict";
-// The solver in a worker thread, so that the page stays responsive. It answers one request at a
-// time; requests and answers are text.
+// Runs the solver in a worker thread, so that the page stays responsive. The worker handles one
+// request at a time; requests and answers are JSON texts.
 let solver;
 
 const answer = (request) => {

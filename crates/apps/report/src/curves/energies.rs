@@ -105,7 +105,7 @@ fn panels(
     }
     let rows = solved.len().div_ceil(columns) as f64;
     let title = format!("{name}: {}", text.title);
-    // A single panel is narrower than the title of the figure.
+    // The title of the figure may be wider than a single panel.
     let full =
         if paper.is_narrow(natural) { full } else { natural.max(width(&title, 15.0) + 60.0) };
     Some(sheet(full, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))

@@ -31,7 +31,7 @@ const HEIGHT: f64 = 14.0;
 const RADIUS: f64 = 4.2;
 /// Possible distances of a name from its mark, px.
 const DISTANCES: [f64; 9] = [11.0, 17.0, 26.0, 38.0, 52.0, 70.0, 92.0, 120.0, 160.0];
-/// Number of directions from its mark in which a name may be placed.
+/// Number of directions from a mark in which its name may be placed.
 const DIRECTIONS: u32 = 32;
 /// Distance beyond which a line joins a name and its mark, px.
 const JOINED: f64 = 13.0;
@@ -52,7 +52,8 @@ struct Bounds {
 impl Bounds {
     /// Returns the bounds of a text of this width.
     ///
-    /// The text begins at `(x, y)` if `begins` is true, otherwise it ends there.
+    /// `(x, y)` is the left end of the text if `begins` is true, otherwise the right end, at half
+    /// of the height.
     fn beside([x, y]: Spot, width: f64, begins: bool) -> Self {
         let left = if begins { x } else { x - width };
         let (top, bottom) = (y - 0.5 * HEIGHT, y + 0.5 * HEIGHT);
@@ -85,16 +86,18 @@ impl Bounds {
     }
 }
 
-/// A placed name of a limit.
+/// The name of a limit and its position.
 struct Name {
     text: String,
     is_first: bool,
     bounds: Bounds,
-    /// The line from the mark to the name, if the name is far.
+    /// The line from the mark to the name; `None` for a name next to its mark.
     leader: Option<[Spot; 2]>,
 }
 
-/// Places names in a panel without overlaps of names and marks, and beside curves if possible.
+/// Places names in a panel, without overlaps with marks and other names.
+///
+/// A name covers a curve only if no better position is free.
 struct Names {
     area: Area,
     marks: Vec<Spot>,
@@ -110,13 +113,14 @@ impl Names {
     fn add(&mut self, (text, is_first): (String, bool), positions: impl Iterator<Item = Position>) {
         let mut best: Option<(f64, Bounds, Option<[Spot; 2]>)> = None;
         for (bounds, leader, distance) in positions {
-            // The cost of a position is at least its distance.
+            // The cost of a position is at least its distance, so skip positions that are farther
+            // away than the lowest cost.
             let is_worse = best.as_ref().is_some_and(|(least, ..)| distance >= *least);
             if is_worse || !self.is_free(&bounds) {
                 continue;
             }
             let line = leader.map(samples).unwrap_or_default();
-            // Leaders that cross names have the highest cost.
+            // A crossing of a leader and a name has the highest cost.
             let crossed: usize = self.placed.iter().map(|name| name.bounds.count(&line, 1.0)).sum();
             let crossed = crossed + bounds.count(&self.leaders, 1.0);
             let on_curve = bounds.count(&self.curves, 1.5);
@@ -155,7 +159,7 @@ fn three_digits(force: f64) -> String {
     format!("{force:.*}", decimals.clamp(0.0, 12.0) as usize)
 }
 
-/// Samples a line between two spots.
+/// Returns points on the line between two spots, at most [`SAMPLE`] apart.
 fn samples([from, to]: [Spot; 2]) -> Vec<Spot> {
     let length = (to[0] - from[0]).hypot(to[1] - from[1]);
     let parts = (length / SAMPLE).ceil().max(1.0) as usize;
@@ -191,7 +195,9 @@ fn around(mark: Spot, width: f64, area: Area) -> impl Iterator<Item = Position> 
     near.chain(grid)
 }
 
-/// Lists possible positions of the name of a horizontal line: above and below it, from the right.
+/// Lists possible positions of the name of a horizontal line, from right to left.
+///
+/// Positions alternate between above and below the line.
 fn along(y: f64, area: Area, width: f64) -> impl Iterator<Item = Position> {
     let steps = ((area.width - width) / ALONG).max(0.0) as usize;
     let all = (0..steps).flat_map(move |k| [-1.0, 1.0].map(|side| (k as f64 * ALONG, side)));

@@ -8,12 +8,12 @@ use super::{DesignCurves, FailureLimit};
 /// Limits across the row are shown up to this multiple of the largest force of the path.
 const HIGHEST_LEVEL: f64 = 1.5;
 
-/// Points of the curve of a design, and of its marks.
+/// Points of the curve of a design, and of the marks on this curve.
 #[derive(Default)]
 pub(super) struct CurveValues {
     pub points: Vec<[f64; 2]>,
     /// The unloading path, from the end of `points`.
-    pub back: Vec<[f64; 2]>,
+    pub unloading: Vec<[f64; 2]>,
     /// Contact events.
     pub crosses: Vec<[f64; 2]>,
     /// The first fold of the surface, or the point with the smallest force.
@@ -31,7 +31,7 @@ pub(super) struct CurveValues {
 impl CurveValues {
     /// Returns all points that the axes must cover.
     pub fn all(&self) -> impl Iterator<Item = &[f64; 2]> {
-        self.points.iter().chain(&self.back).chain(self.limits.iter().map(|(_, at)| at))
+        self.points.iter().chain(&self.unloading).chain(self.limits.iter().map(|(_, at)| at))
     }
 
     /// Returns true if the segment after point `k` is dotted.
@@ -41,8 +41,8 @@ impl CurveValues {
 
     /// Multiplies the coordinates of all points by the factors `x` and `y`.
     pub fn in_units(&mut self, [x, y]: [f64; 2]) {
-        let Self { points, back, crosses, rings, passing, limits, .. } = self;
-        let all = [points, back, crosses, rings, passing].into_iter().flatten();
+        let Self { points, unloading, crosses, rings, passing, limits, .. } = self;
+        let all = [points, unloading, crosses, rings, passing].into_iter().flatten();
         for point in all.chain(limits.iter_mut().map(|(_, at)| at)) {
             *point = [point[0] * x, point[1] * y];
         }
@@ -52,20 +52,21 @@ impl CurveValues {
 /// Returns the curve of force against displacement; `None` if the puncture was not solved.
 pub(super) fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let puncture = solved.puncture?;
-    let back = puncture.unloading.iter().flat_map(|back| &back.path);
+    let unloading = puncture.unloading.iter().flat_map(|unloading| &unloading.path);
     let crosses = puncture.events.iter().map(|event| force_point(&event.point));
-    // A needle follows a path that is stable under a prescribed depth, even if a dead load cannot.
+    // A needle with a prescribed depth also follows parts of the path that are unstable under a
+    // dead load, so these parts are not dotted.
     let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
     let fold = puncture.folds.first().map(|fold| force_point(&fold.point));
     let passage = &puncture.measures.passage;
     let passing = passage.passing_displacement.zip(passage.passing_force);
-    // A truncated path may end before the needle passes.
+    // A path that stopped early may end before the needle passes.
     let passing = passing.map(<[f64; 2]>::from).filter(|[displacement, _]| {
         puncture.path.iter().any(|point| point.displacement >= *displacement)
     });
     Some(CurveValues {
         points: puncture.path.iter().map(force_point).collect(),
-        back: back.map(force_point).collect(),
+        unloading: unloading.map(force_point).collect(),
         crosses: crosses.collect(),
         rings: fold.into_iter().collect(),
         passing: passing.into_iter().collect(),
@@ -78,7 +79,9 @@ fn force_point(point: &PuncturePoint) -> [f64; 2] {
     [point.displacement, point.force]
 }
 
-/// Lists the limits of failure to draw, without limits across the row far above the path.
+/// Returns the limits of failure to draw, each with its point.
+///
+/// Omits limits across the row above [`HIGHEST_LEVEL`] times the largest force of the path.
 fn shown_limits(solved: &DesignCurves, puncture: &Puncture) -> Vec<(FailureLimit, [f64; 2])> {
     let highest = puncture.path.iter().map(|point| point.force).fold(0.0, f64::max);
     let limits = solved
@@ -89,7 +92,7 @@ fn shown_limits(solved: &DesignCurves, puncture: &Puncture) -> Vec<(FailureLimit
 }
 
 /// Returns the curve of critical force against load position.
-pub(super) fn places(solved: &DesignCurves) -> Option<CurveValues> {
+pub(super) fn load_positions(solved: &DesignCurves) -> Option<CurveValues> {
     let all = &solved.puncture?.places;
     let weakest = Weakest::from_positions(all).ok().and_then(|of| Some([of.place?, of.force?]));
     let forces: Vec<_> = all.iter().map(|p| (p.position, p.force)).collect();
@@ -123,11 +126,11 @@ fn moment_point(point: &FlexurePoint) -> [f64; 2] {
 /// Returns the curve of moment against curvature; `None` if bending was not solved.
 pub(super) fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
     let flexure = solved.flexure?;
-    let back = flexure.unloading.iter().flat_map(|back| &back.path);
+    let unloading = flexure.unloading.iter().flat_map(|unloading| &unloading.path);
     let crosses = flexure.events.iter().map(|event| moment_point(&event.point));
     Some(CurveValues {
         points: flexure.path.iter().map(moment_point).collect(),
-        back: back.map(moment_point).collect(),
+        unloading: unloading.map(moment_point).collect(),
         crosses: crosses.collect(),
         ..CurveValues::default()
     })

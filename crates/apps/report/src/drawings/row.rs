@@ -20,7 +20,7 @@ use crate::svg::{Element, Spot, arrow, circle, line, polygon, polyline, px, rect
 const LARGEST: f64 = 130.0;
 /// Maximum width of the drawn row, in units of `t`.
 const WIDEST: f64 = 44.0;
-/// The drawing may omit scales that move less than this fraction of the largest displacement.
+/// Fraction of the largest displacement below which the drawing may omit a scale.
 const STILL: f64 = 0.01;
 /// Depth of substrate below the deepest corner, px.
 const SUBSTRATE: f64 = 26.0;
@@ -32,7 +32,7 @@ const SHAFT: f64 = 5.0;
 const NOSE: f64 = 16.0;
 /// Radius of the ring at the first contact point of the needle, px.
 const RING: f64 = 3.5;
-/// Height above the scales for the load arrow, px.
+/// Height above the scales for the arrow of the load, px.
 const AIR: f64 = LONGEST + 24.0;
 
 /// The drawing of a punctured design.
@@ -113,7 +113,7 @@ impl<'a> RowSheet<'a> {
         let heights = (first..=last).flat_map(|i| corners(&row, body, i as f64, &rest));
         let (low, high) =
             heights.fold((0.0_f64, 1.0_f64), |(low, high), [_, y]| (low.min(y), high.max(y)));
-        // A corner of a tilted base is deeper than its middle.
+        // One corner of a tilted base is deeper than the middle of the base.
         let deepest = states
             .iter()
             .flat_map(|state| &state.scales)
@@ -238,7 +238,7 @@ impl<'a> RowSheet<'a> {
         let [left_end, right_end] = match self.case.puncture.scales {
             // `top` is not empty, because at least the punctured scale exists.
             RowLength::Auto => [top[0], top[top.len() - 1]],
-            // The end of a short row moves, but the surface far beyond it is at rest.
+            // The end of a short row moves, but the surface far beyond the row is at rest.
             RowLength::Scales(_) => {
                 let rest = Pose::new(0.0, 0.0, 0.0);
                 let [left, ..] = corners(&self.row, self.body, self.first as f64, &rest);
@@ -352,7 +352,7 @@ impl<'a> RowSheet<'a> {
         Some([[to[0], to[1] - length], to])
     }
 
-    /// Draws the load; for a guided needle also its tip and a ring at its first contact point.
+    /// Draws the load, and for a guided needle the tip and a ring at the first contact point.
     ///
     /// The distance from tip to ring shows how far the needle has slid.
     fn load(&self, state: &RowSnapshot) -> Element {
@@ -445,7 +445,7 @@ impl<'a> RowSheet<'a> {
 
     /// Returns the number of neighbours that the coverage line may cross.
     ///
-    /// A base is shorter than a pitch, so scales beyond these cannot reach the line.
+    /// A base is shorter than a pitch, so scales farther away cannot reach the line.
     fn coverage_reach(&self) -> i64 {
         (self.row.scale().shift() / self.row.pitch()).ceil() as i64 + 1
     }

@@ -45,7 +45,7 @@ mod tests {
         assert_eq!([7.3, 1.0, 0.04, 230.0, 0.5].map(round_below), [5.0, 1.0, 0.02, 200.0, 0.5]);
         // With 40 px for 2 mm, a bar of 5 mm is 100 px long.
         let view = View { scale: 40.0, origin: [0.0, 0.0] };
-        let bar = scale_bar(&view, Some(2.0), [200.0, 10.0]).expect("a bar").to_text();
+        let bar = scale_bar(&view, Some(2.0), [200.0, 10.0]).expect("a scale bar").to_text();
         assert!(bar.contains("5 mm") && bar.contains("x1=\"100\""), "{bar}");
         assert!(scale_bar(&view, None, [200.0, 10.0]).is_none());
     }

@@ -157,7 +157,7 @@ fn caption(case: &Case, state: &StripSnapshot) -> String {
     )
 }
 
-/// The shapes of a state, rotated so that its ends have equal and opposite rotations.
+/// The shapes of a strip or gap, rotated so that both ends have equal and opposite rotations.
 struct Shape {
     bodies: Vec<[[f64; 2]; 4]>,
     membrane: Vec<Vec<[f64; 2]>>,
@@ -182,10 +182,11 @@ impl Shape {
         shape.turned(-0.5 * (first[2] + last[2]))
     }
 
-    /// Returns the gap right of scale `left` and its two scales.
+    /// Returns the gap to the right of scale `left`, with the scales on both sides.
     fn of_gap(row: &Row, state: &StripSnapshot, left: usize) -> Self {
         let pair: Vec<Pose> = poses(state)[left..left + 2].to_vec();
-        // `overlaps` measures from the left scale of the pair, a strip from its first scale.
+        // The origin of `overlaps` is the left scale of the pair. The origin of a strip is its
+        // first scale.
         let along = left as f64 * row.pitch();
         let bodies = (0..2).map(|i| corners(row, Body::default(), (left + i) as f64, &pair[i]));
         let overlaps = overlaps(row, Body::default(), &pair)
@@ -244,7 +245,7 @@ fn poses(state: &StripSnapshot) -> Vec<Pose> {
     state.scales.iter().map(|&[x, y, rotation]| Pose::new(x, y, rotation)).collect()
 }
 
-/// Draws the moments that bend the gap as arrows round its two ends.
+/// Draws the moments that bend the gap as curved arrows at its two ends.
 fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
     let ([left, ..], [_, right, ..]) = (shape.bodies[0], shape.bodies[1]);
     let (left, right) = (view.place(left), view.place(right));

@@ -27,7 +27,7 @@ pub(super) struct MeasureChart {
     along: Vec<AxisColumn>,
     /// Index of the column [`APART`].
     apart: Option<usize>,
-    /// For each run of rows with equal values in [`APART`], its first row and this value.
+    /// First row and value of each block of consecutive rows with equal values in [`APART`].
     runs: Vec<(RowNum, String)>,
     /// True if all values of the measure are positive.
     is_positive: bool,
@@ -48,7 +48,7 @@ struct AxisColumn {
 impl MeasureChart {
     /// Creates the chart for a table with this header.
     ///
-    /// `None` if it is not the table of a measure.
+    /// `None` if `table` is not the table of a measure.
     pub fn new(table: &str, header: &StringRecord) -> Option<Self> {
         MEASURE_TABLES.iter().find(|(measure, _)| *measure == table)?;
         let name = physical_of(header, table).unwrap_or(table);
@@ -79,7 +79,7 @@ impl MeasureChart {
             axis.varies |= first != cell;
         }
         let apart = self.apart.and_then(|place| cells.get(place)).unwrap_or_default();
-        // Stop at `SERIES` + 1 runs: all runs of a long table would need much memory.
+        // Stop at `SERIES` + 1 blocks: all blocks of a long table would need much memory.
         if self.runs.len() <= SERIES && self.runs.last().is_none_or(|(_, value)| value != apart) {
             self.runs.push((row, apart.to_owned()));
         }
@@ -127,9 +127,10 @@ impl MeasureChart {
         let mut values: Vec<&str> = self.runs.iter().map(|(_, value)| value.as_str()).collect();
         values.sort_unstable();
         values.dedup();
-        // A series is one range of cells, so the rows of a value must be contiguous.
-        let stand_together = values.len() == self.runs.len() && self.runs.len() <= SERIES;
-        if !stand_together || axis.name == APART {
+        // A series is one range of cells, so the designs of a gap value can form a series only if
+        // their rows are contiguous.
+        let are_contiguous = values.len() == self.runs.len() && self.runs.len() <= SERIES;
+        if !are_contiguous || axis.name == APART {
             return vec![("all designs".to_owned(), 1, rows)];
         }
         let ends = self.runs.iter().skip(1).map(|(row, _)| row - 1).chain([rows]);

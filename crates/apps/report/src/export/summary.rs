@@ -20,7 +20,7 @@ const NAME: &str = "summary";
 const LISTED: usize = 10;
 /// Warning for a design with a fold in the surface of the substrate.
 const FOLDS: &str = "the surface folds: the critical force is not valid";
-/// Short form of this warning, placed after the number of a design.
+/// Short form of [`FOLDS`], placed after the number of a design.
 const DOUBT: &str = " ⚠ surface folds";
 /// Widths of the columns, characters.
 const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];

@@ -1,4 +1,4 @@
-//! Contours of values on a grid, by marching squares.
+//! Contours of values on a grid, computed by the marching squares algorithm.
 
 /// A position on the grid. Nodes have whole numbers as coordinates.
 type Place = [f64; 2];
@@ -20,13 +20,14 @@ pub(super) fn contours(
 /// Joins segments that share ends into lines.
 pub(super) fn joined(segments: Vec<[Place; 2]>) -> Vec<Vec<Place>> {
     let mut lines: Vec<Vec<Place>> = Vec::new();
-    let mut left = segments;
-    while let Some(first) = left.pop() {
+    let mut remaining = segments;
+    while let Some(first) = remaining.pop() {
         let mut line = first.to_vec();
         for _ in 0..2 {
-            while let Some(k) = left.iter().position(|segment| continued(&line, segment).is_some())
+            while let Some(k) =
+                remaining.iter().position(|segment| continued(&line, segment).is_some())
             {
-                let segment = left.swap_remove(k);
+                let segment = remaining.swap_remove(k);
                 line.extend(continued(&line, &segment));
             }
             // Then extend the line at its other end.

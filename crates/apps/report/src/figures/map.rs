@@ -9,13 +9,13 @@ use text::number::{self, DistinctNumbers};
 
 use super::contours::{contours, joined};
 use super::names::{axis_label, in_short, in_words, with_value};
-use super::{Figure, columns, is_touched_by_folds, sheet};
+use super::{Figure, columns, is_affected_by_folds, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, NAME, upright_name};
 use crate::colors::{FAILURES, FAINT, INK, RED, failure_color, map_color};
 use crate::designs::{AxisValues, Designs};
 use crate::label::{Anchor, fitting, label, width};
-use crate::paper::{Paper, some};
+use crate::paper::{Paper, evenly_spaced};
 use crate::svg::{Element, Spot, line, polyline, rect};
 
 const WIDTH: f64 = 1000.0;
@@ -27,7 +27,7 @@ const BETWEEN: [f64; 2] = [16.0, 34.0];
 const HEIGHTS: [f64; 2] = [200.0, 420.0];
 /// Minimum width of a map, px.
 const LEAST: f64 = 90.0;
-/// Size of the values at contours, px.
+/// Font size of the values at contours, px.
 const VALUE: f64 = 10.0;
 /// Maximum number of maps in a figure.
 const MAPS: usize = 24;
@@ -68,7 +68,7 @@ pub enum InvalidMap {
         /// Varied parameters.
         known: Vec<String>,
     },
-    /// Both axes are the same.
+    /// The two axes show the same parameter.
     #[error("--y {0}: is on the horizontal axis already; choose another parameter")]
     Twice(String),
     /// The column has no numbers.
@@ -105,11 +105,11 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     // Parameters with words as values may vary, too, but cannot be axes.
     let known = designs.varied().into_iter().filter(|axis| designs.has(axis));
     let known: Vec<String> = known.map(str::to_owned).collect();
-    let held = designs.at(&request.at)?;
+    let selected = designs.at(&request.at)?;
     let mut axes = Vec::new();
     for (option, axis) in [("--x", &request.x), ("--y", &request.y)] {
         // A length in mm also selects the axis of this length divided by the thickness.
-        let varied = held.varied_as(axis).filter(|varied| designs.has(varied));
+        let varied = selected.varied_as(axis).filter(|varied| designs.has(varied));
         axes.push(varied.ok_or_else(|| InvalidMap::NoAxis {
             option,
             found: axis.clone(),
@@ -119,7 +119,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     if axes[0] == axes[1] {
         return Err(InvalidMap::Twice(request.y.clone()));
     }
-    // The column `design` holds numbers, but they are names of designs.
+    // The numbers in the column `design` are names of designs, not values.
     let is_shown = designs.has(&request.of) || request.of == name::FIRST_FAILURE;
     if !is_shown || !designs.headers().contains(&request.of) || request.of == "design" {
         return Err(InvalidMap::NoNumbers(request.of.clone()));
@@ -128,12 +128,12 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     let x = if designs.has(&request.x) { request.x.as_str() } else { axes[0] };
     let y = if designs.has(&request.y) { request.y.as_str() } else { axes[1] };
     let of = request.of.as_str();
-    let parts = held.parts_by(&axes);
+    let parts = selected.parts_by(&axes);
     if parts.len() > MAPS {
         return Err(too_many(&parts));
     }
     // All maps have the same scale, so that their colours are comparable.
-    let scale = ChartAxis::fit(&axis_label(of), held.numbers(of));
+    let scale = ChartAxis::fit(&axis_label(of), selected.numbers(of));
     let subject = MapSubject { x, y, of, scale };
     let at = request.at.iter().filter(|(axis, _)| is_single(&request.at, axis));
     let at = at.map(|(axis, value)| (axis.as_str(), value.as_str().into()));
@@ -176,9 +176,9 @@ pub(crate) fn of_failures(sweep: &str, designs: &Designs, paper: Paper) -> Figur
 }
 
 impl Designs {
-    /// Returns the designs with the given values, as pairs of column name and value.
+    /// Returns the designs with the values `at`, given as pairs of column name and value.
     ///
-    /// If a column has several values, a design needs one of them.
+    /// If `at` contains several values of a column, a design needs one of these values.
     ///
     /// # Errors
     /// If no design has one of the values.
@@ -250,7 +250,7 @@ impl MapSubject<'_> {
         let all = parts.len();
         let omitted = parts.first().and_then(|(values, _)| values.first());
         let omitted = omitted.map(|(axis, value)| format!("--at {axis}={value}"));
-        let parts = &some(parts.to_vec(), paper.panels(WIDTH, count, all));
+        let parts = &evenly_spaced(parts.to_vec(), paper.panels(WIDTH, count, all));
         let omitted = omitted.filter(|_| parts.len() < all).map(|example| {
             format!("shows {} of {all} maps; choose with --at, e.g. {example}", parts.len())
         });
@@ -296,7 +296,7 @@ impl MapSubject<'_> {
 
     /// Returns true if a fold of the substrate surface invalidates the column.
     fn marks_folds(&self) -> bool {
-        is_touched_by_folds(self.of)
+        is_affected_by_folds(self.of)
     }
 
     /// Returns true for a map of failure modes. Their values are words.
@@ -469,9 +469,10 @@ impl Map<'_> {
             .containing(values)
     }
 
-    /// Returns a spot on a contour where its value fits into the map and overlaps no other value.
+    /// Returns a spot on a contour for its value, inside the map and without overlaps.
     ///
-    /// `None` if there is no such spot, or if the contour is too short for its value.
+    /// `None` if every spot is outside or overlaps another value, or if the contour is too short
+    /// for its value.
     fn free_spot(&self, line: &[Spot], text: &str, others: &[(Spot, String)]) -> Option<Spot> {
         let [across, down] = half_size(text);
         let lengths = line.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]));

@@ -4,7 +4,7 @@
 use text::number::same;
 
 use super::names::{axis_label, with_value};
-use super::{Quantity, columns, is_touched_by_folds, sheet};
+use super::{Quantity, columns, is_affected_by_folds, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{
     Area, ChartPanel, LINE, MarkLook, NAME, design_mark, mark, mark_legend, upright_name,
@@ -13,7 +13,7 @@ use crate::colors::INK;
 use crate::designs::Designs;
 use crate::label::{Anchor, fitting, label};
 use crate::palette::SlantPalette;
-use crate::paper::{Paper, some};
+use crate::paper::{Paper, evenly_spaced};
 use crate::svg::{Element, Spot, polygon, polyline};
 
 const WIDTH: f64 = 1000.0;
@@ -26,7 +26,7 @@ const BETWEEN: [f64; 2] = [12.0, 28.0];
 const HEIGHT: f64 = 190.0;
 /// Minimum width of a panel, px.
 const LEAST: f64 = 120.0;
-/// Maximum number of panels; with more gaps, only a selection of them is shown.
+/// Maximum number of panels; of more values, only a selection has panels.
 const PANELS: usize = 15;
 
 /// Returns the column of the horizontal axis, and the column with a panel for each value.
@@ -46,7 +46,7 @@ fn panels(designs: &Designs, across: &str, paper: Paper) -> (usize, Vec<f64>) {
     let room = paper.width(WIDTH) - LEFT - RIGHT;
     let wanted = columns(values.len().min(PANELS));
     let columns = paper.columns(wanted, room, LEAST, BETWEEN[0]);
-    (columns, some(values, paper.panels(WIDTH, columns, PANELS)))
+    (columns, evenly_spaced(values, paper.panels(WIDTH, columns, PANELS)))
 }
 
 /// Returns a note on panels that do not fit on the paper; `None` if all fit.
@@ -65,7 +65,8 @@ pub(crate) fn omitted(designs: &Designs, paper: Paper) -> Option<String> {
 
 /// Draws a quantity of all designs in panels.
 ///
-/// Designs with `yes` in the column `filled` have filled marks; without this column, all have.
+/// Designs with `yes` in the column `filled` have filled marks. If `filled` is `None`, all designs
+/// have filled marks.
 pub(crate) fn figure(
     name: &str,
     designs: &Designs,
@@ -80,7 +81,7 @@ pub(crate) fn figure(
     let (columns, values) = panels(designs, across, paper);
     let width = (full - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
     let palette = designs.palette();
-    let has_folds = is_touched_by_folds(&quantity.column) && designs.any_folded();
+    let has_folds = is_affected_by_folds(&quantity.column) && designs.any_folded();
     // On narrow paper the legend starts at the left edge.
     let start = if paper.is_narrow(WIDTH) { 20.0 } else { LEFT };
     let (legend, mut below) = mark_legend(&palette, has_folds, [start, 50.0], full - RIGHT);
@@ -159,7 +160,7 @@ impl PanelSeries<'_> {
         }))
     }
 
-    /// Returns x value, spot and row of a design; `None` if it has no value or lies outside.
+    /// Returns x value, spot and row of a design; `None` if it has no value or is off the panel.
     fn point(&self, panel: &ChartPanel, row: usize) -> Option<(f64, Spot, usize)> {
         let along = self.designs.number(self.along, row)?;
         let value = self.designs.number(&self.quantity.column, row)?;
@@ -191,7 +192,7 @@ impl PanelSeries<'_> {
     fn look(&self, row: usize) -> MarkLook {
         match self.is_filled(row) {
             false => MarkLook::Open,
-            true if is_touched_by_folds(&self.quantity.column) => MarkLook::of(self.designs, row),
+            true if is_affected_by_folds(&self.quantity.column) => MarkLook::of(self.designs, row),
             true => MarkLook::Filled,
         }
     }

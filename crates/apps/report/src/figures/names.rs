@@ -6,7 +6,7 @@ use results::columns::{explain_value, name};
 
 /// Columns with a symbol: column name, words, symbol, and definition of the symbol.
 ///
-/// The definition is used where it fits.
+/// A vertical axis label omits the definition if it is too long.
 const NAMED: [(&str, &str, &str, &str); 15] = [
     (name::COVERAGE, "coverage", "$λ$", ""),
     (name::CRITICAL_FORCE, "critical force", "$F_c^*$", " = $F_c$(1 − $ν$^2)/($E_s L t$)"),
@@ -25,7 +25,9 @@ const NAMED: [(&str, &str, &str, &str); 15] = [
     ("thickness_mm", "thickness", "$t$", ""),
 ];
 
-/// Unit suffixes of column names, with their printed form. A longer suffix precedes its own end.
+/// Unit suffixes of column names, with their printed form.
+///
+/// The first suffix that matches applies, so `_N_mm` precedes `_mm`.
 const UNITS: [(&str, &str); 8] = [
     ("_N_mm2", "N mm²"),
     ("_kg_m2", "kg/m²"),
@@ -46,16 +48,17 @@ fn without_unit(column: &str) -> (&str, String) {
     let end = UNITS.iter().find_map(|(end, unit)| Some((column.strip_suffix(end)?, *unit)));
     let Some((name, unit)) = end else { return (column, String::new()) };
     // The suffix `_N_mm` means a moment or a force per width; the column's description decides.
-    let said = explain_value(column).map(|(unit, _)| unit.replace("^2", "²"));
-    (name, said.filter(|said| !["-", "deg"].contains(&said.as_str())).unwrap_or(unit.to_owned()))
+    let described = explain_value(column).map(|(unit, _)| unit.replace("^2", "²"));
+    let described = described.filter(|unit| !["-", "deg"].contains(&unit.as_str()));
+    (name, described.unwrap_or(unit.to_owned()))
 }
 
-/// Returns the symbol of a column and its definition, if it has one.
+/// Returns the symbol of a column and the definition of this symbol, if the column has a symbol.
 fn symbol(column: &str) -> Option<(&'static str, &'static str)> {
     NAMED.iter().find(|(name, ..)| *name == column).map(|(.., symbol, meaning)| (*symbol, *meaning))
 }
 
-/// Returns as words the name of a column without its unit.
+/// Returns the words for the name of a column, which is given without its unit.
 fn words(name: &str) -> String {
     let mut quantiles = QUANTILES.iter();
     let quantile = quantiles.find_map(|(end, words)| Some((name.strip_suffix(end)?, *words)));

@@ -40,7 +40,7 @@ pub(crate) struct CriterionAxis {
 }
 
 impl CriterionAxis {
-    /// Returns the value of a design on the axis; `None` if it has none.
+    /// Returns the value of a design on the axis; `None` if the design has no value.
     fn value(&self, designs: &Designs, row: usize) -> Option<f64> {
         let value = designs.number(&self.column, row)?;
         Some(if self.is_inverse { value.recip() } else { value })
@@ -167,7 +167,8 @@ fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element
     let mut front: Vec<&Point> =
         points.iter().zip(&on_front).filter(|(_, on)| **on).map(|(point, _)| point).collect();
     front.sort_by(|a, b| a.criteria[0].total_cmp(&b.criteria[0]));
-    // All designs of the front have marks, but only some dominated designs of a long table.
+    // Every design of the front has a mark. Of the dominated designs of a long table, only some
+    // are drawn.
     let dominated = thinned(points.len(), PAIRS.len()).filter(|&k| !on_front[k]).map(|k| {
         let (point, dot) = (&points[k], Element::new("use").with("href", "#dot"));
         let dot = dot.at("x", point.spot[0]).at("y", point.spot[1]).with("color", DOMINATED);

@@ -1,4 +1,4 @@
-//! Figures of a search: its history and its front.
+//! Figures of a search: history of the evaluated designs, and front.
 
 use super::names::axis_label;
 use super::sheet;

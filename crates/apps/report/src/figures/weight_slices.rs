@@ -1,6 +1,6 @@
 //! Slices of the tetrahedron of the weights of four criteria.
 //!
-//! Each slice has a constant weight of coverage. In slices, no weighting hides another.
+//! Each slice has a constant weight of coverage. In slices, no weighting hides another weighting.
 
 use crate::colors::{FAINT, INK, RED};
 use crate::designs::Designs;
@@ -11,9 +11,11 @@ use crate::svg::{Element, Spot, circle, line, polygon};
 const SLICES: u32 = 5;
 /// Side of the largest slice on wide paper, px.
 const SIDE: f64 = 286.0;
-/// Height of an equilateral triangle relative to its side.
+/// Ratio of height to side of an equilateral triangle.
 const RISE: f64 = 0.866_025_403_784_438_6;
-/// Lower left corner of each slice, and spot of the corner of the tetrahedron, on wide paper.
+/// Lower left corner of each slice on wide paper, px.
+///
+/// The last entry is the position of the corner with all weight on coverage.
 const PLACES: [Spot; SLICES as usize + 1] =
     [[44.0, 340.0], [352.0, 340.0], [44.0, 566.0], [258.0, 566.0], [412.0, 566.0], [520.0, 566.0]];
 /// Distance of the lowest text below the base of the lowest slice, px.
@@ -92,7 +94,7 @@ impl WeightSlices {
     fn spot(&self, k: usize, [_, n, _, l]: [f64; 4]) -> Spot {
         let [left, base] = PLACES[k].map(|place| self.size * place);
         let side = self.size * SIDE;
-        // Smaller slices move down, because the texts above and between them keep their size.
+        // Smaller slices move down, because texts above and between the slices keep their size.
         let down = (1.0 - self.size) * if base > self.size * PLACES[0][1] { 120.0 } else { 60.0 };
         [left + side * (l + 0.5 * n), base + down - side * RISE * n]
     }
@@ -262,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn dots_do_not_overlap() {
+    fn dots_of_weightings_do_not_overlap() {
         for resolution in [1, 4, 10, 20, 23] {
             let slices = slices(resolution);
             let dots: Vec<Dot> = slices.dots();

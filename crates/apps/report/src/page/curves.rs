@@ -1,4 +1,4 @@
-//! The chart with the curves of all solved designs; the page shows two of them at a time.
+//! The chart with the curves of all solved designs; the page shows the curves of two designs.
 
 use super::simplified::simplified;
 use super::{Page, PageDesign};
@@ -13,7 +13,7 @@ const MARGINS: [f64; 3] = [78.0, 44.0, 52.0];
 /// A logarithmic axis starts at the smallest maximum of a curve, divided by this factor.
 const DECADES: f64 = 100.0;
 
-/// A kind of curve.
+/// A kind of curve: puncture or bending.
 struct Kind {
     /// Returns the points of this curve of a design.
     points: fn(&PageDesign) -> &[[f64; 2]],
@@ -65,8 +65,8 @@ pub(super) fn figure(page: &Page, is_log: bool) -> Option<String> {
 
 /// Draws the curves of one kind, each scaled to the full panel, and ticks for every possible axis.
 ///
-/// The page selects the ticks that fit two curves, and scales these curves to them. A logarithmic
-/// y axis is the same for all curves.
+/// The page shows two curves: it selects an axis that contains both, and scales both curves to this
+/// axis. A logarithmic y axis is the same for all curves.
 fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) -> Vec<Element> {
     let solved: Vec<(&PageDesign, [f64; 2])> = page
         .solved
@@ -113,13 +113,13 @@ fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) 
 
 /// Returns axes from 0 to `high`.
 ///
-/// If `logarithmic` is given, it is the y axis.
+/// If `logarithmic` is given, the y axis is this axis.
 fn axes(labels: [&str; 2], logarithmic: Option<&ChartAxis>, high: f64) -> [ChartAxis; 2] {
     let [x, y] = labels.map(|label| ChartAxis::exact(label, 0.0, high));
     [x, logarithmic.cloned().unwrap_or(y)]
 }
 
-/// Returns all round upper ends of an axis for curves with maxima from `low` to `high`.
+/// Returns the round numbers at which axes end, for curves with maxima from `low` to `high`.
 fn rungs((low, high): (f64, f64)) -> Vec<f64> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     let steps = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * 10f64.powi(decade)));

@@ -43,12 +43,12 @@ pub(super) fn write_drawings(out: &mut impl Write, page: &Page) -> io::Result<()
     drawn.try_for_each(|design| write_packed(out, &drawing_id(design), design.svg.as_bytes()))
 }
 
-/// Returns the id of the element that holds a drawing.
+/// Returns the id of the HTML element that contains the drawing of a design.
 fn drawing_id(design: &PageDesign) -> String {
     format!("solved-{}", design.number)
 }
 
-/// Returns the data of a page, with the descriptions of its written figures.
+/// Returns the data of a page; `figures` are the descriptions of the figures already written.
 pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
     let headers = page.designs.headers();
     let columns = headers.iter().zip(&page.columns);

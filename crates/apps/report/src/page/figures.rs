@@ -34,7 +34,10 @@ struct FigureWriter<'w, W> {
 }
 
 impl<W: Write> FigureWriter<'_, W> {
-    /// Writes a figure with its kind, its variant and the values of its further parameters.
+    /// Writes a figure and records its description.
+    ///
+    /// `choice` is the variant of this kind of figure. `part` contains the values of the parameters
+    /// besides gap, aspect ratio and slant.
     fn add(
         &mut self,
         kind: &str,
@@ -53,7 +56,7 @@ impl<W: Write> FigureWriter<'_, W> {
         Ok(())
     }
 
-    /// Writes the only figure of a kind, if there is one.
+    /// Writes `svg`, the only figure of its kind; writes nothing for `None`.
     fn only(&mut self, kind: &str, choice: &str, svg: Option<String>) -> io::Result<()> {
         svg.map_or(Ok(()), |svg| self.add(kind, choice, &Map::new(), &svg))
     }
@@ -96,7 +99,7 @@ impl<W: Write> FigureWriter<'_, W> {
 pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>> {
     let designs = &page.designs;
     let mut parts = designs.parts();
-    // Write parts with the best designs first: designs that were solved again are the best ones.
+    // Parts with designs that were solved again come first, because these designs are the best.
     let solved: HashSet<&str> = page.solved.iter().map(|design| design.number.as_str()).collect();
     parts.sort_by_key(|(_, part)| !(0..part.count()).any(|row| solved.contains(part.design(row))));
     let measures = measures(designs);
@@ -117,7 +120,7 @@ pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>>
 
 /// Returns the columns with a figure, in addition to the criteria of the paper.
 ///
-/// Large tables have fewer such figures.
+/// Large tables have fewer of these figures, to limit the number of marks.
 fn measures(designs: &Designs) -> Vec<String> {
     let most = MEASURES.min(MARKS / designs.count().max(1));
     let shown = designs.headers().iter().filter(|header| {

@@ -80,7 +80,7 @@ impl PageFront {
 
     /// Draws one panel with the designs of the grid and the found designs.
     ///
-    /// If the search had two objectives, a line joins the found designs, which are a front.
+    /// If the search had two objectives, the found designs form a front, and a line joins them.
     fn panel(&self, grid: &Designs, pair: &[&str; 2], area: Area, panels: usize) -> Vec<Element> {
         let [x, y] = &pair.map(|column| {
             let values = grid.numbers(column).chain(self.designs.numbers(column));
@@ -133,6 +133,8 @@ impl PageFront {
 }
 
 /// Returns the spot of the design in `row` on a panel with the two columns `pair` as axes.
+///
+/// `None` if the design has no value in a column, or lies outside the panel.
 fn spot(panel: &ChartPanel, designs: &Designs, pair: &[&str; 2], row: usize) -> Option<Spot> {
     let [x, y] = pair.map(|column| designs.number(column, row));
     panel.place(x?, y?)

@@ -10,7 +10,7 @@ pub(super) fn simplified(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let size = [0, 1].map(|k| {
         let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
-        // A level curve has a height of zero, by which `distance` must not divide.
+        // `distance` divides by the size, which is zero for a horizontal or vertical curve.
         (high - low).max(f64::MIN_POSITIVE)
     });
     let mut kept = vec![false; points.len()];

@@ -113,7 +113,8 @@ fn results(is_physical: bool) -> Results {
 /// Returns all figures of the table, and a map, for each paper.
 fn all<const N: usize>(is_physical: bool, papers: [Paper; N]) -> [Vec<report::Figure>; N] {
     let results = results(is_physical);
-    let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
+    let ranking =
+        Ranking::new(&results, TetrahedralGrid::default()).expect("the table has designs to rank");
     let designs = Designs::of(&results);
     let of = if is_physical { "critical_force_N" } else { "critical_force" };
     papers.map(|paper| {
@@ -147,7 +148,7 @@ fn labels_are_inside_the_sheet_and_do_not_overlap() {
 fn figures_for_a_journal_column_have_fewer_panels_and_legible_letters() {
     let [wide, narrow] = all(false, [Paper::WIDE, Paper::of_width(85.0)]);
     for (wide, narrow) in wide.iter().zip(&narrow) {
-        let points = report::smallest_letters(&narrow.svg, 85.0).expect("letters");
+        let points = report::smallest_letters(&narrow.svg, 85.0).expect("the figure has text");
         assert!(points >= 6.0, "{}: letters of {points} pt", narrow.name);
         let height = attribute(&narrow.svg, "height").expect("a height");
         assert!(height < 3.2 * 85.0 * 96.0 / 25.4, "{}", narrow.name);
@@ -261,7 +262,7 @@ fn measured_curves_are_thin_black_lines() {
     }
 }
 
-/// The failures of all modes lie at one point, at neighbouring points, or all over the path.
+/// The failures of all modes lie at one point, at neighbouring points, or at points along the path.
 #[test]
 fn names_of_limits_do_not_overlap() {
     let case = super::case(&super::design(60.0), "", "");

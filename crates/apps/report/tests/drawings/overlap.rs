@@ -31,14 +31,14 @@ fn clipped(polygon: &[Point], a: Point, b: Point) -> Vec<Point> {
 }
 
 /// Returns the intersection area of two convex polygons, by clipping `a` at each edge of `b`.
-fn shared(a: &[Point; 4], b: &[Point; 4]) -> f64 {
+fn intersection_area(a: &[Point; 4], b: &[Point; 4]) -> f64 {
     let edges = (0..4).map(|k| (b[k], b[(k + 1) % 4]));
     area(&edges.fold(a.to_vec(), |polygon, (from, to)| clipped(&polygon, from, to)))
 }
 
 /// Returns the corners of every scale, with the origin at the first node.
 fn bodies(design: &Design, state: &RowSnapshot) -> Vec<[Point; 4]> {
-    let row = design.row().expect("a row");
+    let row = design.row().expect("a valid row");
     state
         .scales
         .iter()
@@ -65,11 +65,11 @@ fn red_areas(svg: &str) -> Vec<(usize, f64)> {
             .filter(|part| !part.trim().is_empty())
             .map(|part| {
                 let mut numbers = part.split_whitespace().map(|n| n.parse().expect("a number"));
-                [numbers.next().expect("x"), numbers.next().expect("y")]
+                [numbers.next().expect("an x coordinate"), numbers.next().expect("a y coordinate")]
             })
             .collect();
         let left = path.split("data-left=\"").nth(1).and_then(|rest| rest.split('"').next());
-        (left.expect("left").parse().expect("a number"), area(&points).abs())
+        (left.expect("the index of the left scale").parse().expect("a number"), area(&points).abs())
     });
     parsed.collect()
 }
@@ -99,7 +99,7 @@ fn agree(slant: f64, modulus: f64) -> f64 {
         let bodies = bodies(&design, &state);
         let red = red_areas(&drawn);
         for (left, pair) in bodies.windows(2).enumerate() {
-            let expected = shared(&pair[0], &pair[1]);
+            let expected = intersection_area(&pair[0], &pair[1]);
             let own = red.iter().filter(|(l, _)| *l == left).map(|(_, area)| area / unit);
             let found: f64 = own.sum();
             largest = largest.max(expected);
@@ -117,12 +117,12 @@ fn agree(slant: f64, modulus: f64) -> f64 {
 fn overlaps_of_soft_contacts_are_drawn_with_their_areas() {
     for (slant, modulus) in [(0.0, 0.1), (45.0, 2.0), (75.0, 2.0)] {
         let largest = agree(slant, modulus);
-        assert!(largest > 1e-7, "slant {slant}: nothing to compare, {largest:e}");
+        assert!(largest > 1e-7, "slant {slant}: no overlap to compare, {largest:e}");
     }
 }
 
 #[test]
-fn nearly_rigid_contacts_have_exact_tiny_overlaps() {
+fn overlaps_of_nearly_rigid_contacts_are_drawn_with_their_areas() {
     let largest = agree(45.0, 9677.0);
     assert!(largest < 1e-10, "{largest:e}");
 }

@@ -55,14 +55,15 @@ fn page(designs: Designs) -> Page {
 
 fn html_of(page: &Page) -> String {
     let mut out = Vec::new();
-    page.write(&mut out).expect("written");
-    String::from_utf8(out).expect("a text")
+    page.write(&mut out).expect("writing to memory succeeds");
+    String::from_utf8(out).expect("UTF-8 text")
 }
 
 #[test]
 fn figures_are_named_and_reproducible() {
     let results = results(&table());
-    let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
+    let ranking =
+        Ranking::new(&results, TetrahedralGrid::default()).expect("the table has designs to rank");
     let designs = Designs::of(&results);
     let all = figures("x", &designs, Some((&designs, &ranking)), Paper::WIDE);
     let names: Vec<_> = all.iter().map(|figure| figure.name.as_str()).collect();
@@ -83,17 +84,17 @@ fn figures_are_named_and_reproducible() {
 
 /// The page ranks each column in the same direction as `squama rank`.
 #[test]
-fn the_page_ranks_columns_in_the_direction_of_rankings() {
+fn the_page_ranks_columns_in_the_same_direction_as_squama_rank() {
     let material = "material.thickness_mm = 1\nmaterial.substrate_modulus_MPa = 0.3\nmaterial.membrane_modulus_MPa = 4.5\n\
                     material.scale_density_kg_m3 = 1200\nimperfection.gap_cv = 0.1";
-    let sweep =
-        sweep::Sweep::parse(&format!("name = 'x'\n{material}"), "x.toml", &[]).expect("a sweep");
+    let sweep = sweep::Sweep::parse(&format!("name = 'x'\n{material}"), "x.toml", &[])
+        .expect("a valid sweep");
     let columns = results::columns::design_columns(&sweep);
     let headers: Vec<_> = columns.iter().map(|column| column.name.to_string()).collect();
     let blank = ",".repeat(headers.len() - 1);
     let designs = Designs::of(&results(&format!("{}\n0001{blank}\n", headers.join(","))));
     let html = html_of(&page(designs));
-    let mut told = 0;
+    let mut directed = 0;
     for name in &headers {
         let plain = name.parse::<ranking::Criterion>().ok().map(|criterion| criterion.goal.key());
         let entry =
@@ -105,9 +106,9 @@ fn the_page_ranks_columns_in_the_direction_of_rankings() {
             Some(plain.map_or("null".to_owned(), |key| format!("\"{key}\"")).as_str()),
             "{name}"
         );
-        told += usize::from(plain.is_some());
+        directed += usize::from(plain.is_some());
     }
-    assert!(told > 12, "{told} columns have a direction");
+    assert!(directed > 12, "{directed} columns have a direction");
 }
 
 #[test]
@@ -121,7 +122,7 @@ fn columns_without_values_have_no_figure() {
 }
 
 #[test]
-fn further_axes_have_separate_figures_for_each_value() {
+fn each_value_of_an_additional_parameter_has_its_own_figures() {
     let mut lines = table().lines().map(str::to_owned).collect::<Vec<_>>();
     for (k, line) in lines.iter_mut().enumerate() {
         line.push_str(if k == 0 { ",width_over_t" } else { [",0.5", ",2"][k % 2] });
@@ -149,12 +150,12 @@ fn pages_are_complete_and_reproducible() {
     let html = html_of(&page(designs()));
     assert_eq!(html, html_of(&page(designs())));
     for place in ["title", "version", "style", "scripts", "data"] {
-        assert!(!html.contains(&format!("{{{{{place}}}}}")), "{place} is filled");
+        assert!(!html.contains(&format!("{{{{{place}}}}}")), "{place} is not filled");
     }
     for outside in ["src=\"http", "<link", "@import"] {
         assert!(!html.contains(outside), "{outside}");
     }
-    // A hostile name must not end the script that holds the data.
+    // A hostile name must not end the script that contains the data.
     assert!(!html.contains("a </script>"));
     // Other text must not open a comment or a script inside the data either.
     let hostile = Page {
@@ -164,7 +165,7 @@ fn pages_are_complete_and_reproducible() {
     };
     let hostile = html_of(&hostile);
     let data = hostile.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next());
-    let data = data.expect("a script that holds the data");
+    let data = data.expect("a script that contains the data");
     assert!(!data.contains('<') && data.contains("\\u003c!--\\u003cscript"), "{data}");
     assert!(hostile.contains("<title>&lt;!--&lt;script&gt;\\u{202e}x</title>"));
     assert!(data.contains("\"folder\":\"'a b/\\u003c!--'\""), "{data}");
@@ -220,7 +221,8 @@ fn unpacked(html: &str, figure: &serde_json::Value) -> Option<(String, String)> 
 #[test]
 fn a_page_has_the_same_figures_as_files() {
     let results = results(&table());
-    let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
+    let ranking =
+        Ranking::new(&results, TetrahedralGrid::default()).expect("the table has designs to rank");
     let files = figures("x", &designs(), Some((&designs(), &ranking)), Paper::WIDE);
     let own = figures_of(&html_of(&page(designs())));
     let kinds = [

@@ -11,8 +11,8 @@ use ranking::{
     ranking_columns, winner_columns,
 };
 use results::columns::{
-    EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, SCALES, STEPS, design_columns,
-    flexure_path_columns, path_columns, tip_force_columns, value_columns,
+    EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, LOADED_PLACES, SCALES, STEPS,
+    design_columns, flexure_path_columns, path_columns, tip_force_columns, value_columns,
 };
 use results::{
     Column, DERIVATIVE_COLUMNS, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns,
@@ -27,7 +27,7 @@ fn sweep(text: &str) -> Sweep {
 
 /// Parses a goal.
 fn goal(text: &str) -> DesignGoal {
-    DesignGoal::parse(text, "x.toml", &[]).expect("a goal")
+    DesignGoal::parse(text, "x.toml", &[]).expect("a valid goal")
 }
 
 fn root() -> &'static Path {
@@ -53,7 +53,7 @@ fn columns<R>(columns: &[Column<R>]) -> String {
 /// Material of definitions with all columns in physical units.
 const MATERIAL: &str = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nmembrane_modulus_MPa = 1\nscale_density_kg_m3 = 1";
 
-/// Requests for further columns: words of the heading, and keys of a definition.
+/// Requests for additional columns: words of the heading in the guide, and keys of a definition.
 const REQUESTS: [(&str, &str); 10] = [
     ("a guided needle", "puncture.needle = 'guided'"),
     ("`puncture.depth_over_t` or `depth_mm`", "puncture.depth_over_t = 0.2"),
@@ -125,6 +125,7 @@ fn sections_of_single_designs() -> impl Iterator<Item = Section> {
         ("`path.csv`", columns(&path_columns(true, true))),
         ("`path.csv`, of a round tip in addition", columns(&tip_force_columns(&[vec![(0, 0.0)]]))),
         ("`events.csv`", columns(EVENTS)),
+        ("`places.csv`", columns(LOADED_PLACES)),
         ("`scales.csv`", columns(SCALES)),
         ("`steps.csv`", columns(STEPS)),
         ("`flexure_path.csv`", columns(&flexure_path_columns(true))),
@@ -181,7 +182,7 @@ fn the_guide_to_the_results_explains_every_column() {
     if std::env::var_os("UPDATE_GUIDE").is_some() {
         let file = root().join("results/README.md");
         let before = text("results/README.md").replace(&guide, "");
-        std::fs::write(file, before + &expected).expect("writable");
+        std::fs::write(file, before + &expected).expect("the file is writable");
     } else {
         assert_eq!(guide, expected, "UPDATE_GUIDE=1 updates the guide");
     }
@@ -195,16 +196,17 @@ fn the_paper_sweep_lists_every_key_with_its_default() {
         let is_given = parameter.is_given(&sweep::Case::default());
         let remark = if is_given { "" } else { "# " };
         let line = format!("\n{remark}{} = ", parameter.key);
-        // A length in mm is only mentioned, because it replaces its ratio to the thickness.
+        // A length in mm is only mentioned, because the sweep sets the length divided by the
+        // thickness.
         let listed = format!(" {}", parameter.key);
-        let stands = paper.contains(if parameter.is_in_mm() { &listed } else { &line });
-        assert!(stands, "{} is missing", parameter.path());
+        let is_listed = paper.contains(if parameter.is_in_mm() { &listed } else { &line });
+        assert!(is_listed, "{} is missing", parameter.path());
     }
     assert_eq!(read("sweeps/paper.toml").to_toml(), sweep("name = 'paper'").to_toml());
 }
 
 #[test]
-fn descriptions_of_the_other_sweeps_are_true() {
+fn the_other_sweeps_have_the_described_sizes_and_needles() {
     assert_eq!(read("sweeps/paper-as-written.toml").grid().len(), 720);
     assert_eq!(read("sweeps/paper-neo-hookean.toml").grid().len(), 720);
     assert_eq!(read("sweeps/smoke.toml").grid().len(), 12);
@@ -213,10 +215,10 @@ fn descriptions_of_the_other_sweeps_are_true() {
     assert!(read("sweeps/imperfection.toml").is_imperfect());
     assert!(!read("sweeps/paper.toml").is_imperfect());
     let strong = DesignGoal::read(&root().join("sweeps/goals/strong-and-covered.toml"), &[]);
-    assert_eq!(strong.expect("a goal").space.intervals().len(), 3);
+    assert_eq!(strong.expect("a valid goal").space.intervals().len(), 3);
     // Goals that recommend a design use a guided needle.
     let guided = DesignGoal::read(&root().join("sweeps/goals/strong-under-a-needle.toml"), &[]);
-    let of_goal = guided.expect("a goal").space.sweep().grid().case(0).punctured();
+    let of_goal = guided.expect("a valid goal").space.sweep().grid().case(0).punctured();
     let [glove, smoke] = ["sweeps/glove.toml", "sweeps/smoke.toml"]
         .map(|file| read(file).grid().case(0).punctured());
     for puncture in [of_goal, glove, smoke] {
@@ -260,7 +262,7 @@ fn the_examples_of_the_contribution_guide_apply() {
         let applies = [&["--check"][..], &["--check", "--reverse"]].iter().any(|options| {
             let mut git = Command::new("git");
             git.arg("apply").args(*options).arg(&file).current_dir(root());
-            git.status().expect("git").success()
+            git.status().expect("git runs").success()
         });
         assert!(applies, "{file} does not apply");
         let patch = text(&file);
@@ -286,7 +288,7 @@ fn the_address_of_the_project_is_the_same_in_every_file() {
         [("homepage", ["url", "Homepage"]), ("repository", ["repository-code", "Repository"])]
     {
         let line = manifest.lines().find(|line| line.starts_with(&format!("{key} = ")));
-        let address = line.expect("an address").split('"').nth(1).expect("a text");
+        let address = line.expect("an address").split('"').nth(1).expect("UTF-8 text");
         let [citation, python] = names;
         assert!(text("CITATION.cff").contains(&format!("\n{citation}: {address}\n")), "{address}");
         let project = text("crates/apps/python/pyproject.toml");

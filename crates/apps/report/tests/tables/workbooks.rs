@@ -71,8 +71,8 @@ fn extreme_numbers_failures_and_texts_are_preserved() {
                    0003,5e-324,1.7976931348623157e308,complete,nan,inf\r\n";
     let failures = "design,measure,reason,command\r\n\
                     0002,puncture,no convergence,squama design run.toml --design 0002\r\n";
-    fs::write(place.path().join("designs.csv"), designs).expect("writable");
-    fs::write(place.path().join("failures.csv"), failures).expect("writable");
+    fs::write(place.path().join("designs.csv"), designs).expect("the file is writable");
+    fs::write(place.path().join("failures.csv"), failures).expect("the file is writable");
     let file = exported(place.path());
     assert_eq!(sheet(&file, "designs"), expected(designs, ','));
     assert_eq!(sheet(&file, "failures"), expected(failures, ','));
@@ -91,14 +91,14 @@ fn text_cell(text: &str) -> Data {
 }
 
 #[test]
-fn tables_with_decimal_commas_make_the_same_workbook() {
+fn tables_with_decimal_commas_give_the_same_workbook() {
     let place = tempfile::tempdir().expect("a folder");
     let plain = "design,gap_over_t,coverage\r\n0001,0.1,0.25\r\n0002,0.2,1e-7\r\n";
     let comma = "\u{feff}design;gap_over_t;coverage\r\n0001;0,1;0,25\r\n0002;0,2;1e-7\r\n";
     let [one, other] = [("plain", plain), ("comma", comma)].map(|(folder, table)| {
         let folder = place.path().join(folder);
-        fs::create_dir(&folder).expect("writable");
-        fs::write(folder.join("designs.csv"), table).expect("writable");
+        fs::create_dir(&folder).expect("the file is writable");
+        fs::write(folder.join("designs.csv"), table).expect("the file is writable");
         fs::read(exported(&folder)).expect("a workbook")
     });
     assert!(one == other, "the same bytes");
@@ -130,7 +130,7 @@ fn workbooks_are_reproducible() {
 fn failures_are_red_and_measures_have_a_colour_scale() {
     let place = tempfile::tempdir().expect("a folder");
     let designs = "design,coverage,puncture_status\r\n0001,0.1,complete\r\n0002,0.2,row limit\r\n";
-    fs::write(place.path().join("designs.csv"), designs).expect("writable");
+    fs::write(place.path().join("designs.csv"), designs).expect("the file is writable");
     let file = exported(place.path());
     let archive = zip_text(&file, "xl/worksheets/sheet2.xml");
     assert!(archive.contains("<cfRule type=\"colorScale\""));
@@ -158,15 +158,15 @@ fn the_first_sheet_describes_the_run() {
     let place = tempfile::tempdir().expect("a folder");
     let table = "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,fold_force\r\n\
                  0001,0.1,1,45,0.5,2,0.1,0.2,1\r\n0002,0.2,1,45,0.7,1,0.1,0.3,\r\n0003,0.2,1,45,0.7,1,0.2,0.1,\r\n";
-    fs::write(place.path().join("designs.csv"), table).expect("writable");
+    fs::write(place.path().join("designs.csv"), table).expect("the file is writable");
     let run = "[run]\nversion = '1'\nstatus = { complete = 3 }\n[definition]\nname = 'x'\n";
-    fs::write(place.path().join("run.toml"), run).expect("writable");
+    fs::write(place.path().join("run.toml"), run).expect("the file is writable");
     let results = results::Results::read(place.path()).expect("results");
     let preferences = "requirements = ['coverage >= 0.5']\nweights = [1, 3, 0, 0]";
     let preferences = ranking::Preferences::parse(preferences, "x").expect("preferences");
     let ranking = ranking::Ranking::by(&results, preferences, ranking::TetrahedralGrid::default())
         .expect("a ranking");
-    ranking::write_ranking(place.path(), &ranking).expect("writable");
+    ranking::write_ranking(place.path(), &ranking).expect("the file is writable");
     let cells = sheet(&exported(place.path()), "summary");
     let lines = cells.iter().map(|row| {
         let cells = row.iter().filter(|cell| **cell != Data::Empty);
@@ -188,7 +188,7 @@ fn round_off_is_hidden_and_measures_have_a_chart() {
     let table = "design,gap_over_t,length_over_t,slant_deg,compliance\r\n\
                  0001,0.1,1,0,0.7999999996252686\r\n0002,0.1,1,45,0.3\r\n0003,0.2,1,0,0.5\r\n";
     for file in ["designs.csv", "compliance.csv"] {
-        fs::write(place.path().join(file), table).expect("writable");
+        fs::write(place.path().join(file), table).expect("the file is writable");
     }
     let file = exported(place.path());
     assert_eq!(names(&file), "summary designs compliance columns");
@@ -210,17 +210,17 @@ fn zip_text(workbook: &Path, name: &str) -> String {
     let file = fs::File::open(workbook).expect("a workbook");
     let mut archive = zip::ZipArchive::new(file).expect("an archive");
     let file = archive.by_name(name).expect("a file");
-    std::io::read_to_string(file).expect("text")
+    std::io::read_to_string(file).expect("UTF-8 text")
 }
 
 #[test]
 fn invalid_workbook_names_and_missing_tables_are_rejected() {
     let place = tempfile::tempdir().expect("a folder");
-    insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit");
+    insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R: contains no designs.csv, expected the folder of a run, a search, a tolerance analysis or a fit");
     fs::write(place.path().join("designs.csv"), "design,coverage\r\n0001,1,2\r\n")
-        .expect("writable");
+        .expect("the file is writable");
     insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R/designs.csv: cannot be read (line 2 has 3 cells, the first one 2), expected a table that squama writes");
-    fs::write(place.path().join("designs.csv"), b"design,\xff\r\n").expect("writable");
+    fs::write(place.path().join("designs.csv"), b"design,\xff\r\n").expect("the file is writable");
     insta::assert_snapshot!(refused(place.path(), "x.xlsx"), @"R/designs.csv: cannot be read (it is not UTF-8 text), expected a table that squama writes");
     insta::assert_snapshot!(refused(place.path(), "designs.csv"), @"R/designs.csv: a workbook needs a name that ends in .xlsx");
     insta::assert_snapshot!(refused(place.path(), "designs.csv/x.xlsx"), @"R/designs.csv: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
@@ -229,7 +229,8 @@ fn invalid_workbook_names_and_missing_tables_are_rejected() {
 
 /// Returns the error of an export of `folder`, which the message names `R`.
 fn refused(folder: &Path, name: &str) -> String {
-    let error = report::export(&opened(folder), &[], &folder.join(name)).expect_err("refused");
+    let error = report::export(&opened(folder), &[], &folder.join(name))
+        .expect_err("the export is refused");
     error.to_string().replace(&folder.display().to_string(), "R")
 }
 
@@ -237,12 +238,14 @@ fn refused(folder: &Path, name: &str) -> String {
 fn tables_longer_than_a_sheet_are_rejected() {
     let place = tempfile::tempdir().expect("a folder");
     let mut longest = "design\r\n1\r\n".to_owned();
-    fs::write(place.path().join("designs.csv"), &longest).expect("writable");
+    fs::write(place.path().join("designs.csv"), &longest).expect("the file is writable");
     let file = exported(place.path());
     let before = fs::read(&file).expect("a workbook");
     longest += &"1\r\n".repeat(1_048_574);
-    fs::write(place.path().join("designs.csv"), longest + "1\r\n").expect("writable");
-    let error = report::export(&opened(place.path()), &[], &file).expect_err("refused").to_string();
+    fs::write(place.path().join("designs.csv"), longest + "1\r\n").expect("the file is writable");
+    let error = report::export(&opened(place.path()), &[], &file)
+        .expect_err("the export is refused")
+        .to_string();
     let error = error.replace(&place.path().display().to_string(), "R");
     insta::assert_snapshot!(error, @"R/designs.csv: has more than 1048575 rows, the maximum of a sheet of Excel; export a smaller run, e.g. one with --sample 1048575");
     assert!(fs::read(&file).expect("a workbook") == before, "the old file is kept");

@@ -1,5 +1,5 @@
 // Comparable designs: criteria can be compared only if they are measured under the same parameters.
-// The program provides these parameters; `squama rank` reports an error if they differ.
+// The data of the page list these parameters; `squama rank` reports an error if they differ.
 
 squama.comparable = (() => {
   const { state } = squama;

@@ -72,7 +72,7 @@
 
   const quoted = (text) => `'${text}'`;
 
-  /** Returns the equivalent command; text filters exist only on the page. */
+  /** Returns the command with the same ranking, without text filters, which only the page has. */
   squama.rankCommand = () => [
     `squama rank ${squama.folder}`,
     ...squama.required().filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),

@@ -23,7 +23,7 @@ squama.cell = (row, name) => {
   return Number.isNaN(value) ? null : value;
 };
 
-/** Returns the failure mode beside a failure force, such as ", across"; empty for other columns. */
+/** Returns the mode of a failure force as ", across"; empty for columns without a mode. */
 squama.failing = (name, row) => {
   const mode = squama.modes[name] ? squama.cell(row, squama.modes[name]) : null;
   return mode === null ? "" : `, ${mode}`;
@@ -52,7 +52,7 @@ squama.rowOf = (() => {
   return (number) => known.get(plain(number)) ?? null;
 })();
 
-/** Returns drawing and curves of a design that was solved again; undefined for others. */
+/** Returns drawing and curves of a design that was solved again; undefined for other designs. */
 squama.solved = (() => {
   const known = new Map(squama.drawings.map((own) => [own.design, own]));
   return (row) => known.get(squama.number(row));
@@ -75,7 +75,7 @@ squama.varied = squama.axes.filter((name) => squama.different(name).length > 1);
 squama.folded = (row) => squama.cell(row, squama.fold) !== null;
 squama.foldedRows = squama.has(squama.fold) ? squama.rows.filter(squama.folded) : [];
 
-/** Formats a number with four digits. */
+/** Formats a number with four significant digits. */
 squama.short = (value) => {
   if (value === null || value === undefined || value === "") return "–";
   if (typeof value !== "number") return String(value);
@@ -87,7 +87,7 @@ squama.short = (value) => {
 // Unit suffixes of column names, the longest first.
 const UNITS = { N_mm2: "N mm²", kg_m2: "kg/m²", N_mm: "N mm", MPa: "MPa", mm: "mm", N: "N", deg: "°" };
 
-/** Returns the unit suffix of a name as [key, text], or null; a unit of the table has priority. */
+/** Returns the unit suffix of a name as [key, text], or null; the unit in the table has priority. */
 squama.unitOf = (name) => {
   const found = Object.entries(UNITS).find(([key]) => name.endsWith(`_${key}`));
   if (!found) return null;
@@ -112,7 +112,7 @@ squama.label = (name) => {
   return (DEPTHS[plain] ?? plain).replaceAll("_over_t", "/t").replaceAll("_", " ") + (unit ? ` (${unit[1]})` : "");
 };
 
-/** Returns the unit of a column; empty for lengths divided by t, and if the label contains it. */
+/** Returns the unit of a column; empty if the label contains the unit, and for lengths in t. */
 squama.unit = (name, unit) => {
   if (unit === "-" || unit === "deg" || name.endsWith("_over_t") || squama.physical(name)) return [];
   const pretty = unit.replaceAll("nu", "ν").replaceAll("^2", "²").replaceAll("-", "−");
@@ -134,7 +134,7 @@ squama.slant = (() => {
   return (row) => known.get(squama.cell(row, "slant_deg")) ?? none;
 })();
 
-// Symbols of parameters for titles, which also include other varied parameters.
+// Symbols of parameters in the titles of designs. Titles also contain all other varied parameters.
 const SHORT = { gap_over_t: "d/t", length_over_t: "L/t", slant_deg: "α", width_over_t: "b/t", membrane_thickness_over_t: "h/t", contact_modulus_over_substrate: "Ect/Es", contact_modulus_over_membrane: "Ect/Em", critical_tilt_deg: "θc" };
 const TITLED = [...new Set(["gap_over_t", "length_over_t", "slant_deg", ...squama.varied])].filter(squama.has);
 

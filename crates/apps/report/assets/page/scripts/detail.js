@@ -9,7 +9,7 @@
     squama.element("dd", {}, ...squama.withUnit(name, squama.cell(row, name), unit)),
   ];
 
-  /** Enlarges a drawing to the window; Escape or a click closes it. */
+  /** Shows a drawing as large as the window; Escape or a click closes the enlarged drawing. */
   const enlarge = async (svg) => {
     const large = squama.at("large");
     large.querySelector("div").innerHTML = await svg;
@@ -17,7 +17,7 @@
   };
   squama.at("large").addEventListener("click", (event) => event.currentTarget.close());
 
-  /** Creates a button that shows the drawing of a solved design and enlarges it; empty without one. */
+  /** Creates a button with the drawing of a design, which a click enlarges; empty without a drawing. */
   squama.solvedDrawing = (row) => {
     const number = squama.number(row), solved = squama.solved(row);
     if (!solved?.svg) return [];

@@ -26,7 +26,7 @@ squama.svg = (name, attributes = {}, ...children) => {
 /** Returns the element with an id. */
 squama.at = (id) => document.getElementById(id);
 
-/** Returns the decompressed content of an element, which holds seven bits per character. */
+/** Returns the decompressed content of an element with seven bits of data per character. */
 squama.unpacked = (id, format = "deflate-raw") => {
   const text = squama.at(id).textContent, packed = new Uint8Array(Math.floor((text.length * 7) / 8));
   for (let held = 0, count = 0, at = 0, k = 0; at < packed.length; k++) {
@@ -54,7 +54,7 @@ squama.pressed = (act) => ({
 /** Returns the attributes of an element that selects a design. */
 squama.chooser = (row) => squama.pressed(() => squama.choose(row));
 
-/** Returns the warning sign of a design with a fold; empty for others. */
+/** Returns the warning sign of a design with a fold; empty for other designs. */
 squama.warning = (row) => (squama.folded(row)
   ? [squama.element("span", { class: "warning", title: "The surface of the substrate folds: the critical force is not valid.", role: "img", "aria-label": "folded" }, "⚠")]
   : []);

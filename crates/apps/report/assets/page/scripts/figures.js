@@ -10,11 +10,11 @@ squama.charts = [];
   const tip = squama.element("div", { id: "tip", hidden: true, "aria-hidden": "true" });
   document.body.append(tip);
 
-  /** Finds the visible figure of a chart: selected variant and shown further parameters. */
+  /** Finds the figure of a chart for the selected variant and the shown parameter values. */
   const wanted = (chart) => squama.figures.find(({ kind, choice, part }) => kind === chart.id && (chart.choices.length === 0 || choice === chart.choice())
     && Object.entries(part).every(([name, value]) => view.shown(name) === value));
 
-  /** Lists the marks of a drawing: design of the table or of a front, and centre. */
+  /** Lists the marks of a drawing: element, row in the table or index in a front, and centre. */
   const marksOf = (svg) => [...svg.querySelectorAll("[data-design], [data-front]")].map((element) => {
     const [x, y, width, height] = ["x", "y", "width", "height"].map((name) => Number(element.getAttribute(name)));
     return { element, row: squama.rowOf(element.dataset.design), front: element.dataset.front, x: x + width / 2, y: y + height / 2 };
@@ -40,7 +40,7 @@ squama.charts = [];
 
   const isReady = (chart) => wanted(chart)?.text !== undefined || !wanted(chart);
 
-  /** Shows the figure of a chart, if it is unpacked. */
+  /** Shows the figure of a chart, if the figure is unpacked. */
   const draw = (chart) => {
     const figure = wanted(chart);
     if (!isReady(chart)) return;
@@ -135,7 +135,7 @@ squama.charts = [];
   };
 
   /**
-   * Adds the chart of a kind of figure, if the page has one.
+   * Adds a chart for a kind of figure, if the page has figures of this kind.
    *
    * `columns()` are the columns in the tooltip of a design. `tip(k)` is the tooltip of design `k` of
    * a front, and `take(k)` opens this design in the explorer. `passes(row)` is false for hidden

@@ -4,7 +4,7 @@
 squama.filters = (() => {
   const { number } = squama.ranking;
 
-  /** Returns the requirements that a filter of a column means; null if the filter is incomplete. */
+  /** Parses the filter of a column as requirements; null if the filter is incomplete. */
   const read = (column, filter) => {
     if (filter === "") return [];
     const ends = filter.split("..").map(number);

@@ -19,7 +19,7 @@
   });
   addEventListener("afterprint", () => setTheme(before));
 
-  // Links within the page must not change the address, because it holds the state.
+  // Links within the page must not change the address, which contains the state of the page.
   document.querySelectorAll('a[href^="#"]').forEach((link) => link.addEventListener("click", (event) => {
     event.preventDefault();
     const target = squama.at(link.getAttribute("href").slice(1));

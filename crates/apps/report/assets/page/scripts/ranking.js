@@ -1,5 +1,5 @@
 // Ranking: requirements, criteria, fitness, fronts, independent of the page. `squama rank` uses the
-// same order of operations; scripts/check-page compares both.
+// same order of operations; scripts/check-page compares the two rankings.
 
 squama.ranking = (() => {
   const ROUND_OFF = 1e-9;
@@ -15,7 +15,7 @@ squama.ranking = (() => {
   /** Returns true if two numbers are equal up to round-off. */
   const same = (a, b) => Math.abs(a - b) <= ROUND_OFF * Math.max(Math.abs(a), Math.abs(b));
 
-  /** Returns true if a number satisfies a bound; NaN satisfies none. */
+  /** Returns true if a number satisfies a bound; NaN satisfies no bound. */
   const keeps = (value, sign, limit) => {
     if (Number.isNaN(value)) return false;
     const equal = same(value, limit);
@@ -29,7 +29,7 @@ squama.ranking = (() => {
     ? String(table.cell(row, column) ?? "").toLowerCase().includes(limit.toLowerCase())
     : keeps(table.numbers(column)[row], sign, limit));
 
-  /** Parses `COLUMN OP LIMIT`; null if it is no requirement on a column of the table. */
+  /** Parses `COLUMN OP LIMIT`; null if the text is not a requirement on a column of the table. */
   const requirement = (table, text) => {
     const sign = [...SIGNS, "~"].find((one) => text.includes(one));
     if (!sign) return null;
@@ -39,13 +39,13 @@ squama.ranking = (() => {
     return table.has(column) && rest !== "" && (sign === "~" || Number.isFinite(limit)) ? { column, sign, limit } : null;
   };
 
-  /** Parses a number with a decimal point or comma; NaN if it is invalid. */
+  /** Parses a number with a decimal point or comma; NaN if the text is invalid. */
   const number = (text) => (/^[-+]?([0-9]+([.,][0-9]*)?|[.,][0-9]+)(e[-+]?[0-9]+)?$/i.test(text.trim()) ? Number(text.trim().replace(",", ".")) : NaN);
 
   /** Formats a requirement as on the command line. */
   const written = ({ column, sign, limit }) => `${column} ${sign} ${limit}`;
 
-  /** Parses `max:COLUMN` or `min:COLUMN`; null if it is no criterion of the table. */
+  /** Parses `max:COLUMN` or `min:COLUMN`; null if the table has no such column. */
   const criterion = (table, text) => {
     const [goal, column] = text.split(":");
     return (goal === "max" || goal === "min") && table.has(column) ? { column, goal } : null;
@@ -54,7 +54,7 @@ squama.ranking = (() => {
   /** Returns the default direction of a column. */
   const plainGoal = (table, column) => table.goal(column) ?? "max";
 
-  /** Converts a value so that larger is better (R1); NaN if it has no inverse or logarithm. */
+  /** Converts a value so that larger is better (R1); NaN if the value has no inverse or logarithm. */
   const worth = (scale, goal, value) => {
     if (scale === "linear" || (scale === "paper" && goal === "max")) return goal === "max" ? value : -value;
     if (!(value > 0)) return NaN;
@@ -76,14 +76,14 @@ squama.ranking = (() => {
     return [low, high];
   };
 
-  /** Returns the numbers in some rows. */
+  /** Returns the numbers of the given rows. */
   const picked = (numbers, rows) => {
     const own = new Float64Array(rows.length);
     for (let i = 0; i < own.length; i++) own[i] = numbers[rows[i]];
     return own;
   };
 
-  /** Rescales numbers from 0 (worst) to 1 (best) (R2). Equal numbers are all 1, without effect. */
+  /** Rescales numbers from 0 (worst) to 1 (best) (R2); if all are equal, every result is 1. */
   const rescaled = (numbers, isTie) => {
     const [low, high] = ends(numbers);
     return numbers.map((value) => (isTie || !(high > low) ? 1 : (value - low) / (high - low)));
@@ -98,7 +98,7 @@ squama.ranking = (() => {
     const covered = criteria.some(({ column }) => column === COVERAGE) ? table.numbers(COVERAGE) : null;
     const ranked = rows.filter((row) => !(covered && covered[row] <= 0) && all.every((values) => !Number.isNaN(values[row])));
     const worths = all.map((values) => picked(values, ranked));
-    // Values are compared, and not their worths, because a logarithm may be near 0.
+    // Ties are found in the values, because a relative comparison fails for logarithms near 0.
     const isTie = criteria.map(({ column }) => same(...ends(picked(table.numbers(column), ranked))));
     const terms = worths.map((values, c) => rescaled(values, isTie[c])).map((values) => (scale === "paper" ? values.map(Math.log) : values));
     return { rows: ranked, worths, terms, scale };
@@ -145,7 +145,7 @@ squama.ranking = (() => {
     return inOrder(places, sums).slice(0, most).map(({ place, rank }) => ({ row: own.rows[place], rank, fitness: fitness(sums[place]) }));
   };
 
-  /** Returns true if `p` dominates `q`: nowhere worse, and better in one criterion (R6). */
+  /** Returns true if `p` dominates `q`: worse in no criterion, and better in at least one (R6). */
   const beats = (worths, p, q) => {
     let better = false;
     for (const values of worths) {
@@ -165,7 +165,7 @@ squama.ranking = (() => {
     for (const i of sorted) {
       const by = kept.findIndex((other) => beats(worths, other, i));
       if (by < 0) kept.push(i);
-      // A design that dominates one design is likely to dominate the next, so it is tested first.
+      // A design that dominates one design is likely to dominate others, so test this design first.
       else [kept[0], kept[by]] = [kept[by], kept[0]];
     }
     return new Set(kept.map((i) => rows[i]));

@@ -23,7 +23,7 @@
       squama.element("input", { type: "text", inputmode: isText ? null : "decimal", value: one.limit, "aria-label": `Limit of ${label}`, oninput: (event) => {
         const limit = isText ? event.target.value : ranking.number(event.target.value), isRead = isText || Number.isFinite(limit);
         event.target.setAttribute("aria-invalid", String(!isRead));
-        // Invalid input sets no limit, so that no limit acts that the page does not show.
+        // Invalid input removes the limit, so that only limits that the page shows have an effect.
         change(k, { limit: isRead ? limit : null });
       } }),
       squama.element("small", {}, isText ? "" : range(one.column)),

@@ -1,4 +1,4 @@
-// State of the page, and functions that change it and notify listeners.
+// State of the page, and functions that change this state and notify listeners.
 
 squama.listeners = new Map();
 

@@ -6,7 +6,7 @@
   const facts = (id, pairs) => squama.at(id).replaceChildren(...pairs.flatMap(([name, ...value]) => [squama.element("dt", {}, name), squama.element("dd", {}, ...value)]));
   const button = (row) => squama.element("button", { type: "button", onclick: () => squama.choose(row) }, ...squama.warning(row), squama.title(row));
 
-  /** Lists the best row by a column with the number of ties, and if it folds, the best without a fold. */
+  /** Describes the best design by a column, its ties and, if it has a fold, the best without a fold. */
   const bestOf = (all, name, column, goal) => {
     const numbers = squama.numbers(column), sign = goal === "max" ? 1 : -1;
     const leader = (rows) => rows.reduce((a, b) => (a === null || sign * numbers[b] > sign * numbers[a] && !squama.ranking.same(numbers[a], numbers[b]) ? b : a), null);

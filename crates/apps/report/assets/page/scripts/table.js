@@ -1,5 +1,5 @@
-// The table of designs. Its headers sort it, and its second line filters it. In long tables, only
-// visible rows have elements.
+// The table of designs. Its headers are buttons for sorting, and its second line contains filters.
+// In long tables, only visible rows have elements.
 
 (() => {
   const { state, filters } = squama;
@@ -41,7 +41,7 @@
   const filter = (name) => squama.element("input", { type: "text", "aria-label": `filter ${squama.label(name)}`, "data-column": name, oninput: (event) => {
     const requirements = filters.read(name, event.target.value.trim());
     event.target.setAttribute("aria-invalid", String(requirements === null));
-    // Invalid input sets no requirement, so that no limit acts that the page does not show.
+    // Invalid input removes the requirement, so that only shown requirements have an effect.
     filters.set(name, requirements ?? []);
   } });
 
@@ -83,7 +83,7 @@
       return squama.element("td", value === null ? {} : { title: String(value) }, ...(name === "design" ? squama.warning(row) : []), squama.short(value));
     }));
 
-  // Tab reaches one row, from which the arrow keys reach the others.
+  // The Tab key reaches one row; from this row the arrow keys reach the other rows.
   const reach = () => {
     const elements = [...body.children];
     const here = elements.find((element) => element.classList.contains("chosen")) ?? elements[0];
@@ -97,7 +97,7 @@
     return [first, Math.min(rows.length, first + Math.ceil(scroll.clientHeight / height()) + 2 * AROUND)];
   };
 
-  /** Creates the elements of the visible rows if they have changed. */
+  /** Creates the elements of the visible rows, if other rows are visible than before. */
   const fill = (anew) => {
     const [first, last] = window_();
     if (!anew && first === from && last === to) return;

@@ -16,12 +16,12 @@ squama.weightings = (() => {
     }
   }
 
-  /** Returns the index of the largest weighted sum of terms, the first index of ties up to round-off. */
+  /** Returns the index of the largest weighted sum of terms; of sums equal up to round-off, the first. */
   const best = ([a, b, c, d], [m, n, k, l], sums) => {
     let most = -Infinity;
     for (let i = 0; i < a.length; i++) {
-      // The order of the terms, without zero weights, is the order in `scores`, so that round-off
-      // agrees.
+      // Terms are added in the same order as in `scores`, without zero weights, so that sums have
+      // the same round-off.
       let sum = 0;
       if (m > 0) sum += m * a[i];
       if (n > 0) sum += n * b[i];
@@ -34,7 +34,7 @@ squama.weightings = (() => {
     return sums.findIndex((sum) => sum >= bound);
   };
 
-  /** Returns the best row at each node, and for each such row its fraction of the weightings, sorted. */
+  /** Returns the best row at each node, and these rows sorted by their fraction of the weightings. */
   const winners = ({ rows, terms }) => {
     const sums = new Float64Array(rows.length);
     const dots = nodes.map(({ weights, cell }) => ({ weights, cell, row: rows[best(terms, weights, sums)] }));
