@@ -33,8 +33,8 @@ fn revision() -> String {
 
 /// Returns the commit that Cargo recorded in a published package.
 ///
-/// A published package contains neither a git repository nor the other crates. If its sources had
-/// uncommitted changes, a hash of the sources is appended to the commit.
+/// A published package contains neither a git repository nor the other crates. If it was packaged
+/// with uncommitted changes, a hash of its sources is appended to the commit.
 fn packaged_commit() -> Option<String> {
     let info = fs::read_to_string(".cargo_vcs_info.json").ok()?;
     let (_, commit) = info.split_once("\"sha1\": \"")?;
@@ -107,7 +107,7 @@ impl Default for Fnv {
 }
 
 impl Fnv {
-    /// Adds `bytes` and their number to the hash.
+    /// Adds `bytes`, followed by their number, to the hash.
     fn add(&mut self, bytes: &[u8]) {
         for byte in bytes.iter().chain(&(bytes.len() as u64).to_le_bytes()) {
             self.state = (self.state ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);

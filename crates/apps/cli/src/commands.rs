@@ -44,7 +44,7 @@ use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::interrupt::Interrupt;
 
-/// Version and source revision of the program, which results record.
+/// Version and source revision of the program; results record both.
 const PROGRAM: Program =
     Program { version: env!("CARGO_PKG_VERSION"), revision: env!("SQUAMA_REVISION") };
 
@@ -193,7 +193,7 @@ impl Command {
     /// Runs the command and returns its exit code.
     pub fn run(self, interrupt: &Interrupt) -> anyhow::Result<u8> {
         match self {
-            // The first signal ends a command without the argument `interrupt`, because it has no
+            // The first signal ends a command that does not take `interrupt`: the command has no
             // work to save.
             Self::Init(arguments) => init::init(&arguments),
             Self::Run(arguments) => run::run(&arguments, interrupt),

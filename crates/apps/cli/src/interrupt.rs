@@ -1,7 +1,7 @@
 //! Handles termination signals.
 //!
 //! After the first signal, commands that solve many designs discard the designs in progress and
-//! save the completed ones. Every other command removes its partial files and exits.
+//! save the completed designs. Every other command removes its partial files and exits.
 
 use std::io;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ const BASE: u8 = 128;
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
     /// True if the first signal requests a graceful end instead of ending the process.
-    asks_first: Arc<AtomicBool>,
+    is_graceful: Arc<AtomicBool>,
     /// True once a signal has requested a graceful end.
     stop: Arc<AtomicBool>,
     /// Number of the signal that requested the graceful end; 0 if there was none.
@@ -26,16 +26,16 @@ pub struct Interrupt {
 impl Interrupt {
     /// Installs the signal handlers.
     ///
-    /// From then on, exceeding the file size limit is a write error and does not end the process.
+    /// After this call, exceeding the file size limit is a write error and does not end the process.
     pub fn listen() -> io::Result<Self> {
         let interrupt = Self::default();
         system::listen(interrupt.clone())?;
         Ok(interrupt)
     }
 
-    /// Makes the first signal request a graceful end instead of ending the process.
-    pub fn ask_first(&self) {
-        self.asks_first.store(true, Ordering::Relaxed);
+    /// From now on, lets the first signal request a graceful end instead of ending the process.
+    pub fn end_gracefully(&self) {
+        self.is_graceful.store(true, Ordering::Relaxed);
     }
 
     /// Returns the flag that is true once a signal has requested a graceful end.
@@ -62,7 +62,7 @@ mod system {
 
     use super::{Arc, BASE, Interrupt, Ordering, flag, io};
 
-    /// Time after the first signal in which further signals count as the same request.
+    /// Time after the first signal in which further signals belong to the same request.
     ///
     /// The program `timeout` sends one signal to the process and one to its process group.
     const ONE_REQUEST: Duration = Duration::from_secs(1);
@@ -72,21 +72,21 @@ mod system {
         // error instead.
         flag::register(SIGXFSZ, Arc::default())?;
         // Signals that are ignored at the start stay ignored, so that `nohup` has its effect.
-        let asking = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
-        let mut signals = Signals::new(asking)?;
+        let handled = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
+        let mut signals = Signals::new(handled)?;
         thread::Builder::new()
             .name("signals".to_owned())
             .spawn(move || {
-                let mut asked: Option<Instant> = None;
+                let mut first_request: Option<Instant> = None;
                 for signal in signals.forever() {
                     // This thread removes partial files, because a signal handler may call only
                     // async-signal-safe functions.
-                    let is_request = interrupt.asks_first.load(Ordering::Relaxed)
-                        && asked.is_none_or(|asked| asked.elapsed() < ONE_REQUEST);
+                    let is_request = interrupt.is_graceful.load(Ordering::Relaxed)
+                        && first_request.is_none_or(|first| first.elapsed() < ONE_REQUEST);
                     if !is_request {
                         exit_without_partial_files(signal + i32::from(BASE));
                     }
-                    asked.get_or_insert_with(Instant::now);
+                    first_request.get_or_insert_with(Instant::now);
                     let number = usize::try_from(signal).unwrap_or_default();
                     // The first signal determines the exit code.
                     let first = interrupt.signal.compare_exchange(

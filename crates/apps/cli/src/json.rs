@@ -8,7 +8,7 @@ use sweep::JudgedModes;
 
 /// Prints `value` as JSON.
 pub fn print(value: &Value) -> io::Result<()> {
-    // Print without `text::visible`, because a program reads the data unchanged.
+    // Do not escape control characters with `text::visible`: programs need the unchanged data.
     crate::print::print_raw(&format!("{value:#}\n"))
 }
 

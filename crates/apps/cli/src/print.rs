@@ -27,8 +27,8 @@ pub fn print_raw(text: &str) -> io::Result<()> {
 ///
 /// The line is empty if the run is complete.
 pub fn shortfall(results: &VerifiedFolder) -> String {
-    results.shortfall().map_or_else(String::new, |held| {
-        format!("  made from {held}, {}\n", results.path().display())
+    results.shortfall().map_or_else(String::new, |designs| {
+        format!("  made from {designs}, {}\n", results.path().display())
     })
 }
 
@@ -65,7 +65,7 @@ pub fn aligned<R: AsRef<[String]>>(rows: &[R]) -> String {
     for row in rows.iter().map(AsRef::as_ref) {
         widths.resize(widths.len().max(row.len()), 0);
         for (width, cell) in widths.iter_mut().zip(row) {
-            // Count characters, not bytes: `×` has two bytes but takes one column.
+            // Count characters, not bytes: `×` has two bytes but is one character wide.
             *width = cell.chars().count().max(*width);
         }
     }

@@ -1,4 +1,4 @@
-//! Shows a progress bar during runs, searches, fits and other long work.
+//! Shows a progress bar during runs, searches, fits and other long computations.
 
 use std::io::{IsTerminal as _, stderr};
 use std::sync::Arc;
@@ -15,17 +15,17 @@ use crate::interrupt::Interrupt;
 use crate::print::time;
 
 /// Interval between updates of the bar, and between checks for a signal.
-// Short enough for a prompt response to Ctrl-C.
+// This interval is short enough for a prompt response to Ctrl-C.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// Number of steps of the bar, which takes integer positions.
 const PARTS: u64 = 10_000;
 
-/// Message after the first termination signal, for work that `--resume` continues.
+/// Message that is printed after the first termination signal, if `--resume` can continue.
 pub const RESUMED: &str =
     "ending without the designs in progress; a second signal ends at once; --resume continues";
 
-/// Completed fraction from which on the remaining time is extrapolated.
+/// Smallest completed fraction from which the remaining time is extrapolated.
 const ENOUGH: f64 = 0.05;
 
 /// Number of increases of the completed fraction after which the remaining time is extrapolated,
@@ -41,8 +41,8 @@ pub trait Watched: Send + Sync + 'static {
 
     /// Describes the progress after the time `elapsed`.
     ///
-    /// `left` states the remaining time after two spaces; it is empty if the time is unknown.
-    fn text(&self, left: &str, elapsed: Duration) -> String;
+    /// `remaining` is two spaces and the remaining time; it is empty if the time is unknown.
+    fn text(&self, remaining: &str, elapsed: Duration) -> String;
 
     /// Returns the messages since the last call; each is printed on its own line.
     fn news(&self) -> Vec<String> {
@@ -98,7 +98,8 @@ impl<W: Watched> Display<W> {
 pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
     let meter = Arc::<WorkMeter>::default();
     meter.begin(units as u64);
-    // The interrupt passed here is never set, because there is nothing to save after a signal.
+    // Pass an interrupt that is never set: a signal ends the process, because there is nothing to
+    // save.
     let display = Display::new(false, &Interrupt::default(), meter, "");
     work(display.watched())
 }
@@ -119,9 +120,9 @@ impl Watched for SearchProgress {
         self.share()
     }
 
-    fn text(&self, left: &str, _: Duration) -> String {
+    fn text(&self, remaining: &str, _: Duration) -> String {
         let (part, done, tasks) = self.progress();
-        format!("{}: {done}/{tasks}  {} designs{left}", part.words(), self.designs())
+        format!("{}: {done}/{tasks}  {} designs{remaining}", part.words(), self.designs())
     }
 
     fn news(&self) -> Vec<String> {
@@ -134,8 +135,8 @@ impl Watched for WorkMeter {
         self.share()
     }
 
-    fn text(&self, left: &str, _: Duration) -> String {
-        format!("{:.0} %{left}", 100.0 * self.share())
+    fn text(&self, remaining: &str, _: Duration) -> String {
+        format!("{:.0} %{remaining}", 100.0 * self.share())
     }
 
     fn news(&self) -> Vec<String> {
@@ -188,7 +189,7 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
             break;
         }
         for line in watched.news() {
-            // Suspend the bar: text printed over it would be garbled.
+            // Suspend the bar: text printed over the bar would be garbled.
             bar.suspend(|| eprintln!("{line}"));
         }
         let (share, elapsed) = (watched.share(), begun.elapsed());
@@ -206,7 +207,7 @@ impl Watched for Counts {
         self.work.share()
     }
 
-    fn text(&self, left: &str, elapsed: Duration) -> String {
+    fn text(&self, remaining: &str, elapsed: Duration) -> String {
         // Relaxed ordering suffices, because the counts are only displayed.
         let [designs, before, done, failed] =
             [&self.designs, &self.before, &self.done, &self.failed]
@@ -215,7 +216,7 @@ impl Watched for Counts {
         let rate = done as f64 / elapsed.as_secs_f64();
         // Omit rates below 1, which would be rounded to 0/s or 1/s.
         let rate = if rate >= 1.0 { format!("  {rate:.0}/s") } else { String::new() };
-        format!("{}/{designs} designs{rate}{left}  {failed} failed", before + done)
+        format!("{}/{designs} designs{rate}{remaining}  {failed} failed", before + done)
     }
 
     fn news(&self) -> Vec<String> {
@@ -247,7 +248,7 @@ impl Remaining {
             return String::new();
         }
         // Between two increases the remaining time counts down, but not below the time since the
-        // last increase: a slow design may take as long again.
+        // last increase, because a slow design may need the same time once more.
         let waited = elapsed.saturating_sub(self.at).as_secs_f64();
         let expected = self.at.as_secs_f64() * (1.0 - self.share) / self.share;
         let left = if self.share < 1.0 { (expected - waited).max(waited) } else { 0.0 };

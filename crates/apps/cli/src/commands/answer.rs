@@ -28,7 +28,7 @@ impl<'a> DesignAnswer<'a> {
         Self { sweep, row, requirements, columns: design_columns(sweep) }
     }
 
-    /// Returns table rows of the required values with limits and margins, and of related values.
+    /// Returns the table rows of required values, with limits and margins, and of related values.
     ///
     /// See [`further_rows`](Self::further_rows) for the related values.
     pub fn rows(&self) -> Vec<Vec<String>> {
@@ -50,8 +50,8 @@ impl<'a> DesignAnswer<'a> {
 
     /// Returns table rows of values that explain the required ones.
     ///
-    /// If a force is required, the row is the depth of the load. If a pressure on the tissue is
-    /// required, it is the pressure of a needle on bare tissue.
+    /// If a requirement limits a force, one row is the depth of the load. If a requirement limits a
+    /// pressure on the tissue, one row is the pressure of a needle on bare tissue.
     pub fn further_rows(&self) -> Vec<Vec<String>> {
         let bare = self.bare_needle().map(|bare| {
             let unit = format!("kPa; the skin lowers it by a factor of {}", digits(bare.reduction));
@@ -60,18 +60,18 @@ impl<'a> DesignAnswer<'a> {
         self.depth().into_iter().chain(bare).collect()
     }
 
-    /// Returns the row of the depth of the load, if a force is required and the depth is not.
+    /// Returns the row of the depth of the load, if a requirement limits a force and none the depth.
     fn depth(&self) -> Option<Vec<String>> {
         self.requirements.iter().any(|r| r.column.contains("force")).then_some(())?;
         let in_mm = format!("{}_mm", name::CRITICAL_DISPLACEMENT);
         let columns = [in_mm.as_str(), name::CRITICAL_DISPLACEMENT];
         let column = columns.into_iter().find(|column| self.cell(column).is_some())?;
-        let is_given = self.requirements.iter().any(|r| r.column == column);
-        let depth = self.cell(column)?.number().filter(|_| !is_given)?;
+        let is_required = self.requirements.iter().any(|r| r.column == column);
+        let depth = self.cell(column)?.number().filter(|_| !is_required)?;
         Some(vec![column.to_owned(), digits(depth), "depth of the load".to_owned()])
     }
 
-    /// Returns the pressure of a needle on bare tissue, if a pressure on the tissue is required.
+    /// Returns the pressure of a needle on bare tissue, if a requirement limits a tissue pressure.
     fn bare_needle(&self) -> Option<BareNeedle> {
         let mut columns = self.requirements.iter().map(|r| &r.column);
         let pressures = [name::TISSUE_PRESSURE_MAX, name::TISSUE_PRESSURE_AT_FORCE];
@@ -79,7 +79,7 @@ impl<'a> DesignAnswer<'a> {
         bare_needle(self.row)
     }
 
-    /// Returns the cell of the column `name`.
+    /// Returns the cell of the column `name`; `None` if there is no such column.
     fn cell(&self, name: &str) -> Option<Cell> {
         let column = self.columns.iter().find(|column| column.name == name)?;
         Some(column.cell(self.row))
@@ -134,6 +134,8 @@ fn shown(value: Option<f64>) -> String {
 }
 
 /// Describes the limit of a requirement, and the margin of `value` from this limit.
+///
+/// Without a value, the text states that the limit is not confirmed.
 pub fn limit_text(requirement: &Requirement, value: Option<f64>) -> String {
     let Requirement { relation, limit, .. } = requirement;
     let limit = format!("{} {}", relation.sign(), text::number::text(*limit));
@@ -158,10 +160,10 @@ pub struct SearchedDesign {
 }
 
 impl SearchedDesign {
-    /// Reads the search of `path`, and prints a warning for each failed check.
+    /// Reads the results of a search, and prints a warning for each failed check.
     ///
-    /// `path` is the results folder of a search or its `optimum.toml`. For any other path, the
-    /// result is empty.
+    /// `path` is the results folder of the search, or the file `optimum.toml` in this folder. For any
+    /// other path, all fields of the returned value are empty.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         let folder = if path.ends_with(OPTIMUM_DEFINITION) { path.parent() } else { Some(path) };
         let folder = folder.unwrap_or(path);
@@ -175,7 +177,7 @@ impl SearchedDesign {
         requirements.retain(|r| goal.statistic(&r.column).is_none());
         let optimum = Results::of_file(&found, OPTIMUM)?;
         let mut failed_checks: Vec<String> = Vec::new();
-        // Tables that an earlier version of squama wrote lack the column.
+        // Tables of earlier versions of squama have no column of failed checks.
         if let Ok(column) = optimum.column(FAILED_CHECKS)
             && optimum.len() > 0
         {

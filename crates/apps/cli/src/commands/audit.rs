@@ -6,7 +6,7 @@ use run::{Audit, LargestDifference, SecondMethod};
 
 use crate::print::{aligned, counted, digits};
 
-/// Maximum number of columns, and of contradictions, that the report lists.
+/// Maximum number of differences, and of contradictions, that the report lists.
 const LISTED: usize = 8;
 
 /// Largest relative difference at which two methods agree.
@@ -18,7 +18,9 @@ pub fn agrees(audit: &Audit) -> bool {
         && audit.differences.iter().all(|found| found.relative <= AGREES)
 }
 
-/// Formats the largest relative difference of each column, and the contradictions.
+/// Formats the largest relative difference of each column and method, and the contradictions.
+///
+/// A contradiction is a cell with different texts, or with a value in only one of both methods.
 pub fn report(audit: &Audit) -> String {
     let designs = counted(audit.designs, "design");
     let mut text =
@@ -40,7 +42,7 @@ pub fn report(audit: &Audit) -> String {
 
 /// Returns the cells of a difference: size, column, second method, design and both values.
 fn row(found: &LargestDifference) -> [String; 5] {
-    let way = match found.method {
+    let method = match found.method {
         SecondMethod::SmallerSteps => "steps a tenth as large",
         SecondMethod::Chain => "chain against unit cell",
     };
@@ -49,7 +51,7 @@ fn row(found: &LargestDifference) -> [String; 5] {
     [
         digits(found.relative),
         found.column.clone(),
-        way.to_owned(),
+        method.to_owned(),
         format!("design {}", found.design),
         values,
     ]

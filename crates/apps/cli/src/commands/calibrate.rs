@@ -49,7 +49,8 @@ pub struct Arguments {
 /// Prints the stiffness of the springs under a row of scales.
 pub fn calibrate(arguments: &Arguments) -> anyhow::Result<u8> {
     let footprint = footprint_of(arguments)?;
-    // Compute nearest neighbours only, which the output shows; full coupling takes much longer.
+    // Compute only the coupling of nearest neighbours, because the output shows no other springs,
+    // and full coupling takes much longer.
     let row = RowStiffness::compute(&footprint, Coupling::Nearest)?;
     print(&report(&footprint, &row))?;
     Ok(DONE)

@@ -34,10 +34,10 @@ pub struct Arguments {
     pub json: bool,
 }
 
-/// Number of designs from which on the run time is estimated by solving a few designs.
+/// Smallest number of designs for which the run time is estimated, by solving a few designs.
 const LARGE: u64 = 10_000;
 
-/// Maximum number of values of an axis that are all listed.
+/// Maximum number of values of an axis for which the report lists all values.
 const LISTED: u64 = 12;
 
 /// Checks a definition and describes its run, search or fit.
@@ -69,7 +69,7 @@ pub fn check(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// Returns true if a definition has measured curves.
+/// Returns true if a definition has measured curves, so that it defines a fit.
 fn is_fit(path: &Path, settings: &[Setting]) -> anyhow::Result<bool> {
     Ok(read_entries(path, settings)?.iter().any(|entry| entry.key == "curve"))
 }
@@ -197,10 +197,11 @@ fn as_json(sweep: &Sweep) -> Value {
 
 /// Formats the contact moduli of puncture and bending in `MPa`.
 ///
-/// `None` if the moduli and ratios are unknown, or differ between designs.
+/// A contact modulus that is unknown, or that differs between designs, is omitted. Returns `None` if
+/// both contact moduli are omitted.
 fn contact_moduli(sweep: &Sweep) -> Option<String> {
-    // The contact modulus in puncture and the one in bending belong to the same scales, so users
-    // can notice a discrepancy between them.
+    // Show both contact moduli, in puncture and in bending: they belong to the same scales, so a
+    // difference between them reveals a wrong definition.
     let moduli = [
         ("puncture", ["substrate_modulus_MPa", "contact_modulus_over_substrate"]),
         ("bending", ["membrane_modulus_MPa", "contact_modulus_over_membrane"]),
@@ -252,7 +253,7 @@ fn axis_row(axis: &Axis) -> [String; 3] {
     [axis.parameter().key.to_owned(), counted(axis.len(), "value"), values(axis)]
 }
 
-/// Lists the values of an axis, or the first three and the last of many.
+/// Lists the values of an axis; of more than [`LISTED`], the first three and the last value.
 fn values(axis: &Axis) -> String {
     let len = axis.len();
     if len > LISTED {

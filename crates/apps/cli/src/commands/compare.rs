@@ -48,7 +48,7 @@ pub struct Arguments {
     pub partial: Partial,
 }
 
-/// Maximum number of designs in only one run that the report lists.
+/// Maximum number of unmatched designs that the report lists for each run.
 const LISTED: usize = 8;
 
 /// Compares two runs and prints the differences.
@@ -128,7 +128,8 @@ fn columns(comparison: &Comparison<'_>) -> String {
     }
     if !same.is_empty() {
         let names: Vec<_> = same.iter().map(|column| column.name.as_str()).collect();
-        // Mention the tolerance only if a column of numbers is among them: text has none.
+        // Mention the tolerance only if one of these columns contains numbers, because texts are
+        // compared exactly.
         let above = if same.iter().any(|column| column.relative.is_some()) {
             format!(" above {}", number::text(comparison.tolerance()))
         } else {
@@ -169,7 +170,7 @@ fn row(column: &ColumnDifference) -> [String; 9] {
     ]
 }
 
-/// Lists the changes of a text column, each with its number of designs.
+/// Returns a row for each change of text in a column, with the number of designs that change so.
 fn changes(column: &ColumnDifference) -> impl Iterator<Item = [String; 3]> {
     column.changes.iter().map(|((from, to), count)| {
         [column.name.clone(), counted(*count as u64, "design"), format!("{from} → {to}")]

@@ -19,27 +19,27 @@ pub fn couplings_report(changes: &[CouplingChange], requirements: &[Requirement]
 
 /// Formats the changed measures, a fold, and the missed requirements of a design.
 fn line(change: &CouplingChange, requirements: &[Requirement]) -> String {
-    let mut told: Vec<String> = change.measures.iter().filter_map(moved).collect();
+    let mut parts: Vec<String> = change.measures.iter().filter_map(changed).collect();
     if change.folds {
-        told.push("the surface of the substrate folds".to_owned());
+        parts.push("the surface of the substrate folds".to_owned());
     }
-    told.extend(requirements.iter().filter_map(|requirement| missed(change, requirement)));
-    if told.is_empty() {
-        told.push(format!("no measure changes by more than {} %", 100.0 * SMALL));
+    parts.extend(requirements.iter().filter_map(|requirement| missed(change, requirement)));
+    if parts.is_empty() {
+        parts.push(format!("no measure changes by more than {} %", 100.0 * SMALL));
     }
-    format!("  {}: {}\n", change.design, told.join(", "))
+    format!("  {}: {}\n", change.design, parts.join(", "))
 }
 
-/// Describes a measure that changes, or that has no value with full coupling.
-fn moved(measure: &CoupledMeasure) -> Option<String> {
+/// Describes the change of a measure by full coupling; `None` if the change is small.
+fn changed(measure: &CoupledMeasure) -> Option<String> {
     let CoupledMeasure { column, nearest, full } = measure;
     let Some(full) = full else { return Some(format!("{column} has no value")) };
-    let part = full / nearest - 1.0;
-    (part.abs() > SMALL && part.is_finite()).then(|| {
+    let change = full / nearest - 1.0;
+    (change.abs() > SMALL && change.is_finite()).then(|| {
         format!(
             "{column} is {:.1} % {}",
-            100.0 * part.abs(),
-            if part < 0.0 { "lower" } else { "higher" }
+            100.0 * change.abs(),
+            if change < 0.0 { "lower" } else { "higher" }
         )
     })
 }

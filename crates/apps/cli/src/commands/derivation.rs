@@ -1,6 +1,6 @@
 //! Records which files were made from the tables of a results folder.
 //!
-//! By these records `squama status` finds files made from an earlier version of the tables.
+//! `squama status` reads these records to find files that were made from earlier tables.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -9,20 +9,21 @@ use anyhow::Context as _;
 use results::{Derivation, OutputError, ResultsFolder, VerifiedFolder, sha256};
 use text::shell_word;
 
-/// Number of digits of the SHA-256 of a path in the name of a record.
+/// Number of hexadecimal digits of a SHA-256 in the name of a record.
 const DIGITS: usize = 8;
 
 /// Records that the files `names` in `folder` were made from the tables of `results`.
 ///
-/// `product` is the kind of files, such as `figures`; the record is written to `results`.
+/// `product` is the kind of the files, such as `figures`. The record is written to the folder of
+/// `results`.
 pub fn record(
     results: &VerifiedFolder,
     product: &str,
     folder: &Path,
     names: &[impl AsRef<str>],
 ) -> anyhow::Result<()> {
-    // `derive` returns `None` if the folder has no checksums of its tables: later changes of the
-    // tables could not be detected.
+    // `derive` returns `None` if the folder has no checksums of its tables. Without checksums, later
+    // changes of the tables could not be detected.
     let Some(mut derivation) = results.derive(product, command()) else { return Ok(()) };
     let inside = path_within(results.path(), folder);
     for name in names.iter().map(AsRef::as_ref) {
@@ -47,7 +48,7 @@ fn command() -> String {
     std::iter::once("squama".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the path of `folder` relative to `results`; `None` if it lies outside.
+/// Returns the path of `folder` relative to `results`; `None` if `folder` is not in `results`.
 fn path_within(results: &Path, folder: &Path) -> Option<String> {
     // Resolve links, because a folder may have several paths.
     let (results, folder) = (absolute(results).ok()?, absolute(folder).ok()?);
@@ -59,20 +60,20 @@ fn absolute(folder: &Path) -> io::Result<PathBuf> {
     fs::canonicalize(if folder.as_os_str().is_empty() { Path::new(".") } else { folder })
 }
 
-/// Returns the path of a file as the record contains it.
+/// Returns the path under which the record lists the file `name` of `folder`.
 ///
-/// `inside` is the path of `folder` relative to the results. The path of the file is then relative,
-/// too; otherwise it is absolute.
+/// `inside` is the path of `folder` relative to the results folder; the returned path is then
+/// relative to the results folder, too. If `inside` is `None`, the returned path is absolute.
 fn key(inside: Option<&str>, folder: &Path, name: &str) -> String {
     let path = match inside {
         // A relative path remains valid if the results folder is moved.
-        Some(place) => Path::new(place).join(name),
+        Some(inside) => Path::new(inside).join(name),
         None => absolute(folder).unwrap_or_else(|_| folder.to_owned()).join(name),
     };
     path.to_string_lossy().into_owned()
 }
 
-/// Returns the name of a record, which contains a hash of the path of the first file.
+/// Returns the name of a record: `product`, and digits of the hash of the path of the first file.
 fn record_name(product: &str, derivation: &Derivation) -> String {
     let first = derivation.files.keys().next().map_or("", String::as_str);
     let digest = sha256(first);

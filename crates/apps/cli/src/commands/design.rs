@@ -66,7 +66,8 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     if arguments.sensitivity {
         design.sweep = design.sweep.with_sensitivity();
     }
-    // Solve the design before the claim, because a claim removes the files of the previous call.
+    // Solve the design before claiming the folder, because the claim removes the files of the
+    // previous call.
     let chosen = SolvedChoice::new(design, searched.requirements);
     let folder = ResultsFolder::new(chosen.folder(arguments));
     let claim = Claim::take(&folder, Maker::Design)?;
@@ -75,12 +76,12 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     folder.write_text("design.toml", &chosen.design.sweep.to_toml())?;
     files.push("design.toml");
     claim.state(&files)?;
-    let place = folder.path();
+    let path = folder.path();
     json::answer(
         arguments.json,
-        || chosen.json(&place.to_string_lossy(), &files),
+        || chosen.json(&path.to_string_lossy(), &files),
         || chosen.report(),
-        (place, &files),
+        (path, &files),
     )?;
     Ok(if chosen.solved.row.result.failed() { INCOMPLETE } else { DONE })
 }
@@ -98,7 +99,7 @@ fn choose(arguments: &Arguments) -> anyhow::Result<SelectedDesign> {
     Ok(designs.swap_remove(0))
 }
 
-/// Lists the options that would select one of the selected designs.
+/// Names the options with which the user can select one of `designs`.
 fn advice(designs: &[SelectedDesign]) -> String {
     let [first, .., last] = designs else { return String::new() };
     let differing = PARAMETERS.iter().filter(|p| p.get(&first.case()) != p.get(&last.case()));
@@ -133,7 +134,7 @@ impl SolvedChoice {
         Self { design, solved, columns, requirements }
     }
 
-    /// Returns the folder for the files.
+    /// Returns the folder to which the files are written.
     fn folder(&self, arguments: &Arguments) -> std::path::PathBuf {
         arguments.out.clone().unwrap_or_else(|| {
             let designs = folder_within(&arguments.definition, &self.design.sweep, "designs");
@@ -141,7 +142,7 @@ impl SolvedChoice {
         })
     }
 
-    /// Returns all columns with their cells, except the number, which is in the title.
+    /// Returns each column with its cell, without the first column, the number of the design.
     fn measures(&self) -> impl Iterator<Item = (&Column<DesignRow>, Cell)> {
         self.columns.iter().skip(1).map(|column| (column, column.cell(&self.solved.row)))
     }
@@ -216,7 +217,7 @@ impl SolvedChoice {
 
     /// Returns the judged failure modes.
     ///
-    /// `None` without a solved puncture, or if the design defines no strengths.
+    /// `None` without a solved puncture, or if the design does not request the first failure.
     fn failure_modes(&self) -> Option<JudgedModes> {
         self.solved.row.result.puncture?;
         self.design.case().judged_modes()
@@ -237,7 +238,7 @@ impl SolvedChoice {
         }
     }
 
-    /// Lists the parameters that differ from the design in the sweep.
+    /// Lists the parameters that differ from the design with the same number in the sweep.
     fn changes(&self) -> String {
         let Some(original) = self.design.original else {
             return String::new();
@@ -283,15 +284,15 @@ fn shown(cell: &Cell) -> String {
     }
 }
 
-/// Number of parameters, the most influential ones, that are listed for each measure.
+/// Maximum number of parameters that are listed for each measure, the most influential first.
 const LISTED: usize = 3;
 
 /// Smallest change that is listed, in percent; smaller changes would be printed as 0.
 const NEGLIGIBLE: f64 = 5e-4;
 
-/// Returns the absolute value of the elasticity; infinite at a kink.
+/// Returns the absolute value of the elasticity; infinite at a kink, 0 if it is unknown.
 ///
-/// The elasticity is the change of a measure in percent for one per cent of a parameter.
+/// The elasticity is the change of a measure in percent if a parameter changes by one per cent.
 fn importance(derivative: &ParameterDerivative) -> f64 {
     match derivative.kink {
         Some(_) => f64::INFINITY,

@@ -56,10 +56,10 @@ pub struct Arguments {
     pub output: FigureOutput,
 }
 
-/// Number of steps between the frames of an animation.
+/// Number of equal steps into which the frames of an animation divide the path.
 const FRAMES: u32 = 60;
 
-/// Default end rotations at which a strip is drawn, in degrees, besides the end of the path.
+/// End rotations at which a strip is drawn by default, in degrees, before the end of the path.
 const ROTATIONS_DEG: [f64; 3] = [0.0, 45.0, 90.0];
 
 /// Draws the selected designs.
@@ -133,12 +133,12 @@ impl Drawing<'_> {
             let file = self.file("puncture-animation");
             return files.html(&file, &drawing.animation()?);
         }
-        let place = if self.arguments.force.is_empty() {
+        let positions = if self.arguments.force.is_empty() {
             position_names(&self.arguments.at, "u", "critical-tilt")
         } else {
             position_names(&self.arguments.force, "force", "")
         };
-        let file = self.file(&format!("puncture-at-{place}"));
+        let file = self.file(&format!("puncture-at-{positions}"));
         files.svg(&file, &drawing.svg()?)
     }
 
@@ -153,7 +153,8 @@ impl Drawing<'_> {
         if !self.arguments.animate {
             return Ok(vec![end]);
         }
-        // Solve the path again, because the step between frames depends on its end.
+        // Solve the path a second time, because the displacements of the frames depend on the end
+        // of the path.
         let step = end.displacement / f64::from(FRAMES);
         let frames = (0..FRAMES).map(|k| puncture::At::Displacement(step * f64::from(k)));
         let mut states = self.puncture_states(&frames.collect::<Vec<_>>())?;
@@ -213,7 +214,7 @@ impl Drawing<'_> {
         files.svg(&file, &drawing.svg()?)
     }
 
-    /// Returns the end rotations of the drawings, for a path up to `last`, in degrees.
+    /// Returns the end rotations to draw, in degrees; `last` is the last end rotation of the path.
     fn rotations_deg(&self, last: f64) -> Vec<f64> {
         match self.arguments.at.as_slice() {
             [] if self.arguments.animate => {
@@ -221,7 +222,7 @@ impl Drawing<'_> {
             }
             [] => {
                 let before = ROTATIONS_DEG.into_iter().filter(|&size| size < last.abs());
-                // Adding 0 turns −0 into 0, which the labels show.
+                // Add 0 to turn −0 into 0, because a label would show the sign.
                 before.map(|size| size * last.signum() + 0.0).chain([last]).collect()
             }
             at => at.to_vec(),
@@ -239,7 +240,7 @@ pub fn draw_row(name: &str, case: &Case, with_load: bool) -> anyhow::Result<Stri
     Ok(drawing.svg()?)
 }
 
-/// Solves the puncture of a case, with the states at the points `at` of the path.
+/// Solves the puncture of a case, and returns the states at the points `at` of the path.
 fn solve(case: &Case, at: &[puncture::At]) -> anyhow::Result<Snapshots> {
     let substrate = substrate(case)?;
     Ok(puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), at)?)
@@ -252,9 +253,9 @@ pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
     Ok(RowStiffness::compute(&footprint, case.coupling)?)
 }
 
-/// Formats points on a path for a file name.
+/// Formats the values of points on a path for a file name.
 ///
-/// `quantity` names their values; without points, the text is `otherwise`.
+/// `quantity` is the name of the values `at`; without values, the text is `otherwise`.
 fn position_names(at: &[f64], quantity: &str, otherwise: &str) -> String {
     if at.is_empty() {
         return otherwise.to_owned();

@@ -57,8 +57,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     let failed = failed.map(|check| format!("The optimum fails a check: {check}"));
     requirements.extend(searched.requirements);
     requirements.extend(arguments.required.read()?);
-    // Omit requirements on statistics of samples, which have no value on the page: it solves single
-    // designs.
+    // Omit requirements on statistics of samples, because the page solves only single designs.
     let of_samples = requirements.extract_if(.., |of| Statistic::named(&of.column).is_some());
     for requirement in of_samples {
         note(&format!(
@@ -84,14 +83,14 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     write_file(&arguments.out, &html)?;
     print(&format!("{}\n", arguments.out.display()))?;
     // Open a browser only if stdout is a terminal, not in a script.
-    let is_watched = std::io::stdout().is_terminal();
-    if is_watched && !arguments.no_open && !open(&arguments.out) {
+    let is_terminal = std::io::stdout().is_terminal();
+    if is_terminal && !arguments.no_open && !open(&arguments.out) {
         note("no browser was found: open the page by hand");
     }
     Ok(DONE)
 }
 
-/// Columns on which requirements in the text field of the page can be set.
+/// Columns that requirements in the text field of the page can limit.
 const REQUIRED: [&str; 7] = [
     name::COVERAGE,
     "failure_force_N",
@@ -105,7 +104,7 @@ const REQUIRED: [&str; 7] = [
 /// Maximum number of solved designs on a page.
 const MOST_SOLVED: usize = 5000;
 
-/// Returns the solved designs of a results folder; empty for a definition.
+/// Returns the solved designs of a results folder; an empty table if `path` is a definition.
 fn solved_designs(path: &Path, sweep: &Sweep) -> anyhow::Result<SolvedTable> {
     if !path.join(ResultsFolder::RUN_INFO).is_file() {
         return Ok(SolvedTable::default());
@@ -114,10 +113,10 @@ fn solved_designs(path: &Path, sweep: &Sweep) -> anyhow::Result<SolvedTable> {
         Results::thinned(&VerifiedFolder::open(path, Completeness::Partial)?, MOST_SOLVED)?;
     let axes = sweep.grid().axes().iter().map(|axis| axis.parameter().key);
     let known = axes.chain(REQUIRED).filter_map(|name| Some((name, results.column(name).ok()?)));
-    let (columns, places): (Vec<_>, Vec<_>) =
-        known.map(|(name, place)| (name.to_owned(), place)).unzip();
+    let (columns, indices): (Vec<_>, Vec<_>) =
+        known.map(|(name, index)| (name.to_owned(), index)).unzip();
     let rows = (0..results.len())
-        .map(|row| places.iter().map(|place| results.number(row, *place).ok().flatten()).collect());
+        .map(|row| indices.iter().map(|k| results.number(row, *k).ok().flatten()).collect());
     Ok(SolvedTable { columns, rows: rows.collect() })
 }
 

@@ -49,8 +49,8 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     require_own(&arguments.xlsx)?;
     let (path, completeness) = (&arguments.results, arguments.partial.completeness());
     // Open a search or an analysis directly, because `verified_folder` accepts only runs.
-    let mut others_of = results::FILES.iter().filter(|file| is_other(file));
-    let is_other = others_of.any(|file| path.join(file.name).is_file());
+    let mut other_files = results::FILES.iter().filter(|file| is_other(file));
+    let is_other = other_files.any(|file| path.join(file.name).is_file());
     let results = if is_other {
         VerifiedFolder::open(path, completeness)?
     } else {
@@ -74,7 +74,7 @@ fn is_other(file: &FileEntry) -> bool {
         && Path::new(file.name).extension().is_some_and(|kind| kind == "csv")
 }
 
-/// Returns the tables that a search or an analysis may have, with their columns.
+/// Returns the tables that a search or an analysis can write, with their columns.
 fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
     let [of_best, of_history] = if results.holds(GOAL) {
         let name = results.path().join(GOAL).display().to_string();

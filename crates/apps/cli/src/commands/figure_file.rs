@@ -30,8 +30,8 @@ pub struct FigureOutput {
     #[arg(long)]
     pub no_title: bool,
 
-    /// Width of the figures on paper in mm, e.g. 85 for a column, where figures have fewer panels
-    /// and drawings shrink [default: 1 px for 1/96 inch]
+    /// Width of the figures on paper in mm, e.g. 85 for a column of a page; narrow figures have
+    /// fewer panels, and drawings shrink [default: 1 px for 1/96 inch]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub width: Option<f64>,
 
@@ -58,7 +58,7 @@ const READABLE: f64 = 6.0;
 /// Accepted resolutions of images, dots per inch.
 const DPI: RangeInclusive<f64> = 24.0..=2400.0;
 
-/// Writes figures to a folder and remembers their file names.
+/// Folder to which figures are written, with the names of the written files.
 pub struct FigureFiles<'a> {
     folder: PathBuf,
     output: &'a FigureOutput,
@@ -66,7 +66,7 @@ pub struct FigureFiles<'a> {
 }
 
 impl<'a> FigureFiles<'a> {
-    /// Creates the folder that `output` names, or otherwise the folder `default`.
+    /// Creates the folder for the figures: the folder of `--out`, or otherwise `default`.
     pub fn new(
         output: &'a FigureOutput,
         default: impl FnOnce() -> PathBuf,
@@ -83,7 +83,7 @@ impl<'a> FigureFiles<'a> {
         if let Some(width) = output.width {
             note_small_letters(name, &svg, width);
         }
-        // Font sizes are proportional to the width.
+        // Compute the width from the font size, which is proportional to the width.
         let width = output.width.or_else(|| Some(output.font_size? / smallest_letters(&svg, 1.0)?));
         let svg = match width {
             Some(width) => Cow::Owned(resized(&svg, width)),
@@ -117,7 +117,7 @@ impl<'a> FigureFiles<'a> {
     }
 
     /// Records in the results folder that the figures were made from its tables.
-    pub fn note(&self, results: &VerifiedFolder) -> anyhow::Result<()> {
+    pub fn record(&self, results: &VerifiedFolder) -> anyhow::Result<()> {
         derivation::record(results, "figures", &self.folder, &self.names)
     }
 
@@ -139,13 +139,14 @@ fn note_small_letters(name: &str, svg: &str, width: f64) {
     }
 }
 
-/// Maximum length, in bytes, of a list of design names within a file name.
+/// Maximum length, in bytes, of a list of names within a file name.
 // A file name has at most 255 bytes, including the kind of figure and the points on the path.
 const LONGEST: usize = 100;
 
-/// Joins `names` with hyphens, to be part of a file name.
+/// Joins `names` with hyphens for a file name.
 ///
-/// A long list is abbreviated to `FIRST-to-LAST-COUNT-things`, or to `COUNT-things`.
+/// A long list is abbreviated to `FIRST-to-LAST-COUNT-THINGS` or `COUNT-THINGS`, where `things` is
+/// the plural noun for the names, such as `designs`.
 pub fn joined(names: &[String], things: &str) -> String {
     let all = names.join("-");
     match names {
@@ -194,17 +195,17 @@ fn image(_: &str, _: f64) -> anyhow::Result<Vec<u8>> {
     )
 }
 
-/// Writes the file `name` in `folder` atomically, with the content that `written` writes.
+/// Writes the file `name` in `folder` atomically; `content` writes the content of the file.
 ///
 /// Returns an error instead of replacing a file that squama did not write.
 pub fn write(
     folder: &Path,
     name: &str,
-    written: impl FnOnce(&mut BufWriter<AtomicFile>) -> io::Result<()>,
+    content: impl FnOnce(&mut BufWriter<AtomicFile>) -> io::Result<()>,
 ) -> anyhow::Result<()> {
     require_own(&folder.join(name))?;
     let mut file = BufWriter::new(AtomicFile::create(folder, name)?);
-    let written = written(&mut file).and_then(|()| file.flush());
+    let written = content(&mut file).and_then(|()| file.flush());
     written.with_context(|| format!("{}: cannot be written", file.get_ref().path().display()))?;
     file.into_inner()?.finish()?;
     Ok(())

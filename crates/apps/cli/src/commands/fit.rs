@@ -68,7 +68,7 @@ pub struct Arguments {
 pub(super) const FILES: [&str; 5] =
     ["fit.csv", "residuals.csv", "mean_curves.csv", "residuals.svg", "fitted.toml"];
 
-/// Message after the first termination signal.
+/// Message that is printed after the first termination signal.
 const ENDING: &str = "ending without a fit";
 
 /// Smallest absolute correlation of two unknowns that is reported.
@@ -82,9 +82,9 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let folder = ResultsFolder::new(
         arguments.out.clone().unwrap_or_else(|| folder_of(definition.sweep(), None).join("fit")),
     );
-    // Reject a folder with files of another origin before the fit, which takes long.
+    // Before the slow fit, reject a folder in which the fit would overwrite files of the user.
     Claim::check(&folder, Maker::Fit)?;
-    interrupt.ask_first();
+    interrupt.end_gracefully();
     let display =
         Display::<WorkMeter>::new(arguments.solving.quiet, interrupt, Arc::default(), ENDING);
     let pool = arguments.solving.threads.pool()?;
@@ -143,14 +143,14 @@ fn fitted_toml(fitted: &Fitted) -> String {
 
 /// Returns the entry in `[tolerance]` for the scatter of a parameter.
 ///
-/// `None` if the parameter does not vary, or is no property of the product.
+/// `None` if the parameter does not vary between the specimens, or is no property of the product.
 fn deviation(scatter: &Scatter) -> Option<String> {
     let Scatter { parameter, deviation, .. } = scatter;
     let is_possible = parameter.has(Role::Made) && *deviation > 0.0;
     is_possible.then(|| format!("{} = {{ batch_sd = {} }}", parameter.key, digits(*deviation)))
 }
 
-/// Unit of the columns of `fit.csv` in which each row has its own unit.
+/// Unit text of the columns of `fit.csv` in which the unit differs from row to row.
 const UNIT_OF_ROW: &str = "see the column unit";
 
 /// The columns of `fit.csv`.
@@ -226,7 +226,7 @@ fn estimate_row(estimate: &Estimate) -> [String; 4] {
 /// Describes undetermined and correlated unknowns, and the scatter of specimens.
 fn undetermined_text(fitted: &Fitted) -> String {
     let mut text = String::new();
-    // Errors are ignored, because writing to a string cannot fail.
+    // Ignore the results of `writeln!`, because writing to a string cannot fail.
     for group in &fitted.undetermined {
         let _ = match names(fitted, group).as_slice() {
             [name] => writeln!(
@@ -262,17 +262,17 @@ fn undetermined_text(fitted: &Fitted) -> String {
     text
 }
 
-/// Lists the curves with their points and noise, then remarks and mean curves.
+/// Lists the curves with their numbers of points and noise, then remarks and mean curves.
 fn curves_text(fitted: &Fitted) -> String {
     let rows = fitted.curves.iter().map(|curve| {
         let unit = curve.axes[1].split_once(", ").map_or("", |(_, unit)| unit);
         let largest = curve.points.iter().map(|point| point[1].abs()).fold(0.0, f64::max);
-        let share = 100.0 * curve.noise / largest;
+        let percent = 100.0 * curve.noise / largest;
         let points = counted(curve.points.len() as u64, "point");
         [
             curve.file.clone(),
             points,
-            format!("noise {} {unit}, {share:.1} % of the largest value", digits(curve.noise)),
+            format!("noise {} {unit}, {percent:.1} % of the largest value", digits(curve.noise)),
         ]
     });
     let mut text = aligned(&rows.collect::<Vec<_>>());
@@ -280,12 +280,12 @@ fn curves_text(fitted: &Fitted) -> String {
         text.push_str(&remarks(curve, &fitted.estimates));
     }
     for mean in &fitted.means {
-        let [.., [x, mean_there, deviation]] = mean.points.as_slice() else { continue };
+        let [.., [x, last_mean, deviation]] = mean.points.as_slice() else { continue };
         let _ = writeln!(
             text,
             "  mean of {}: {} at {}, standard deviation {}",
             mean.files.join(", "),
-            digits(*mean_there),
+            digits(*last_mean),
             digits(*x),
             digits(*deviation)
         );
@@ -305,7 +305,7 @@ fn names<'f>(fitted: &'f Fitted, indices: &[usize]) -> Vec<&'f str> {
     indices.iter().map(|&j| fitted.estimates[j].unknown.name.as_str()).collect()
 }
 
-/// Describes the distribution of a parameter over the specimens.
+/// Describes the mean and standard deviation of a parameter over the specimens.
 fn scatter_text(scatter: &Scatter) -> String {
     let Scatter { parameter, specimens, mean, mean_interval, .. } = scatter;
     let [mean_low, mean_high] = mean_interval.map(digits);
@@ -321,7 +321,7 @@ fn scatter_text(scatter: &Scatter) -> String {
     )
 }
 
-/// Lists the warnings on a fitted curve, marked by `(!)`, and the notes.
+/// Lists the warnings about a fitted curve, marked by `(!)`, and then the notes.
 fn remarks(curve: &FittedCurve, estimates: &[Estimate]) -> String {
     let FittedCurve { file, beyond, events, .. } = curve;
     let [x, y] = curve.axes.each_ref().map(|axis| axis.split_once(',').map_or(&**axis, |a| a.0));
@@ -352,7 +352,7 @@ fn remarks(curve: &FittedCurve, estimates: &[Estimate]) -> String {
     warnings.chain(notes.map(|text| format!("  {file}: {text}\n"))).collect()
 }
 
-/// Returns true for an event that the definition takes into account, so that it is no warning.
+/// Returns true if the definition takes an event into account, so that the event is no warning.
 fn is_note(event: &CurveEvent, has_offset: bool) -> bool {
     match event.kind {
         CurveEventKind::Touches => has_offset,
@@ -361,7 +361,9 @@ fn is_note(event: &CurveEvent, has_offset: bool) -> bool {
     }
 }
 
-/// Describes an event of a curve; `x` and `y` are the names of its axes.
+/// Describes an event of a curve; `x` and `y` are the names of the axes of the curve.
+///
+/// `has_offset` is true if the fit determines an offset of `x` for this curve.
 fn event_text(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String {
     let CurveEvent { kind, line, left_out, at } = *event;
     let points = counted(left_out as u64, "point");

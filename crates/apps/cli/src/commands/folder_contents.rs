@@ -18,7 +18,7 @@ pub struct FolderContents {
     pub folder: PathBuf,
     /// The sweep that was run.
     pub sweep: Sweep,
-    /// Table of the designs, possibly thinned out.
+    /// Table of the designs; a selection of the designs if the table is large.
     pub designs: Designs,
     /// Facts about the run, from its record.
     pub run: Vec<Fact>,
@@ -33,13 +33,13 @@ impl FolderContents {
 
     /// Returns the name of the sweep as a title.
     ///
-    /// The title states the number of designs if the run is incomplete or the table thinned out.
+    /// If the run is incomplete or the table thinned out, the title states the number of designs.
     pub fn title(&self) -> String {
         let name = self.sweep.name();
-        let held = self.verified().shortfall();
+        let shortfall = self.verified().shortfall();
         let (shown, all) = (self.results.len(), self.results.in_table());
         let shown = (shown < all).then(|| format!("showing {shown} of {all} designs: evenly spaced ones, and the best by each criterion"));
-        let remarks: Vec<_> = held.into_iter().chain(shown).collect();
+        let remarks: Vec<_> = shortfall.into_iter().chain(shown).collect();
         if remarks.is_empty() {
             name.to_owned()
         } else {
@@ -49,7 +49,7 @@ impl FolderContents {
 }
 
 impl FolderContents {
-    /// Reads `run.toml` and `designs.csv`, and thins out a table with more than `most` designs.
+    /// Reads `run.toml` and `designs.csv`; keeps about `most` designs of a larger table.
     pub fn read(verified: &VerifiedFolder, most: usize) -> anyhow::Result<Self> {
         let folder = verified.path();
         let run = verified.text(ResultsFolder::RUN_INFO)?;
@@ -72,7 +72,9 @@ impl FolderContents {
         rankings.filter_map(Result::transpose).collect()
     }
 
-    /// Returns the ranking if all designs are comparable; otherwise prints a note.
+    /// Returns the ranking of all designs.
+    ///
+    /// If the designs are not comparable, prints a note and returns `None`.
     pub fn comparable_ranking(&self) -> Result<Option<Ranking<'_>>, InvalidRanking> {
         let preferences = self.preferences();
         match check_comparable(&self.results, &preferences) {
@@ -86,6 +88,8 @@ impl FolderContents {
     }
 
     /// Returns preferences with the default criteria of the sweep, and equal weights.
+    ///
+    /// If the sweep has no valid default criteria, returns the preferences of the paper.
     fn preferences(&self) -> Preferences {
         let paper = Preferences::paper();
         let usual = Criterion::usual(Some(&self.sweep));

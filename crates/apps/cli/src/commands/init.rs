@@ -72,7 +72,7 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     require_folder_of("FILE", &file)?;
     let name = file.file_stem().context("expected the name of a new file")?.to_string_lossy();
     let text = definition(&template, &name, &shown).context("there is no such template")?;
-    // Parse the definition before writing it, which rejects an invalid name.
+    // Parse the definition before writing it, to reject an invalid name.
     let (content, command) = if template == "fit" {
         let entries = entries(&text, &shown, &[])?;
         let definition = entries.into_iter().filter(|entry| entry.key != "curve").collect();
@@ -108,7 +108,7 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
 
 /// Returns the names of the template and of the file.
 ///
-/// If only a file is given, the template is the first one.
+/// If only a file is given, the template is the first entry of [`TEMPLATES`].
 fn template_and_file(arguments: &Arguments) -> (String, PathBuf) {
     let template = &arguments.template;
     match &arguments.file {
@@ -150,12 +150,15 @@ impl TypedValueParser for TemplateOrFile {
     }
 }
 
-/// Returns the text of `template` for a definition `name` in `file`; `None` if there is none.
+/// Returns the text of `template` for a definition called `name` in `file`.
+///
+/// `None` if there is no such template.
 fn definition(template: &str, name: &str, file: &str) -> Option<String> {
     let (known, text) = TEMPLATES.iter().find(|(known, _)| *known == template)?;
     // The name in the definition of a goal or a fit differs from the name of the template.
-    let own = text.lines().find_map(|line| line.strip_prefix("name = \"")?.split('"').next());
-    let known = own.unwrap_or(known);
+    let name_in_text =
+        text.lines().find_map(|line| line.strip_prefix("name = \"")?.split('"').next());
+    let known = name_in_text.unwrap_or(known);
     let text = text.replace(&format!("name = \"{known}\""), &format!("name = \"{name}\""));
     // Replace the paths in the commands that the comments of the template show.
     let text = text.replace(&format!("results/{known}/"), &format!("results/{name}/"));

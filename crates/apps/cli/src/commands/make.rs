@@ -34,15 +34,15 @@ Examples:
 Writes a patch of skin in millimetres: scales on their membrane, which extends one gap beyond their bases on every
 side. The design needs a thickness (material.thickness_mm). If it has a [body], solids lie on its arc, unless
 --flat; outlines and decks are flat. The extension of --out selects the format:
-  .3mf          printers; names its unit; scales and membrane are two parts, for two materials
+  .3mf          printers; states its unit; scales and membrane are two parts, for two materials
   .stl          printers; has no unit, so tell the slicer that lengths are in mm
   .step, .stp   CAD programs; exact solids
   .dxf, .svg    laser cutters: the profile of each scale, to be cut from a sheet as thick as the scales are wide;
                 a template with a hole for each base, to glue the scales at their pitch; and a square to
-                check the size after import, 100 mm wide. Each is on its own layer
-  .inp          CalculiX and Abaqus: a finite-element deck of one row, as many scales long as --scales states, with contact;
-                the middle scale is pushed down by 0.1 t. To compare it, solve the design with the same puncture.scales
-Beside it, a list of parts: sizes, counts, mass if scale_density_kg_m3 is known, and, if the definition has
+                check the size after import, 100 mm wide. Profiles, template and square are on separate layers
+  .inp          CalculiX and Abaqus: a finite-element deck of one row with contact; --scales gives the number of scales,
+                and the middle scale is pushed down by 0.1 t. To compare it, solve the design with the same puncture.scales
+Also writes a list of parts: sizes, counts, mass if scale_density_kg_m3 is known, and, if the definition has
 [tolerance], the deviations that change the measures most (from derivatives; squama tolerance gives the yield).
 The patch has the nominal gaps and slants, without scatter.")]
 pub struct Arguments {
@@ -72,7 +72,7 @@ pub struct Arguments {
     #[arg(long)]
     pub flat: bool,
 
-    /// Gap between neighbouring rows, mm [default: the gap across of the design, or its gap]
+    /// Gap between neighbouring rows, mm [default: the gap across of the design, or its gap along]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub gap_across_mm: Option<f64>,
 
@@ -196,7 +196,8 @@ fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     let row = case.design.row()?;
     let scales = match arguments.patch {
         Some(size) => {
-            // Measure a patch of two rows, because every second row may be shifted along.
+            // Measure two rows, because `--brick` shifts the second row along and so lengthens the
+            // patch.
             let two = laid(Patch::new(row, thickness, lengths, [1, 2])?, arguments.brick);
             within(&two, size)?
         }
@@ -212,7 +213,7 @@ fn laid(patch: Patch, is_brick: bool) -> Patch {
 
 /// Returns the largest numbers of scales, along and across, on a membrane of at most `size` in mm.
 ///
-/// `two` is the same patch with two rows of one scale.
+/// `two` is a patch with the same lengths and two rows of one scale each.
 fn within(two: &Patch, size: [f64; 2]) -> anyhow::Result<[usize; 2]> {
     let ([length, width, _], pitches) = (two.membrane_size(), two.pitches());
     let smallest = [length, width - pitches[1]];
@@ -303,9 +304,10 @@ fn no_template(sheet: &Sheet, template: f64) -> String {
     )
 }
 
-/// Solves the design again and describes its performance.
+/// Solves the design again, and formats required values, warnings and the first failure.
 ///
-/// Returns the values with requirements, the first failure and warnings as text.
+/// Designs on tissue of finite thickness or with imperfections are slow to solve; for them, only the
+/// coverage is computed.
 fn answer(design: &SelectedDesign, searched: &SearchedDesign) -> String {
     let (sweep, case) = (&design.sweep, design.case());
     let modes = case.judged_modes();
@@ -339,7 +341,8 @@ fn first_failure(row: &DesignRow, case: &Case, modes: &JudgedModes) -> String {
 
 /// Lists the standard deviations of the main measures due to the deviations in `[tolerance]`.
 ///
-/// Derivatives give the deviations, without samples. The text is empty without `[tolerance]`.
+/// The standard deviations follow from derivatives, without samples. The text is empty without
+/// `[tolerance]`.
 fn tolerances(
     design: &SelectedDesign,
     out: &Path,
@@ -353,14 +356,14 @@ fn tolerances(
     // The analysis solves no samples, so nothing is written to the store.
     let analysed = analysis.design(0, &SampleStore::new(out))?;
     let shown = analysed.measures.iter().filter(|measure| is_for_a_maker(&measure.name));
-    let moved = shown.filter_map(|measure| {
+    let varying = shown.filter_map(|measure| {
         let linear = measure.linear.as_ref().filter(|linear| linear.spread > 0.0)?;
         let deviation = format!("+- {}", rounded(linear.spread));
         let value = rounded(measure.value?);
         let unit = if measure.unit == "-" { "" } else { measure.unit };
         Some([measure.name.clone(), value, deviation, unit.to_owned(), linear.in_words()])
     });
-    let rows: Vec<_> = moved.collect();
+    let rows: Vec<_> = varying.collect();
     Ok(format!(
         "\nStandard deviations from [tolerance], and their sources; squama tolerance lists all measures\n{}",
         aligned(&rows)

@@ -5,7 +5,7 @@ use crate::print::counted;
 /// Maximum number of ranges of omitted lines that a note lists.
 const SHOWN_RANGES: usize = 5;
 
-/// Properties of a measured curve that are worth a note.
+/// Properties of a measured curve that its notes describe.
 pub struct Reading<'a> {
     /// Names of the quantities on the horizontal and the vertical axis.
     pub axes: [&'a str; 2],
@@ -18,7 +18,7 @@ pub struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    /// Returns a note on missing units, on omitted lines and on reversed signs, where they apply.
+    /// Returns notes on missing units, omitted lines and reversed signs, if there are any.
     pub fn notes(&self) -> Vec<String> {
         let Self { axes: [x, y], is_physical, left_out, reversed } = *self;
         let mut notes = Vec::new();
@@ -47,7 +47,7 @@ impl Reading<'_> {
     }
 }
 
-/// Formats line numbers, and joins consecutive ones to ranges such as `2 to 5`.
+/// Formats line numbers; consecutive numbers are joined to ranges such as `2 to 5`.
 fn ranges(lines: &[u64]) -> Vec<String> {
     let mut ranges = Vec::new();
     for range in lines.chunk_by(|line, next| *next == line + 1) {

@@ -67,7 +67,7 @@ fn missing(merged: &run::Merged) -> String {
     }
     let grid = merged.sweep.grid();
     let named = merged.missing.iter().take(NAMED).map(|range| {
-        // Designs in `missing` are numbered from 1, but `grid.number` counts from 0.
+        // `missing` contains numbers from 1, but `grid.number` expects an index from 0.
         let [first, last] = [range.start(), range.end()].map(|number| grid.number(number - 1));
         if first == last { first.to_string() } else { format!("{first}-{last}") }
     });

@@ -62,7 +62,7 @@ new samples. A requirement that a check contradicts is reported below the answer
 the search tightens the limits until the checks pass. With --round the answer is the best rounded design near the
 best one that still meets the requirements, and states the loss.
 Exit code: 0 done, 1 no design meets the constraints, no rounded design meets them, or a check of the best
-contradicts one, 2 bad input or a disk error, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.")]
+design contradicts a constraint, 2 bad input or a disk error, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.")]
 pub struct Arguments {
     /// Goal in TOML
     #[arg(value_name = "GOAL.toml")]
@@ -107,7 +107,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
         note(&format!("goal.protects: {}; {TILTING_ONLY}", standard.source));
     }
     let folder = folder_of(goal.space.sweep(), arguments.out.as_deref());
-    interrupt.ask_first();
+    interrupt.end_gracefully();
     let begun = Instant::now();
     let display = Display::new(arguments.solving.quiet, interrupt, Arc::default(), RESUMED);
     let options = options(arguments, interrupt, &display);
@@ -150,7 +150,7 @@ fn options<'i>(
     }
 }
 
-/// Returns the exit code: complete if a design meets the requirements, also rounded and in checks.
+/// Returns [`DONE`] if a design meets the requirements, also after rounding and in the checks.
 fn exit_code(goal: &DesignGoal, found: &Found) -> u8 {
     let is_met = match &found.answer {
         Answer::Optimum(best) => {

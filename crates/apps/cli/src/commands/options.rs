@@ -19,7 +19,7 @@ pub struct EarlierResults {
 }
 
 impl EarlierResults {
-    /// Returns how the command starts its journal.
+    /// Returns how the command treats earlier results: continue, discard, or return an error.
     pub fn start(self) -> Start {
         match (self.resume, self.fresh) {
             (true, _) => Start::Resume,

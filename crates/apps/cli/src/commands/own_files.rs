@@ -17,12 +17,12 @@ const MARK: &[u8] = b"squama";
 /// Number of bytes at the start and at the end of a file that are searched for the mark.
 const SEARCHED: u64 = 8192;
 
-/// The zip entries that contain the mark, of a workbook and of a 3MF file.
+/// Entries that contain the mark in zip archives: in a workbook, and in a 3MF file.
 const ZIP_ENTRIES: [&str; 2] = ["docProps/core.xml", "3D/3dmodel.model"];
 
 /// Rejects the file at `path` if it was not written by squama.
 ///
-/// Accepts a `path` without a file, or with an empty file. Rejects links, folders and devices.
+/// Accepts an empty file, and a `path` at which nothing exists. Rejects links, folders and devices.
 pub fn require_own(path: &Path) -> Result<(), OutputError> {
     let Ok(metadata) = fs::symlink_metadata(path) else { return Ok(()) };
     // A PNG file contains no mark, so search the SVG file of the same drawing.
@@ -46,7 +46,7 @@ fn has_mark(path: &Path) -> io::Result<bool> {
     let mut end = Vec::new();
     file.seek(SeekFrom::Start(length.saturating_sub(SEARCHED)))?;
     file.take(SEARCHED).read_to_end(&mut end)?;
-    Ok(holds_mark(&start) || holds_mark(&end))
+    Ok(contains_mark(&start) || contains_mark(&end))
 }
 
 fn zip_has_mark(file: File) -> bool {
@@ -54,11 +54,11 @@ fn zip_has_mark(file: File) -> bool {
     ZIP_ENTRIES.iter().any(|name| {
         let Ok(entry) = archive.by_name(name) else { return false };
         let mut start = Vec::new();
-        entry.take(SEARCHED).read_to_end(&mut start).is_ok() && holds_mark(&start)
+        entry.take(SEARCHED).read_to_end(&mut start).is_ok() && contains_mark(&start)
     })
 }
 
-fn holds_mark(bytes: &[u8]) -> bool {
+fn contains_mark(bytes: &[u8]) -> bool {
     bytes.windows(MARK.len()).any(|window| window == MARK)
 }
 

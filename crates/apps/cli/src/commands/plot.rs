@@ -160,7 +160,7 @@ pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
 /// Plots the figures of a sweep.
 fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     check_sizes(&arguments.output)?;
-    // Read all designs: figures thin out their marks themselves.
+    // Read all designs, because the figures themselves reduce the number of drawn points.
     let results = FolderContents::read(
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
@@ -172,7 +172,7 @@ fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     for figure in figures(&results.title(), &shown, ranking, arguments.output.paper()) {
         files.figure(&figure)?;
     }
-    files.note(results.verified())?;
+    files.record(results.verified())?;
     files.print()?;
     Ok(DONE)
 }
@@ -206,7 +206,7 @@ fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
     let figure = map(&results.title(), &results.designs, &request)?;
     let mut files = FigureFiles::new(&arguments.output, || results.folder.join("figures"))?;
     files.figure(&figure)?;
-    files.note(results.verified())?;
+    files.record(results.verified())?;
     files.print()?;
     Ok(DONE)
 }
@@ -318,33 +318,33 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
 const OF_SCALES: [FailureMode; 4] =
     [FailureMode::Break, FailureMode::Bend, FailureMode::Debond, FailureMode::Perforate];
 
-/// Fraction of the critical tilt at which the limit `tilt` is marked on a path that goes beyond it.
+/// Fraction of the critical tilt at which the limit `tilt` is marked on a path up to `--to`.
 const AT_THE_TILT: f64 = 1.0 - 1e-9;
 
 /// Solves the puncture and the bending of a design.
 ///
 /// The puncture ends at the displacement `to`, or at the critical tilt if `to` is `None`. The list
-/// of failure limits is empty if the design does not define failure.
+/// of failure limits is empty if the design does not request the first failure.
 fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure, Vec<FailureLimit>)> {
     let substrate = substrate(case)?;
     let mut common = case.common;
     // Use steps that are short enough for a smooth curve.
     common.solver.max_step = common.solver.max_step.min(CURVE_STEP);
     let parameters = case.punctured();
-    let alone = PunctureParameters { places: None, ..parameters };
+    let single = PunctureParameters { places: None, ..parameters };
     let judged = OF_SCALES.into_iter().filter(|mode| {
         parameters.failure.is_some() && mode.not_judged(&parameters, false).is_none()
     });
     let judged: Vec<_> = judged.collect();
     let mut at: Vec<_> = judged.iter().copied().map(puncture::At::Limit).collect();
     let Snapshots { mut puncture, at: found, .. } = match to {
-        None => puncture::snapshots_to_end(&case.design, &substrate, &common, &alone, &at)?,
+        None => puncture::snapshots_to_end(&case.design, &substrate, &common, &single, &at)?,
         Some(to) => {
             at.extend([
                 puncture::At::Tilt(AT_THE_TILT * parameters.critical_tilt_deg),
                 puncture::At::Displacement(to),
             ]);
-            puncture::snapshots(&case.design, &substrate, &common, &alone, &at)?
+            puncture::snapshots(&case.design, &substrate, &common, &single, &at)?
         }
     };
     let reached = judged.into_iter().chain([FailureMode::Tilt]).zip(&found);
@@ -374,7 +374,8 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure, Vec
 
 /// Lists the failure limits on the puncture path, up to the displacement `to` if it is given.
 ///
-/// Adds the critical force of the row across, which has no displacement on this path.
+/// `reached` contains failure modes with displacement and force at their limits. The critical force
+/// of the row across is added; it has no displacement on this path.
 fn limits(
     case: &Case,
     puncture: &Puncture,

@@ -148,7 +148,7 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     Ok(DONE)
 }
 
-/// Prints the nearest design, because no design meets the requirements.
+/// Writes only the preferences and prints the nearest design, if no design meets the requirements.
 fn none_meets(
     arguments: &Arguments,
     results: &Results,
@@ -156,7 +156,7 @@ fn none_meets(
     unmet: &Unmet,
 ) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
-    // Replace an earlier ranking, which would seem to belong to these requirements.
+    // Replace an earlier ranking, because it would seem to belong to these requirements.
     let (file, lock) = ranking::write_unmet(folder, preferences)?;
     derivation::record(results.verified_folder(), ResultsFolder::RANKING_RECORD, folder, &[file])?;
     drop(lock);
@@ -182,7 +182,7 @@ fn preferences(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<P
 /// Returns the requested criteria, or the default criteria of `sweep`.
 fn criteria(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
-    let own: Vec<_> = goals
+    let requested: Vec<_> = goals
         .into_iter()
         .flat_map(|(goal, columns)| -> Vec<Criterion> {
             columns.iter().map(|column| Criterion::new(column.trim(), goal)).collect()
@@ -192,8 +192,8 @@ fn criteria(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<Vec<
         Some(criteria) => {
             criteria.split(',').map(|text| option::<Criterion>("--criteria", text)).collect()
         }
-        None if own.is_empty() => Ok(Criterion::usual(sweep)),
-        None => Ok(own),
+        None if requested.is_empty() => Ok(Criterion::usual(sweep)),
+        None => Ok(requested),
     }
 }
 

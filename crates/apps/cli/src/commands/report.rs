@@ -57,7 +57,7 @@ pub struct Arguments {
 }
 
 /// Approximate maximum number of designs on a page, because larger pages overload a browser.
-const HELD: usize = 25_000;
+const MAX_DESIGNS: usize = 25_000;
 
 /// Maximum number of designs solved again for their curves and their sensitivity to the gap.
 const SOLVED: usize = 120;
@@ -80,7 +80,7 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
         None
     } else {
         let verified = verified_folder(folder, arguments.partial.completeness())?;
-        Some(FolderContents::read(&verified, HELD)?)
+        Some(FolderContents::read(&verified, MAX_DESIGNS)?)
     };
     let folder = results.as_ref().map_or(folder, |results| &results.folder);
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| folder.join("report.html"));
@@ -125,7 +125,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
         explorer: Some(Explorer {
             sweep: sweep.clone(),
             source: shell_word(&results.folder.display().to_string()),
-            // No requirements here: the user sets them on the page.
+            // Set no requirements, because the user sets requirements on the page.
             requirements: Vec::new(),
             notes: Vec::new(),
             variables: Vec::new(),
@@ -155,7 +155,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
         is_physical: [puncture_units, bending_units].map(|units| units(&grid.case(0)).is_some()),
         solved: solved(results, &rankings),
         opening: Preferences::read(results.verified())?
-            .map_or_else(String::new, |own| opening(&own)),
+            .map_or_else(String::new, |last| opening(&last)),
         designs: results.designs.clone(),
         front: None,
     })
@@ -225,18 +225,18 @@ fn solved(results: &FolderContents, rankings: &[Ranking<'_>]) -> Vec<PageDesign>
             })
             .collect()
     });
-    let mut room = DRAWING_BYTES;
+    let mut remaining = DRAWING_BYTES;
     for design in &mut all {
-        // The best designs come first. Beyond the limit, designs have curves but no drawing.
-        room = room.saturating_sub(design.svg.len());
-        if room == 0 {
+        // `all` begins with the best designs. Designs beyond the limit have curves but no drawing.
+        remaining = remaining.saturating_sub(design.svg.len());
+        if remaining == 0 {
             design.svg.clear();
         }
     }
     all
 }
 
-/// Returns the table rows of the best designs of a ranking, without duplicates.
+/// Returns the indices of the table rows of the best designs, without duplicates.
 ///
 /// The order is: the best design for equal weights, the best by each criterion, the best for other
 /// weights, and the following designs for equal weights.

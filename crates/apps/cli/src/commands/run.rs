@@ -101,8 +101,8 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let (finished, audited) = with_progress_bar(how, interrupt, |options, show| {
         let finished = run::run(&sweep, subset, &folder, start, options, &PROGRAM, show)?;
         // Skip the audit after an interruption.
-        let share = arguments.audit.filter(|_| interrupt.exit_code().is_none());
-        let audited = share.map(|share| run::Audit::solve(&folder, share, options)).transpose()?;
+        let fraction = arguments.audit.filter(|_| interrupt.exit_code().is_none());
+        let audited = fraction.map(|f| run::Audit::solve(&folder, f, options)).transpose()?;
         anyhow::Ok((finished, audited))
     })?;
     conclude(&folder, &finished);
@@ -132,12 +132,12 @@ pub(super) fn conclude(folder: &Path, finished: &Finished) {
     for text in &finished.notes {
         note(text);
     }
-    // Accept a partial run: after an interruption, figures and rankings are out of date, too.
+    // Accept a partial run: figures and rankings are out of date after an interruption, too.
     let verified = VerifiedFolder::open(folder, Completeness::Partial);
-    for made in verified.iter().flat_map(VerifiedFolder::outdated) {
+    for outdated in verified.iter().flat_map(VerifiedFolder::outdated) {
         note(&format!(
             "{} is out of date: it was made from earlier tables; update it with {}",
-            made.product, made.command
+            outdated.product, outdated.command
         ));
     }
 }
@@ -166,7 +166,7 @@ pub(super) fn with_progress_bar<T>(
     solve: impl FnOnce(&Options<'_>, &dyn Fn(Progress)) -> T,
 ) -> T {
     // From here on, the first signal ends the run but keeps the solved designs.
-    interrupt.ask_first();
+    interrupt.end_gracefully();
     let display = ProgressDisplay::new(work.quiet, interrupt, Arc::default(), RESUMED);
     let options = Options {
         threads: work.threads.count(),

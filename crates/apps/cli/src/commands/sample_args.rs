@@ -25,7 +25,7 @@ pub struct SampleArgs {
     pub solving: SolveOptions,
 }
 
-/// Message after the first termination signal.
+/// Message that is printed after the first termination signal.
 const ENDING: &str = "ending without the samples in progress; a second signal ends at once; to continue, run the same command again";
 
 /// The results folder of a command that solves samples.
@@ -38,9 +38,10 @@ pub struct SampleFolder<'a> {
 }
 
 impl<'a> SampleFolder<'a> {
-    /// Returns the folder of the command `name`.
+    /// Returns the results folder of the command `name`, which writes files as `maker`.
     ///
-    /// Rejects a folder with files of another origin now, before samples are solved for hours.
+    /// Rejects a folder in which the command would overwrite files of the user. This check precedes
+    /// the solution of the samples, which may take hours.
     pub fn new(
         (definition, sweep): (&'a Definition, &Sweep),
         arguments: &'a SampleArgs,
@@ -62,14 +63,14 @@ impl<'a> SampleFolder<'a> {
         solve: impl FnOnce(&SampleStore) -> Result<T, AnalysisError> + Send,
     ) -> anyhow::Result<Option<(T, Claim<'_>)>> {
         let store = SampleStore::new(&self.folder.file("samples"));
-        interrupt.ask_first();
+        interrupt.end_gracefully();
         store.work().begin(samples);
         let display =
             Display::new(self.arguments.solving.quiet, interrupt, store.work().clone(), ENDING);
         let solved = self.arguments.solving.threads.pool()?.install(|| solve(&store));
         drop(display);
         match solved {
-            // Claim the folder only now, because a claim removes the earlier tables.
+            // Claim the folder after solving, because the claim removes the earlier tables.
             Ok(solved) => Ok(Some((solved, Claim::take(&self.folder, self.maker)?))),
             Err(stopped @ AnalysisError::Stopped { .. }) => {
                 note(&format!(

@@ -17,7 +17,7 @@ use super::source::{Defined, Definition, IS_GOAL, defined_by, definition_file, s
 #[derive(Debug, Args)]
 #[group(multiple = true)]
 pub struct Selection {
-    /// Numbers of designs in the grid, e.g. 0417 or 1-12,0417 [default: the only one]
+    /// Numbers of designs in the grid, e.g. 0417 or 1-12,0417 [default: the only design]
     #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',', conflicts_with_all = ["gap", "length", "slant"])]
     pub numbers: Vec<String>,
 
@@ -43,7 +43,9 @@ pub struct SelectedDesign {
     pub number: Option<DesignNumber>,
     /// Number of designs in the whole sweep; 1 for a design that is not on its grid.
     pub count: u64,
-    /// Parameters of the design with this number in the definition without `--set`, if it exists.
+    /// Parameters of the design with this number in the definition without `--set`.
+    ///
+    /// `None` if there is no such design.
     pub original: Option<Case>,
 }
 
@@ -53,7 +55,7 @@ pub fn select(
     selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let settings = settings(&definition.settings)?;
-    // Handle a Pareto front here, because `definition_file` rejects its folder.
+    // Handle the folder of a Pareto front here, because `definition_file` rejects this folder.
     if definition.path.join(FRONT).is_file() {
         return select_from_front(&definition.path, &settings, selection);
     }
@@ -62,9 +64,9 @@ pub fn select(
     let mut text = read_text(&file)?;
     let is_chosen = options(selection).iter().any(|(.., text)| text.is_some());
     let designs = match defined_by(&text, &file, &settings)? {
-        // A design of a goal can be chosen by its values, because it has no number.
+        // A design of a goal has no number, so it can be chosen only by its values.
         Defined::Goal(goal) if is_chosen && selection.numbers.is_empty() => {
-            text = nominal(&goal);
+            text = first_design(&goal);
             1
         }
         Defined::Goal(_) => bail!(
@@ -96,7 +98,7 @@ fn select_from_front(
     let name = folder.join(GOAL).display().to_string();
     let goal = DesignGoal::parse(&found.text(GOAL)?, &name, &[])?;
     let front = Results::of_file(&found, FRONT)?;
-    let (nominal, grid, designs) = (nominal(&goal), goal.space.sweep().grid(), front.len());
+    let (definition, grid, designs) = (first_design(&goal), goal.space.sweep().grid(), front.len());
     ensure!(
         !selection.numbers.is_empty(),
         "{}: holds a Pareto front of {designs} designs; choose with --design",
@@ -116,16 +118,17 @@ fn select_from_front(
         let mut all = values.collect::<Result<Vec<_>, _>>()?;
         // Append the settings of `--set` last, so that they override the values of the front.
         all.extend_from_slice(settings);
-        let (sweep, number) = (Sweep::parse(&nominal, &name, &all)?, Some(grid.number(row as u64)));
+        let (sweep, number) =
+            (Sweep::parse(&definition, &name, &all)?, Some(grid.number(row as u64)));
         selected.push(SelectedDesign { sweep, number, count: designs as u64, original: None });
     }
     Ok(selected)
 }
 
-/// Returns the sweep definition of one design of a goal.
+/// Returns the sweep definition of the first design of a goal.
 ///
 /// Other designs of the goal are selected by settings that change the values in this definition.
-fn nominal(goal: &DesignGoal) -> String {
+fn first_design(goal: &DesignGoal) -> String {
     let space = goal.space.sweep();
     space.at(&space.grid().case(0)).to_toml()
 }
@@ -139,7 +142,7 @@ fn by_numbers(
     let name = file.display().to_string();
     let sweep = Sweep::parse(text, &name, settings)?;
     let grid = sweep.grid();
-    // If settings change the number of designs, this number belongs to another original design.
+    // If settings change the number of designs, an index is not the same design in both sweeps.
     let original =
         Sweep::parse(text, &name, &[]).ok().filter(|other| other.grid().len() == grid.len());
     Ok(ranges(grid, numbers, file)?
@@ -195,7 +198,7 @@ fn by_values(
     Ok((0..sweep.grid().len()).map(|index| located(sweep.only(index), whole.as_ref())).collect())
 }
 
-/// Returns name, key of the axis, and value of each option that selects by value.
+/// Returns name, key of the axis, and value (if given) of each option that selects by value.
 fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&String>); 3] {
     [
         ("--gap", "gap_over_t", selection.gap.as_ref()),
@@ -278,7 +281,7 @@ impl SelectedDesign {
 
     /// Formats the keys and values of the design on all axes.
     ///
-    /// `equals` stands between key and value, `separator` between axes.
+    /// `equals` is the text between key and value, `separator` the text between two axes.
     pub fn values(&self, equals: &str, separator: &str) -> String {
         let axes = self.sweep.grid().axes().iter();
         axes.map(|axis| format!("{}{equals}{}", axis.parameter().key, axis.value(0)))

@@ -99,7 +99,7 @@ fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
 
 /// Formats the indices of the main measures.
 fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
-    // Each sample has two independent points, and a mixture of them for each variable.
+    // Each sample has two independent points, and a mixture of both points for each variable.
     let points = samples * (found.variables.len() + 2);
     let samples = counted(samples as u64, "sample");
     let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());

@@ -22,14 +22,14 @@ Examples:
   results/paper/slurm/submit.sh --time=12:00:00 --cpus-per-task=4
 
 Writes submit.sh and the complete definition to DIR/slurm. submit.sh submits a job array with one element for
-each shard, and a job that merges the shards. Shards write to DIR/shards, the merged sweep to DIR. If they
-are submitted again, shards continue where they stopped. The folder may be moved.
+each shard, and a job that merges the shards. Shards write to DIR/shards, the merged sweep to DIR. Shards
+that are submitted again continue where they stopped. The folder may be moved.
 Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Number of shards, 1 to 1000: the elements of the job array
+    /// Number of shards (elements of the job array), 1 to 1000
     // The parser accepts any number, because the function `check` explains the limit of Slurm.
     #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<0, { u64::MAX }>)]
     pub shards: u64,

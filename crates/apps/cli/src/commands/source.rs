@@ -1,7 +1,7 @@
 //! Finds and reads definitions and results folders.
 //!
-//! Most commands accept a definition or a results folder. If they need the definition, they read it
-//! from the record in the folder; if they need results, they use the folder of the definition.
+//! Most commands accept a definition or a results folder. A command that needs a definition reads
+//! the record in the results folder. A command that needs results uses the folder of the definition.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -99,8 +99,8 @@ pub fn print_notes(sweep: &Sweep) {
 
 /// Returns the file that contains the definition.
 ///
-/// This is `path` itself, or the record or optimum in the results folder `path`. Verifies a file
-/// that squama wrote.
+/// The file is `path` itself, or the record or optimum in the results folder `path`. The checksum
+/// of a file that squama wrote is verified.
 pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_dir() {
         // Reject a run.toml that was edited.
@@ -132,9 +132,9 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     Ok(record)
 }
 
-/// Returns the results folder of `path`.
+/// Returns the results folder that `path` refers to.
 ///
-/// `path` is the folder itself, the record in the folder, or a definition.
+/// `path` is the folder itself, the record in the folder, or the definition of the run.
 pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_file() {
         // Do not check that the folder exists: opening its files reports a better error.
@@ -190,7 +190,7 @@ fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Opens and verifies the results folder of `path`, a definition or a folder.
+/// Opens and verifies the results folder that `path` refers to; see [`results_folder`].
 pub fn verified_folder(path: &Path, completeness: Completeness) -> anyhow::Result<VerifiedFolder> {
     Ok(VerifiedFolder::open(&results_folder(path)?, completeness)?.warning(warn_once))
 }

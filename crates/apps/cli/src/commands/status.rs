@@ -138,7 +138,7 @@ fn report(status: &run::RunStatus) -> String {
     let subset = header.subset().to_string();
     let mut rows = vec![
         row("designs", format!("{}, {subset}", status.archive.designs().len())),
-        row("done", format!("{}{}", status.archive.done(), again(status))),
+        row("done", format!("{}{}", status.archive.done(), rerun_count(status))),
         row("failed", status.failed.to_string()),
         row("running", status.running().to_string()),
         row("missing", status.missing().to_string()),
@@ -198,8 +198,8 @@ fn row(what: &str, value: String) -> [String; 2] {
     [what.to_owned(), value]
 }
 
-/// Formats the number of designs that `squama rerun` solved again.
-fn again(status: &run::RunStatus) -> String {
+/// States how many designs `squama rerun` solved again; an empty text if there are none.
+fn rerun_count(status: &run::RunStatus) -> String {
     match status.solved_again {
         0 => String::new(),
         count => format!(", {count} of them solved again"),
@@ -209,13 +209,13 @@ fn again(status: &run::RunStatus) -> String {
 /// Formats the rate of the last session, in designs per second, and the remaining time.
 fn rate(status: &run::RunStatus) -> Option<String> {
     let rate = status.rate()?;
-    let left = (status.running() + status.missing()) as f64 / rate;
-    // At a rate of zero the time is infinite, which is no `Duration`.
-    let left = match Duration::try_from_secs_f64(left) {
-        Ok(left) if !left.is_zero() => format!(", {} for the rest", time(left)),
+    let remaining = (status.running() + status.missing()) as f64 / rate;
+    // At a rate of zero the remaining time is infinite, which a `Duration` cannot represent.
+    let remaining = match Duration::try_from_secs_f64(remaining) {
+        Ok(time_left) if !time_left.is_zero() => format!(", {} for the rest", time(time_left)),
         _ => String::new(),
     };
-    Some(format!("{rate:.1} designs/s{left}"))
+    Some(format!("{rate:.1} designs/s{remaining}"))
 }
 
 fn reasons(status: &run::RunStatus) -> String {

@@ -64,7 +64,7 @@ pub struct Arguments {
     pub sampled: SampleArgs,
 }
 
-/// Maximum number of designs, because each takes some kilobytes of memory until the end.
+/// Maximum number of designs, because each occupies some kilobytes of memory until all are solved.
 const MOST: u64 = 100_000;
 
 /// Predicts the spread of the measures from tolerances, and the yield of the requirements.

@@ -60,10 +60,10 @@ impl<'t> Number<'t> {
             return self.text == other.text;
         }
         let alike = self.decimals == other.decimals || self.significant == other.significant;
-        let apart = (self.value - other.value).abs();
+        let difference = (self.value - other.value).abs();
         // Allow 1.5 units: the difference of two decimal fractions has a rounding error, so the
         // limit must not be exactly one unit.
-        alike && apart < 1.5 * self.unit().max(other.unit())
+        alike && difference < 1.5 * self.unit().max(other.unit())
     }
 }
 
@@ -172,7 +172,7 @@ fn the_last_digit_of_computed_numbers_may_differ_by_one() {
 }
 
 #[test]
-fn other_differences_are_disagreements() {
+fn differences_beyond_the_last_digit_are_disagreements() {
     for (one, other) in [
         ("| 2.30452 |", "| 2.30454 |"),
         ("| 2.30452 |", "| 2.3045 |"),

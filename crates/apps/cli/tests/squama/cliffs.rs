@@ -36,9 +36,10 @@ fn the_best_designs_are_solved_again_with_other_gaps() {
             let solved: Value = serde_json::from_str(&solved).expect("JSON");
             for measure in change["measures"].as_array().expect("measures") {
                 let column = measure["column"].as_str().expect("a column");
-                let [told, own] = [&measure[key], &solved["measures"][column]]
+                let [reported, solved] = [&measure[key], &solved["measures"][column]]
                     .map(|v| v.as_f64().expect("a number"));
-                assert!((told / own - 1.0).abs() < 1e-9, "{column} at {gap}: {told} {own}");
+                let difference = (reported / solved - 1.0).abs();
+                assert!(difference < 1e-9, "{column} at {gap}: {reported} {solved}");
             }
         }
     }
@@ -68,16 +69,16 @@ fn the_best_design_is_solved_again_with_full_coupling() {
     let solved: Value = serde_json::from_str(&solved).expect("JSON");
     let measures = change["measures"].as_array().expect("measures");
     assert_eq!(measures.len(), 4);
-    let mut moved = Vec::new();
+    let mut changed = Vec::new();
     for measure in measures {
         let column = measure["column"].as_str().expect("a column");
         assert_eq!(measure["full"], solved["measures"][column], "{column}");
         if measure["full"] != measure["nearest"] {
-            moved.push(column);
+            changed.push(column);
         }
     }
-    assert!(moved.contains(&"penetration") && !moved.contains(&"coverage"), "{printed}");
-    // A sweep with full coupling needs no check with full coupling.
+    assert!(changed.contains(&"penetration") && !changed.contains(&"coverage"), "{printed}");
+    // Designs of a sweep with full coupling are not solved again with full coupling.
     let (_, printed) = ranked(&format!("substrate.coupling = 'full'\n{FEW}"), "--json");
     let ranking: Value = serde_json::from_str(&printed).expect("JSON");
     assert_eq!(ranking["full_coupling"], Value::Array(Vec::new()));
@@ -104,11 +105,11 @@ fn a_map_is_drawn_over_any_two_parameters() {
     assert_eq!(map.matches("<g class=\"map\">").count(), 2);
     assert_eq!(map.matches("<rect").count(), 2 * 9 + 2 + 60 + 1, "{map}");
     assert!(map.contains("<g class=\"contours\""), "{map}");
-    let held = place.prints("plot map x.toml --x gap_over_t --y slant_deg --of compliance --at length_over_t=0.2 --no-title --out y");
-    assert_eq!(held, "y/map-of-compliance-over-gap-over-t-and-slant-deg-length-over-t-0.2.svg\n");
-    let held = place.read(held.trim());
+    let fixed = place.prints("plot map x.toml --x gap_over_t --y slant_deg --of compliance --at length_over_t=0.2 --no-title --out y");
+    assert_eq!(fixed, "y/map-of-compliance-over-gap-over-t-and-slant-deg-length-over-t-0.2.svg\n");
+    let fixed = place.read(fixed.trim());
     assert_eq!(
-        (held.matches("<g class=\"map\">").count(), held.matches("class=\"title\"").count()),
+        (fixed.matches("<g class=\"map\">").count(), fixed.matches("class=\"title\"").count()),
         (1, 0)
     );
 }

@@ -97,7 +97,7 @@ fn a_changed_digit_is_detected_and_repaired() {
     place.squama("merge -q r --out r").assert().code(0);
     assert_eq!(place.read("r/designs.csv"), sound);
     place.prints("status r");
-    // The change of a table that only one command reads is detected, too.
+    // The change of a table that only `export` reads is detected, too.
     change(&place, "r/penetration.csv", "0001", "0002");
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/penetration.csv: was changed after squama wrote it; squama merge r --out r writes it again");
     // A deleted table must not be treated as a table that was never written.
@@ -107,7 +107,7 @@ fn a_changed_digit_is_detected_and_repaired() {
         message.starts_with("error: r/penetration.csv: cannot be read (No such file"),
         "{message}"
     );
-    // The record of the run also serves as a definition.
+    // Commands that read the record of a run as a definition reject an edited record.
     place.squama("merge -q r --out r").assert().code(0);
     change(&place, "r/run.toml", "slant_deg = [0", "slant_deg = [1");
     for reader in ["design r/run.toml --design 1", "draw r/run.toml --design 1", "run r/run.toml"] {
@@ -143,7 +143,8 @@ fn derivatives_are_verified_like_any_table() {
 
 /// Changes the lines of a journal after its header, and renews their checksums.
 ///
-/// `key` is the key of the header line that contains the definition and the program.
+/// `change` is called for each of these lines. `key` is the key of the header line that contains
+/// the definition and the program.
 fn reseal(place: &Place, journal: &str, key: &str, change: impl Fn(&mut serde_json::Value)) {
     let text = place.read(journal);
     let (first, rest) = text.split_once('\n').expect("lines");
@@ -196,7 +197,7 @@ fn forged_evaluations_are_rejected() {
     let (journal, sound) = ("found/evaluations.jsonl", place.read("found/evaluations.jsonl"));
     let tables = ["history.csv", "optimum.csv"];
     let tables = tables.map(|file| (file, place.read(&format!("found/{file}"))));
-    // A changed value in a column of the goal would change the path of the search, so it is
+    // A changed value in a column of the goal would change the course of the search, so it is
     // rejected.
     reseal(&place, journal, "optimisation", |line: &mut serde_json::Value| {
         let coverage = &mut line["solved"]["result"]["coverage"];
@@ -208,7 +209,8 @@ fn forged_evaluations_are_rejected() {
     assert!(message.starts_with(&format!("error: {journal}: ")), "{message}");
     assert!(message.contains("differs from history.csv"), "{message}");
     fs::write(place.path(journal), &sound).expect("writable");
-    // A changed value in another column has no effect: `--resume` solves the best design again.
+    // A changed value in a column other than `coverage` has no effect, because `--resume` solves
+    // the best design again.
     reseal(&place, journal, "optimisation", |line: &mut serde_json::Value| {
         line["solved"]["result"]["flexure"]["measures"]["initial_compliance"] = 0.5.into();
     });
@@ -332,18 +334,22 @@ fn a_fresh_run_removes_files_made_from_the_earlier_run() {
     for command in ["rank r", "plot r", "report r", "export r --xlsx r/a.xlsx"] {
         place.prints(command);
     }
-    let own = place.read("r/figures/coverage-maps-by-slant.svg").replace("few", "mine");
-    fs::write(place.path("r/figures/coverage-maps-by-slant.svg"), &own).expect("writable");
+    let edited = place.read("r/figures/coverage-maps-by-slant.svg").replace("few", "mine");
+    fs::write(place.path("r/figures/coverage-maps-by-slant.svg"), &edited).expect("writable");
     let run = place.squama("run x.toml -q --fresh --out r --set contact.c1=2").assert().code(0);
-    let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
+    let message = String::from_utf8(run.get_output().stderr.clone()).expect("text");
     assert!(
-        said.starts_with("note: removed, because they were made from the earlier results: "),
-        "{said}"
+        message.starts_with("note: removed, because they were made from the earlier results: "),
+        "{message}"
     );
     for file in ["ranking.csv", "report.html", "a.xlsx"] {
-        assert!(said.contains(file) && !place.path("r").join(file).exists(), "{file}: {said}");
+        assert!(
+            message.contains(file) && !place.path("r").join(file).exists(),
+            "{file}: {message}"
+        );
     }
-    assert_eq!(place.read("r/figures/coverage-maps-by-slant.svg"), own, "a changed file is kept");
+    let kept = place.read("r/figures/coverage-maps-by-slant.svg");
+    assert_eq!(kept, edited, "a changed file is kept");
 }
 
 #[test]
@@ -358,8 +364,11 @@ fn lost_lines_of_a_journal_are_detected() {
     assert!(message.contains("is not the journal from which the tables beside it"), "{message}");
     insta::assert_snapshot!(place.refused("merge r --out all"), @"error: r/journal.jsonl: 1 of the 12 lines from which the tables were written are missing; restore them from a copy of the journal, or solve them again with squama run --resume");
     let run = place.squama("run x.toml -q --resume --out r").assert().code(0);
-    let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
-    assert!(said.starts_with("note: r/journal.jsonl: 1 of the 12 lines from which"), "{said}");
+    let message = String::from_utf8(run.get_output().stderr.clone()).expect("text");
+    assert!(
+        message.starts_with("note: r/journal.jsonl: 1 of the 12 lines from which"),
+        "{message}"
+    );
     place.prints("rank r");
 }
 

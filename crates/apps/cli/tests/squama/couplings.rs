@@ -1,4 +1,4 @@
-//! Coupling and law of the substrate are axes of a sweep.
+//! The coupling and the law of the substrate can be axes of a sweep.
 
 use crate::Place;
 use crate::table::cells;

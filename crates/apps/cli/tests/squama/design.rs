@@ -24,7 +24,7 @@ fn design_prints_the_values_of_the_sweep() {
                 assert!((value - printed).abs() <= 5e-6 * value.abs(), "{name}: {printed}");
             }
             _ if value.is_empty() => assert!(printed.starts_with("none"), "{name}: {printed}"),
-            _ => assert!(printed.starts_with(value), "{name}: {printed} should say {value}"),
+            _ => assert!(printed.starts_with(value), "{name}: {printed}, expected {value}"),
         }
     }
     let longest = text.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).map(str::len);
@@ -41,7 +41,7 @@ fn design_prints_the_values_of_the_sweep() {
 fn a_folded_design_is_marked() {
     let place = Place::with(FEW);
     let folded = place.prints("design x.toml --gap 0.1 --length 1 --slant 75");
-    let line = "\n⚠ Beyond 23 % of the critical force, the modelled surface folds, which is physically impossible: results beyond it are not valid.\n";
+    let line = "\n⚠ Beyond 23 % of the critical force, the modelled surface folds, which is physically impossible: results at larger forces are not valid.\n";
     assert!(folded.contains(line), "{folded}");
     let open = place.prints("design x.toml --gap 0.2 --length 0.5 --slant 60");
     assert!(!open.contains("surface folds"), "{open}");
@@ -86,16 +86,16 @@ fn incomplete_unloading_is_explained() {
                   --set puncture.needle=guided --set puncture.needle_friction=0.3 --set puncture.load_inset_over_t=0.05";
     let output = place.squama(design).assert().code(1);
     let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
-    let told = ["puncture_status", "loop_work", "unload_status"].map(|name| {
+    let reported = ["puncture_status", "loop_work", "unload_status"].map(|name| {
         let line = text.lines().find(|line| line.trim_start().starts_with(name));
         line.and_then(|line| line.split_whitespace().nth(1)).expect("a line").to_owned()
     });
-    assert_eq!(told, ["complete", "none", "jumps"], "{text}");
+    assert_eq!(reported, ["complete", "none", "jumps"], "{text}");
 }
 
 /// A round tip between two scales presses on both scales.
 ///
-/// Each contact force has a lateral component, so the sum of their sizes exceeds the load.
+/// Each contact force has a lateral component, so the sum of both forces exceeds the load.
 #[test]
 fn design_writes_the_forces_of_a_round_tip() {
     let place = Place::with(FEW);
@@ -152,7 +152,7 @@ fn design_states_the_radius_at_which_scales_touch() {
     let line = text.lines().find(|line| line.starts_with("The scales touch")).expect("a radius");
     let radius = line.split_whitespace().nth(9).and_then(|radius| radius.parse::<f64>().ok());
     let radius = radius.expect("a number");
-    // With a slightly larger radius the scales do not overlap, with a smaller radius they do.
+    // With a slightly larger radius the scales do not overlap; with a smaller radius they overlap.
     place.squama(&format!("{design} --set body.radius_over_t={}", 1.001 * radius)).assert().code(0);
     let closer = format!("{design} --set body.radius_over_t={}", 0.999 * radius);
     place.squama(&closer).assert().code(1);
@@ -272,7 +272,7 @@ fn the_weakest_known_load_position_is_reported() {
     let forces = places.lines().skip(1).filter_map(|row| row.split(',').nth(1)?.parse().ok());
     let weakest = forces.reduce(f64::min).expect("a force");
     assert!(text.contains("the path ends early (off the edge) at 0."), "{text}");
-    let (_, told) = text.split_once("with a critical force of ").expect("a sentence");
-    let told: f64 = told.lines().next().expect("a line").parse().expect("a number");
-    assert!((told / weakest - 1.0).abs() < 1e-5, "{text}");
+    let (_, reported) = text.split_once("with a critical force of ").expect("a sentence");
+    let reported: f64 = reported.lines().next().expect("a line").parse().expect("a number");
+    assert!((reported / weakest - 1.0).abs() < 1e-5, "{text}");
 }

@@ -33,15 +33,15 @@ fn outputs_with_a_failure_force_name_the_failure_mode() {
     let modes = "Failure modes judged: tilt, fold, break, bend, debond, across\nNot judged: ";
 
     let rank = "rank r --maximize failure_force_N --require coverage>=0";
-    let told = place.prints(rank);
-    assert!(told.contains(modes) && told.contains("failure_force_N  first_failure"), "{told}");
+    let text = place.prints(rank);
+    assert!(text.contains(modes) && text.contains("failure_force_N  first_failure"), "{text}");
     let ranked = json(&place.prints(&format!("{rank} --json")));
     let best = &ranked["best"][0];
-    let row = cells(&table, "design").iter().position(|own| *own == best["design"]);
+    let row = cells(&table, "design").iter().position(|number| *number == best["design"]);
     let expected = cells(&table, "first_failure")[row.expect("a design")].to_owned();
     assert_eq!(best["values"]["first_failure"], expected.as_str());
     assert_eq!(ranked["failure_modes"]["across"], Value::Null);
-    // A ranking without the failure force does not name modes.
+    // A ranking without the failure force does not name failure modes.
     assert!(!place.prints("rank r --maximize coverage").contains("Failure modes"));
 
     // A map has a coloured cell for every design with a failure mode, and a legend of the modes.
@@ -51,33 +51,33 @@ fn outputs_with_a_failure_force_name_the_failure_mode() {
     let map = place.read(map);
     let lengths = cells(&table, "length_over_t");
     let firsts = cells(&table, "first_failure");
-    let own =
+    let drawn =
         lengths.iter().zip(&firsts).filter(|(length, mode)| **length == "1" && !mode.is_empty());
-    assert_eq!(map.matches("data-design").count(), own.clone().count());
-    assert!(own.into_iter().all(|(_, mode)| map.contains(&format!(">{mode}<"))), "{map}");
+    assert_eq!(map.matches("data-design").count(), drawn.clone().count());
+    assert!(drawn.into_iter().all(|(_, mode)| map.contains(&format!(">{mode}<"))), "{map}");
     place.squama("plot r --out f").assert().code(0);
     assert!(place.path("f/first-failure-by-gap-slant.svg").is_file());
 
     let tolerance = "tolerance x.toml --design 1 --samples 0 --out t";
-    let told = place.prints(tolerance);
+    let text = place.prints(tolerance);
     let line = format!("First failure of the nominal design: {first}\n\n{modes}");
-    assert!(told.contains(&line) && told.contains("failure_force_N  "), "{told}");
-    let told = place.prints("make x.toml --design 1 --out skin.stl");
+    assert!(text.contains(&line) && text.contains("failure_force_N  "), "{text}");
+    let text = place.prints("make x.toml --design 1 --out skin.stl");
     assert!(
-        told.contains(&format!("First failure: {first}, at ")) && told.contains(modes),
-        "{told}"
+        text.contains(&format!("First failure: {first}, at ")) && text.contains(modes),
+        "{text}"
     );
-    let told = place.prints("check x.toml");
-    assert!(told.contains("failure modes  tilt, fold, break, bend, debond, across\n"), "{told}");
+    let text = place.prints("check x.toml");
+    assert!(text.contains("failure modes  tilt, fold, break, bend, debond, across\n"), "{text}");
     place.squama("report r").assert().code(0);
     let page = place.read("r/report.html");
     assert!(page.contains("\"failure_force_N\":\"first_failure\""));
     assert!(page.contains("not judged: the needle is not guided"));
 }
 
-/// The figure states the name and the force of the first failure, as in the table.
+/// The figure states the mode and the force of the first failure, as in `designs.csv`.
 #[test]
-fn curves_mark_the_limits_of_a_design() {
+fn curves_mark_the_failure_limits_of_a_design() {
     let weak = "scale_modulus_MPa = 3000\nscale_strength_MPa = 0.15";
     let judged = JUDGED.replace("scale = 'PLA'", weak);
     let place = Place::with(&format!("{FEW}{judged}"));
@@ -119,13 +119,13 @@ fn the_recommended_skin_fails_in_no_mode_below_its_failure_force() {
     let goal = Path::new(ROOT).join("sweeps/goals/strong-under-a-needle.toml");
     let goal = goal.display();
     let search = format!("optimise {goal} --out found --set goal.samples=16");
-    let told = place.prints(&search);
-    assert!(told.contains("first_failure    across\n"), "{told}");
+    let text = place.prints(&search);
+    assert!(text.contains("first_failure    across\n"), "{text}");
 
     let solved = json(&place.prints("design found/optimum.toml --design 1 --json"));
     let force = number(&solved, "failure_force_N");
-    // The row across fails first: along the row, the critical tilt needs a larger force, and no
-    // strength is exceeded before.
+    // The row across fails first: along the row, the critical tilt needs a larger force, and the
+    // stresses stay below the strengths.
     assert!(number(&solved, "critical_force_N") > force);
     assert!(number(&solved, "scale_stress_max_MPa") < 50.0);
     assert!(number(&solved, "bond_stress_max_MPa") < 0.3);
@@ -183,7 +183,9 @@ fn output_of_commands(place: &Place, blocks: &[&str]) -> String {
     printed
 }
 
-/// Compares the 20 skins of largest critical force with the 20 skins of largest failure force.
+/// Compares the 20 skins with the largest critical force and the 20 with the largest failure force.
+///
+/// The page must quote the median of failure force divided by critical force.
 fn assert_strongest_skins(place: &Place, page: &str) {
     let table = place.read("results/first-failure/designs.csv");
     let modes = cells(&table, "first_failure");
@@ -211,15 +213,16 @@ fn assert_strongest_skins(place: &Place, page: &str) {
     assert!(page.contains(&format!("{median:.1} %")), "{median}");
 }
 
-/// Compares the table of numbers of skins by first failure, slant and width with the results.
+/// Checks the table of the page that counts the skins by first failure, slant and width.
 fn assert_first_failures_by_slant(place: &Place, page: &str) {
     for (folder, title) in [("first-failure", "width `t`"), ("wide", "width `3 t`")] {
         let table = place.read(&format!("results/{folder}/designs.csv"));
         let (slants, modes) = (cells(&table, "slant_deg"), cells(&table, "first_failure"));
         for slant in ["0", "15", "30", "45", "60", "75"] {
             let counts = ["tilt", "across", "bend", ""].map(|mode| {
-                let own = slants.iter().zip(&modes).filter(|(s, m)| **s == slant && **m == mode);
-                own.count().to_string()
+                let matching =
+                    slants.iter().zip(&modes).filter(|(s, m)| **s == slant && **m == mode);
+                matching.count().to_string()
             });
             assert_eq!(
                 counts.iter().map(|n| n.parse::<usize>().expect("a number")).sum::<usize>(),

@@ -1,4 +1,4 @@
-//! Overlays measured curves on solved curves, and fits parameters to them.
+//! Overlays measured curves on solved curves, and fits parameters to measured curves.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -139,14 +139,14 @@ fn doubtful_fits_are_reported() {
 
 /// The model needs a displacement that is zero at contact; otherwise `offsets` fits the zero.
 #[test]
-fn an_approach_is_reported_with_its_last_line() {
+fn an_approach_before_contact_is_reported_with_its_last_line() {
     let skin = SKIN.replace("substrate_modulus_MPa = 0.5\n", "");
     let place = Place::with(&format!(
         "{skin}[variables]\nsubstrate_modulus_MPa = {{ from = 0.1, to = 9 }}\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"
     ));
     let mut file = "displacement_mm,force_N\n".to_owned();
     for x in (0..40).map(|k| 0.005 * f64::from(k)) {
-        writeln!(file, "{x},{}", SLOPE * (x - 0.1).max(0.0)).expect("a text");
+        writeln!(file, "{x},{}", SLOPE * (x - 0.1).max(0.0)).expect("writing to a String succeeds");
     }
     fs::write(place.path("a.csv"), file).expect("writable");
     let assert = place.squama("fit x.toml").assert();
@@ -161,7 +161,7 @@ fn an_approach_is_reported_with_its_last_line() {
     fs::write(place.path("x.toml"), offset).expect("writable");
     let text = place.prints("fit x.toml");
     assert!(text.contains(&format!("\n  {approach}")), "{text}");
-    // A curve that begins at contact gives no such message.
+    // A curve that begins at contact gives no message about an approach.
     let points = (1..40).map(|k| 0.005 * f64::from(k)).map(|x| format!("{x},{}\n", SLOPE * x));
     let file = format!("displacement_mm,force_N\n{}", points.collect::<String>());
     fs::write(place.path("a.csv"), file).expect("writable");
@@ -204,8 +204,8 @@ fn the_scatter_of_specimens_becomes_a_tolerance() {
     // The figure shows the mean of the specimens, and a message names the omitted line.
     let mut assert = place.squama("plot curves f/fitted.toml --design 1 --measured a.csv --out o");
     let assert = assert.assert().success();
-    let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
-    assert!(told.contains("1 line outside the table of numbers left out: 24"), "{told}");
+    let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    assert!(message.contains("1 line outside the table of numbers left out: 24"), "{message}");
     let figure = place.read("o/force-displacement-curves-of-0001.svg");
     assert!(figure.contains("mean of 3 specimens") && figure.contains("class=\"band\""));
 }

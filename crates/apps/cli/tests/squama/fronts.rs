@@ -36,7 +36,7 @@ fn a_front_is_shown_with_the_designs_of_the_grid() {
         "{found}"
     );
     assert!(html.contains("\"variables\":[\"gap_over_t\",\"slant_deg\"]"));
-    // The page reports fixed parameters that differ from the grid, but not variables.
+    // The page reports fixed parameters that differ between search and grid, but not variables.
     assert!(found.contains("\"differences\":[\"scale.width_over_t 2 instead of 1\"]"), "{found}");
 }
 

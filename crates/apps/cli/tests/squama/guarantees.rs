@@ -1,6 +1,7 @@
 //! Guarantees for the files of runs, searches, analyses, rankings and other commands.
 //!
-//! No command overwrites files of another origin, and readers detect changed files.
+//! No command overwrites files that squama did not write. Commands that read results detect changed
+//! files.
 
 use std::fs;
 use std::path::Path;
@@ -50,7 +51,7 @@ fn no_command_overwrites_tables_that_squama_did_not_write() {
         let message = place.refused(command);
         assert!(message.starts_with(&format!("error: {file}: cannot be written")), "{message}");
         assert_eq!(place.read(&file), "mine", "{command}");
-        // The command may overwrite files that it wrote itself.
+        // A command may overwrite files that it wrote itself.
         fs::remove_file(place.path(&file)).expect("a file");
         for _ in 0..2 {
             let again = command.replace("--out out", "--out again").replace("--fresh", "");
@@ -265,7 +266,7 @@ fn tables_below(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
 }
 
 #[test]
-fn every_command_keeps_the_format_of_the_folder_that_it_writes_into() {
+fn every_command_keeps_the_csv_format_of_its_results_folder() {
     let place = place();
     for command in [
         "run x.toml -q --csv excel-eu --out eu",
@@ -287,7 +288,7 @@ fn every_command_keeps_the_format_of_the_folder_that_it_writes_into() {
 }
 
 #[test]
-fn a_part_is_not_replaced_if_its_list_cannot_be_written() {
+fn a_step_file_is_not_replaced_if_its_list_of_parts_cannot_be_written() {
     let place = place();
     let material = COVERED.replace("[designs]", "[material]\nthickness_mm = 2\n[designs]");
     fs::write(place.path("m.toml"), material).expect("writable");
@@ -335,8 +336,8 @@ fn endless_inputs_are_rejected() {
 
 /// Creates a named pipe at `path`.
 fn make_pipe(path: &Path) {
-    let made = std::process::Command::new("mkfifo").arg(path).status();
-    assert!(made.expect("mkfifo").success());
+    let status = std::process::Command::new("mkfifo").arg(path).status();
+    assert!(status.expect("mkfifo").success());
 }
 
 #[cfg(unix)]

@@ -59,13 +59,13 @@ fn the_design_on_a_truncated_last_line_is_solved_again() {
     assert!(String::from_utf8_lossy(&status).contains("missing     1\n"));
     let run = place.squama("run x.toml -q --out b --resume").assert().code(0);
     place.assert_same_tables("a", "b");
-    let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
+    let message = String::from_utf8(run.get_output().stderr.clone()).expect("text");
     let tail = torn.rsplit('\n').next().expect("a tail");
     let expected = format!(
         "note: b/journal.jsonl: {} damaged bytes at its end were cut off; a copy of them is in b/journal.cut-1\n",
         tail.len()
     );
-    assert_eq!(said, expected);
+    assert_eq!(message, expected);
     assert_eq!(place.read("b/journal.cut-1"), tail);
 }
 
@@ -114,27 +114,27 @@ fn a_file_of_zeros_is_rejected_as_a_journal() {
     place.squama("run x.toml -q --out r").assert().code(0);
     let journal = place.read("r/journal.jsonl");
     std::fs::create_dir(place.path("zeros")).expect("a folder");
-    add_zeros(&place.path("zeros/journal.jsonl"));
+    add_zero_bytes(&place.path("zeros/journal.jsonl"));
     for command in ["run x.toml --out zeros", "status zeros", "merge zeros --out all"] {
         let message = place.refused(command);
         assert!(message.contains("not the first line of a journal"), "{message}");
     }
-    // Zeros after valid lines are treated as a damaged end of the journal.
-    add_zeros(&place.path("r/journal.jsonl"));
+    // Zero bytes after valid lines are treated as a damaged end of the journal.
+    add_zero_bytes(&place.path("r/journal.jsonl"));
     let status = place.squama("status r").assert().code(1).get_output().stdout.clone();
     assert!(String::from_utf8_lossy(&status).contains("done        8\n"));
     std::fs::write(place.path("r/journal.jsonl"), journal).expect("writable");
     place.prints("status r");
 }
 
-/// Appends 256 MiB of zeros to a file; the file is sparse, so the zeros take no disk space.
-fn add_zeros(path: &Path) {
+/// Appends 256 MiB of zero bytes to a file; the file is sparse, so it takes no disk space.
+fn add_zero_bytes(path: &Path) {
     let file = std::fs::OpenOptions::new().append(true).create(true).open(path).expect("writable");
     file.set_len(file.metadata().expect("a file").len() + (1 << 28)).expect("a hole");
 }
 
 #[test]
-fn journals_of_other_programs_are_rejected() {
+fn journals_of_other_versions_of_squama_are_rejected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     let journal = place.read("results/few/journal.jsonl");
@@ -196,11 +196,11 @@ mod signals {
         let mut run = place.spawn("run x.toml --threads 1");
         run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
         run.send(SIGINT);
-        let word = "ending without the designs in progress; a second signal ends at once; --resume continues\n";
-        run.until_said(word);
+        let message = "ending without the designs in progress; a second signal ends at once; --resume continues\n";
+        run.until_printed(message);
         assert_eq!(run.end().code(), Some(130));
 
-        // Unlike a run, `squama tolerance` begins with the first design, so make the first one
+        // Unlike a run, `squama tolerance` begins with the first design, so make the first design
         // quick.
         let place = Place::with(&ENDLESS.replace("[10001, 1]", "[1, 10001]"));
         let mut tolerance = place.spawn(
@@ -209,7 +209,7 @@ mod signals {
         let samples = "results/endless/tolerance/samples";
         tolerance.until(|| place.path(samples).exists() && place.list(samples).contains(".csv"));
         tolerance.send(SIGINT);
-        tolerance.until_said(
+        tolerance.until_printed(
             "ending without the samples in progress; a second signal ends at once; to continue, run the same command again\n",
         );
         assert_eq!(tolerance.end().code(), Some(130));
@@ -224,15 +224,15 @@ mod signals {
         std::fs::write(place.path("goal.toml"), goal + more).expect("writable");
         let mut tolerance = place.spawn("tolerance x.toml --design 1 --samples 2");
         let mut search = place.spawn("optimise goal.toml");
-        tolerance.until_said("design 0001: ");
-        search.until_said("a design of the search: ");
+        tolerance.until_printed("design 0001: ");
+        search.until_printed("a design of the search: ");
     }
 
-    /// A sweep of a slow design with 10,001 scales, which takes minutes, and a quick one with one.
+    /// A sweep of two designs: one with 10,001 scales takes minutes, one with one scale is quick.
     ///
-    /// Both take ten thousand steps. A run begins in the middle of the grid, so it solves the quick
-    /// second design first. The substrate is nonlinear, because then the system of equations
-    /// contains all scales.
+    /// Both designs take ten thousand steps. A run begins in the middle of the grid, so it solves
+    /// the quick second design first. The substrate is nonlinear, because then the system of
+    /// equations contains all scales.
     const ENDLESS: &str = "name = 'endless'\nmeasures = ['puncture']\n[designs]\ngap_over_t = 0.1\n\
                            length_over_t = 1\nslant_deg = 0\nscales = [10001, 1]\n\
                            [substrate]\nlaw = 'neo-hookean'\n[solver]\nmax_step = 1e-4\nfirst_step = 1e-4\n";
@@ -259,7 +259,7 @@ mod signals {
             "[variables]\nslant_deg = { from = 0, to = 1 }\n[goal]\nmaximize = 'critical_force'\n";
         std::fs::write(place.path("goal.toml"), goal + more).expect("writable");
         let mut search = place.spawn("optimise goal.toml --out search");
-        search.until_said("a design of the search: ");
+        search.until_printed("a design of the search: ");
         search.send(SIGTERM);
         let ended = search.end_within(Duration::from_secs(10)).expect("the search ends");
         assert_eq!(ended.code(), Some(143));
@@ -297,8 +297,8 @@ mod signals {
         let place = Place::with(FEW);
         std::fs::create_dir(place.path("r")).expect("a folder");
         let journal = place.path("r/journal.jsonl");
-        let made = std::process::Command::new("mkfifo").arg(&journal).status();
-        assert!(made.is_ok_and(|status| status.success()), "a pipe");
+        let status = std::process::Command::new("mkfifo").arg(&journal).status();
+        assert!(status.is_ok_and(|status| status.success()), "a pipe");
         for command in
             ["run x.toml --out r", "status r", "merge r --out all", "rerun r --failed", "rank r"]
         {

@@ -30,8 +30,8 @@ fn json_of_a_design_contains_all_values() {
         (&design["failed"], &design["folder"]),
         (&false.into(), &"results/few/designs/0006".into())
     );
-    let beside = place.json("design x.toml --gap 0.15 --length 1 --slant 45 --json");
-    assert_eq!(beside["design"], Value::Null);
+    let off_grid = place.json("design x.toml --gap 0.15 --length 1 --slant 45 --json");
+    assert_eq!(off_grid["design"], Value::Null);
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn json_contains_control_characters_that_text_escapes() {
 
 #[cfg(unix)]
 #[test]
-fn the_definition_of_a_design_may_come_through_a_pipe() {
+fn a_definition_may_be_read_from_a_pipe() {
     let place = Place::with(FEW);
     let mut design = place.squama("design /dev/stdin --design 6 --json --out d");
     let output = design.write_stdin(FEW).output().expect("output");

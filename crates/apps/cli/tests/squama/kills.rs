@@ -10,7 +10,7 @@ use rand_chacha::rand_core::SeedableRng as _;
 
 use crate::Place;
 
-/// Two hundred quick designs; the punctures of some stop early.
+/// A sweep of two hundred quick designs; the punctures of some designs stop early.
 const DESIGNS: &str = "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.3, 0.5, 1]\n\
                        length_over_t = [0.1, 0.2, 0.3, 0.6, 1]\n\
                        slant_deg = { from = 0, to = 72, step = 8 }\n\
@@ -27,7 +27,7 @@ struct Kills {
     repeated: usize,
 }
 
-/// A series of runs that are killed.
+/// A series of runs with processes that are killed at random moments.
 struct Campaign {
     place: Place,
     random: ChaCha8Rng,
@@ -37,11 +37,10 @@ struct Campaign {
 }
 
 impl Campaign {
-    /// Runs a command that writes to `folder`, kills it up to `times` times, then completes it.
+    /// Runs a command that writes to `folder`, kills it up to `times` times, then lets it complete.
     ///
     /// A process is killed up to 10 ms after its journal has a random number of lines, at most
-    /// `most`. A random time after the start of the process would depend on the speed of the
-    /// machine.
+    /// `most`. A random time after the start would kill slow machines early and fast machines late.
     fn survive(&mut self, arguments: &str, folder: &str, times: usize, most: usize) {
         let before = self.kills.all;
         let journal = format!("{folder}/journal.jsonl");
@@ -57,7 +56,7 @@ impl Campaign {
         self.place.squama(arguments).assert().code(1);
     }
 
-    /// Performs a run, or the shards of a run and their merge, into the folder `name`.
+    /// Runs the sweep into the folder `name`, as one run, or as shards that are merged.
     fn run(&mut self, name: &str, threads: u32, shards: u32) {
         let run = format!("run x.toml -q --resume --threads {threads}");
         if shards == 1 {
@@ -102,7 +101,7 @@ fn runs_killed_at_random_moments_resume_to_the_same_tables() {
     let kills = campaign.kills;
     // Check that the test is effective: fifty runs must have at least fifty kills, twenty of them
     // after the first design, and three runs that were killed several times.
-    for (found, of_fifty) in [(kills.all, 50), (kills.midway, 20), (kills.repeated, 3)] {
-        assert!(found >= of_fifty * runs() / 50, "{kills:?}");
+    for (count, minimum) in [(kills.all, 50), (kills.midway, 20), (kills.repeated, 3)] {
+        assert!(count >= minimum * runs() / 50, "{kills:?}");
     }
 }

@@ -119,7 +119,7 @@ fn impossible_patches_are_rejected() {
     assert_eq!(place.list("."), "x.toml y.toml", "no file is written");
 }
 
-/// A lossy conversion of such a name to UTF-8 could overwrite an unrelated file.
+/// If such a name were converted to UTF-8 with losses, squama could overwrite an unrelated file.
 #[cfg(target_os = "linux")]
 #[test]
 fn names_that_are_not_utf_8_are_refused() {
@@ -140,8 +140,8 @@ fn names_that_are_not_utf_8_are_refused() {
     for (command, kind) in commands {
         let name = [b"sk\xffin.", kind.as_bytes()].concat();
         let assert = place.squama(command).arg(OsStr::from_bytes(&name)).assert().code(2);
-        let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
-        assert!(told.contains("expected a name in UTF-8"), "{command}: {told}");
+        let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+        assert!(message.contains("expected a name in UTF-8"), "{command}: {message}");
     }
     assert_eq!(place.list("."), "r x.toml");
 }

@@ -68,7 +68,7 @@ fn a_gap_that_cannot_close_bends_to_any_radius() {
     }
 }
 
-/// Other warnings begin with the same mark as a fold, but must not add its legend.
+/// Other warnings begin with the mark ⚠, like folds, but must not add the legend of a fold.
 #[test]
 fn other_warnings_do_not_add_the_legend_of_folds() {
     let thin = MATERIAL.replace("thickness_mm = 2", "thickness_mm = 0.5");
@@ -190,8 +190,8 @@ fn design_states_which_failure_modes_were_judged() {
     let place = Place::with(FEW);
     let design = "design x.toml --design 1 --set material.thickness_mm=2 \
                   --set material.substrate_modulus_MPa=0.3 --set material.scale_strength_MPa=40";
-    let told = place.prints(design);
-    let lines = told.lines().skip_while(|line| !line.starts_with("Failure modes"));
+    let text = place.prints(design);
+    let lines = text.lines().skip_while(|line| !line.starts_with("Failure modes"));
     insta::assert_snapshot!(lines.take(2).collect::<Vec<_>>().join("\n"), @r"
     Failure modes judged: tilt, fold, break, bend
     Not judged: through (the needle is not guided), debond (the strength of the bond is not given), perforate (the needle has no radius), across (the gap across the row is not given)

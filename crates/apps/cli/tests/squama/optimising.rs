@@ -46,10 +46,11 @@ fn the_optimum_is_a_valid_definition() {
 fn a_run_notes_that_it_does_not_vary_variables() {
     let (definition, _) = GOAL.split_once("[goal]").expect("a goal");
     let assert = Place::with(definition).squama("run x.toml --quiet").assert().code(0);
-    let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
     assert!(
-        told.contains("[variables] gap_over_t, slant_deg: a run uses the middle of their ranges"),
-        "{told}"
+        message
+            .contains("[variables] gap_over_t, slant_deg: a run uses the middle of their ranges"),
+        "{message}"
     );
 }
 
@@ -113,9 +114,9 @@ fn json_output_contains_the_optimum() {
     let output = place.squama(infeasible).assert().code(1).get_output().stdout.clone();
     let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     assert_eq!(record["infeasible"]["requirements"][0]["met"], 0);
-    let told = "optimise x.toml --json --out w --set measures=puncture --set puncture.scales=5 --set goal.samples=16 \
+    let command = "optimise x.toml --json --out w --set measures=puncture --set puncture.scales=5 --set goal.samples=16 \
         --set goal.maximize=['critical_force'] --set goal.minimize=[] --set goal.require=['gap_over_t>=0.5','critical_force>=0.5']";
-    let output = place.squama(told).assert().code(1).get_output().stdout.clone();
+    let output = place.squama(command).assert().code(1).get_output().stdout.clone();
     let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     let infeasible = &record["infeasible"];
     // The values listed with the requirements belong to the nearest design.
@@ -138,8 +139,8 @@ fn the_best_design_is_drawn() {
     place.squama("optimise x.toml --quiet").assert().code(0);
     assert!(place.read("results/firm/optimum.svg").contains("(b)"));
     // `squama draw` draws the same panels.
-    let told = place.prints("draw results/firm --design 1");
-    let drawn = std::fs::read_to_string(place.path(told.trim())).expect("a drawing");
+    let file = place.prints("draw results/firm --design 1");
+    let drawn = std::fs::read_to_string(place.path(file.trim())).expect("a drawing");
     let (_, panels) = drawn.split_once("(a)").expect("a panel");
     let panels = panels.trim_end().trim_end_matches("<!-- squama -->").trim_end();
     assert!(place.read("results/firm/optimum.svg").contains(panels));
@@ -248,8 +249,8 @@ fn the_fitness_reports_its_criteria_and_their_bounds() {
     ");
     assert!(place.read("results/light/optimum.csv").contains(",fitness,binding,"));
     // The goal may also state the bounds of the criteria.
-    let ends = "--set goal.rescale={coverage=[0,0.9],areal_mass_kg_m2=[1,0.5]}";
-    let record = place.prints(&format!("optimise x.toml --out ends --json {ends}"));
+    let bounds = "--set goal.rescale={coverage=[0,0.9],areal_mass_kg_m2=[1,0.5]}";
+    let record = place.prints(&format!("optimise x.toml --out ends --json {bounds}"));
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
     assert_eq!(record["rescaled"]["coverage"], serde_json::json!([0.0, 0.9]));
     assert!(record["optimum"]["values"]["fitness"].as_f64().is_some_and(|fitness| fitness > 0.5));
@@ -308,7 +309,7 @@ fn the_best_design_on_finite_tissue_is_checked_with_full_coupling() {
     assert!(text.contains("✗ With full substrate coupling, critical_force is "), "{text}");
 }
 
-/// The limits cannot be tightened far enough within the variables, so the answer fails a check.
+/// The ranges of the variables are too narrow for tightened limits, so the answer fails a check.
 #[test]
 fn a_sampled_search_that_cannot_be_confirmed_keeps_its_best_design() {
     let goal = "name = 'firm'\nmeasures = ['coverage', 'puncture']\n[variables]\n\
@@ -333,7 +334,7 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
         line.split_once("critical_force = ").and_then(|(_, rest)| rest.split_once(" there, "));
     let printed: f64 = force.expect("a force").0.parse().expect("a number");
     assert!((printed / weakest - 1.0).abs() < 1e-4, "{line} {weakest}");
-    // There is no note if the goal already uses the weakest position, or if the needle is free.
+    // No position is reported if the goal uses the weakest position, or if the needle is free.
     let weakest = goal.replace("critical_force", "weakest_force");
     let (text, _) =
         weakest_load_position(&weakest.replace("[puncture]\n", "[puncture]\nplaces = 11\n"));
@@ -355,7 +356,7 @@ fn weakest_load_position(goal: &str) -> (String, f64) {
     (text, found["measures"]["weakest_force"].as_f64().expect("a number"))
 }
 
-/// One check computes the failure force at every load position with full substrate coupling.
+/// A check computes the failure force at every load position with full substrate coupling.
 #[test]
 fn a_failure_at_another_load_position_fails_the_search() {
     let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nlength_over_t = { from = 1, to = 2 }\n\

@@ -29,7 +29,7 @@ fn calibrate_prints_six_coefficients() {
 
 /// On a layer, a force along the row also rotates a scale and displaces its neighbours vertically.
 ///
-/// The layer here is twice as thick as the scales.
+/// In this test, the layer is twice as thick as the scales.
 #[test]
 fn calibrate_prints_the_couplings_of_a_layer() {
     let place = Place::new();
@@ -67,7 +67,7 @@ fn explore_keeps_the_ranges_of_a_goal_and_of_its_optimum() {
     }
 }
 
-/// The page searches the solved designs of a run for one that meets the requirements.
+/// The page searches these designs for a design that meets the requirements.
 #[test]
 fn the_page_of_a_run_contains_its_solved_designs() {
     let place = Place::with(
@@ -82,7 +82,7 @@ fn the_page_of_a_run_contains_its_solved_designs() {
 }
 
 #[test]
-fn explore_accepts_a_layer() {
+fn explore_accepts_tissue_of_finite_thickness() {
     let place = Place::with("name = 'x'\nbody = 'finger'\nmaterial.thickness_mm = 2");
     place.prints("explore x.toml --no-open");
     assert!(place.read("explore.html").contains("tissue_thickness_mm = 5"));

@@ -23,8 +23,8 @@ pub struct Running {
 
 /// Returns the command `squama` with default signal handling.
 ///
-/// A shell that runs the tests in the background may ignore signals. Child processes would inherit
-/// this, and `squama` would never receive a signal.
+/// A shell that runs the tests in the background may ignore signals. Child processes would also
+/// ignore these signals, and `squama` would never receive them.
 fn squama() -> Command {
     let program = assert_cmd::cargo::cargo_bin!("squama");
     let listening = "--default-signal=HUP,INT,TERM";
@@ -64,12 +64,12 @@ impl Running {
         }
     }
 
-    /// Waits until the process prints `word` as its next output on standard error.
+    /// Waits until the process prints `text` as its next output on standard error.
     #[cfg(unix)]
-    pub fn until_said(&mut self, word: &str) {
-        let mut said = vec![0; word.len()];
-        self.child.stderr.as_mut().expect("a pipe").read_exact(&mut said).expect("a word");
-        assert_eq!(String::from_utf8_lossy(&said), word);
+    pub fn until_printed(&mut self, text: &str) {
+        let mut printed = vec![0; text.len()];
+        self.child.stderr.as_mut().expect("a pipe").read_exact(&mut printed).expect("a text");
+        assert_eq!(String::from_utf8_lossy(&printed), text);
     }
 
     /// Returns the exit status if the process ends within `time`, otherwise `None`.
@@ -77,11 +77,11 @@ impl Running {
         let begun = Instant::now();
         loop {
             let ended = self.child.try_wait().expect("a process");
-            let left = time.saturating_sub(begun.elapsed());
-            if ended.is_some() || left.is_zero() {
+            let remaining = time.saturating_sub(begun.elapsed());
+            if ended.is_some() || remaining.is_zero() {
                 return ended;
             }
-            sleep(left.min(PAUSE));
+            sleep(remaining.min(PAUSE));
         }
     }
 
@@ -92,7 +92,7 @@ impl Running {
 
     /// Kills the process and returns its exit status.
     ///
-    /// The status has a code only if the process had already ended by itself.
+    /// The status has an exit code only if the process had ended by itself before the kill.
     pub fn kill(&mut self) -> ExitStatus {
         self.child.kill().expect("a process");
         self.child.wait().expect("an end")

@@ -53,7 +53,7 @@ fn the_best_design_without_a_fold_is_listed_beside_a_folded_winner() {
     let printed = place.prints("rank a --weights 0,1,0,0");
     let best = printed.lines().find(|line| line.contains("  0002 ")).expect("a row");
     assert!(best.contains("best without a fold"), "{printed}");
-    // Every line that lists the folded design marks it.
+    // Every line that lists the folded design has the mark ⚠.
     let named = printed.lines().filter(|line| line.contains("0001"));
     assert!(
         named.clone().count() > 1 && named.clone().all(|line| line.contains("0001⚠")),
@@ -128,7 +128,7 @@ fn invalid_weights_and_results_are_rejected() {
 }
 
 #[test]
-fn the_design_that_meets_all_requirements_is_found() {
+fn designs_that_meet_all_requirements_are_ranked() {
     let place = place();
     insta::assert_snapshot!(
         place.prints("rank a --require coverage>=0.3 --require penetration<=0.2 --minimize length_over_t --maximize critical_force")
@@ -146,7 +146,11 @@ fn the_nearest_design_is_reported_if_none_meets_the_requirements() {
     let arguments = "rank a --require coverage>=0.8 --require critical_force>3";
     let output = place.squama(arguments).assert().code(1).get_output().stdout.clone();
     insta::assert_snapshot!(String::from_utf8(output).expect("text"));
-    assert_eq!(place.list("a"), "derived designs.csv ranking.toml", "the ranking before is gone");
+    assert_eq!(
+        place.list("a"),
+        "derived designs.csv ranking.toml",
+        "the earlier ranking is removed"
+    );
 }
 
 #[test]
@@ -225,20 +229,20 @@ fn tables_saved_by_spreadsheets_are_ranked() {
     let (ranked, answer) = split(&place.prints("rank r"));
     assert!(answer.contains("with full coupling"), "{answer}");
     let table = place.read("r/designs.csv");
-    // Use a separate folder: in the folder of a run, a changed table is rejected. Without the
-    // definition there, designs cannot be solved again.
+    // Use a separate folder, because a changed table in the folder of a run is rejected. The
+    // separate folder has no definition, so designs cannot be solved again.
     put(&place, "s", &format!("\u{feff}{table}"));
-    let (own, answer) = split(&place.prints("rank s"));
-    assert_eq!(own, ranked.replace("r: ", "s: "), "a table with commas and a byte-order mark");
+    let (saved, answer) = split(&place.prints("rank s"));
+    assert_eq!(saved, ranked.replace("r: ", "s: "), "a table with commas and a byte-order mark");
     assert!(answer.contains("critical_force") && !answer.contains("full coupling"), "{answer}");
     place.squama("run x.toml -q --out eu --csv excel-eu").assert().code(0);
     let table = place.read("eu/designs.csv");
     let without = table.trim_start_matches('\u{feff}');
     assert_ne!(without, table);
     put(&place, "own", without);
-    let (own, _) = split(&place.prints("rank own"));
+    let (saved, _) = split(&place.prints("rank own"));
     assert_eq!(
-        own,
+        saved,
         ranked.replace("r: ", "own: "),
         "a table with semicolons and no byte-order mark"
     );

@@ -2,7 +2,7 @@
 
 use crate::{FEW, Place};
 
-/// Runs eight designs, which all stop early in puncture and in bending.
+/// Command that runs eight designs; all of them stop early in puncture and in bending.
 const STOPPED: &str = "run x.toml -q --out r --set solver.max_points=3";
 
 #[test]
@@ -42,7 +42,11 @@ fn reruns_of_failed_designs_report_the_changes() {
     solved again: 8 designs with solver.max_points=1000
       0001 0002 0003 0004 0005 0006 0007 0008
     ");
-    assert_eq!(place.read("r/failures.csv").lines().count(), 1 + 2 * 8, "a plan changes nothing");
+    assert_eq!(
+        place.read("r/failures.csv").lines().count(),
+        1 + 2 * 8,
+        "--dry-run changes nothing"
+    );
     place.squama("rerun r --failed -q --set solver.max_points=1000").assert().code(0);
     assert_eq!(place.read("r/failures.csv").lines().count(), 1);
     let settled = place.read("r/designs.csv").replace("solver.max_points=1000", "");

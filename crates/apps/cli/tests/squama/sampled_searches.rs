@@ -18,16 +18,17 @@ fn the_best_design_is_confirmed_on_new_samples() {
     assert!(header.ends_with(
         ",binding,prices,failed_checks,yield,yield_low,yield_high,yield_seen,fresh_samples"
     ));
-    // Designs without samples have only nominal values.
+    // The history also lists designs without samples, which have only nominal values.
     let history = place.read("results/made/history.csv");
     for word in [",nominal,", ",short,", ",met,", ",tolerance,"] {
         assert!(history.contains(word), "{word}");
     }
     let record = place.prints("optimise x.toml --json --fresh");
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
-    let made = &record["optimum"]["made"];
-    assert_eq!((made["seen"].as_u64(), made["fresh"].as_u64()), (Some(1000), Some(1000)));
-    assert_eq!(made["estimates"][0]["quantity"], "yield");
+    let confirmed = &record["optimum"]["made"];
+    let counts = [&confirmed["seen"], &confirmed["fresh"]].map(serde_json::Value::as_u64);
+    assert_eq!(counts, [Some(1000); 2]);
+    assert_eq!(confirmed["estimates"][0]["quantity"], "yield");
 }
 
 /// The yield alone would not show which requirement prevents a larger yield.
@@ -51,16 +52,17 @@ fn tolerance_confirms_the_yield_of_a_search() {
     let place = Place::with(GOAL);
     let record = place.prints("optimise x.toml --json");
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
-    let others = record["optimum"]["made"]["estimates"][0]["value"].as_f64().expect("a yield");
+    let by_search = record["optimum"]["made"]["estimates"][0]["value"].as_f64().expect("a yield");
     let text = "tolerance results/made/optimum.toml --samples 1000 --json --out t";
     let arguments = text.split(' ').chain(["--require", "coverage >= 0.5"]).map(str::to_owned);
     let arguments: Vec<String> = arguments.collect();
     let output = place.squama_with(&arguments).assert().code(0).get_output().stdout.clone();
-    let told: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
-    let told = told["designs"][0]["yields"][0]["yield"].as_f64().expect("a yield");
+    let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
+    let by_tolerance = record["designs"][0]["yields"][0]["yield"].as_f64().expect("a yield");
     // Search and analysis use independent sets of 1000 samples, so allow three standard deviations
     // of the difference of their yields.
-    assert!((told - others).abs() < 0.04 && told != others, "{told} {others}");
+    let difference = (by_tolerance - by_search).abs();
+    assert!(difference > 0.0 && difference < 0.04, "{by_tolerance} {by_search}");
 }
 
 #[test]

@@ -22,7 +22,7 @@ const TOGETHER: [&str; 11] = [
     "`from` must be below `to`",
     "`to` is below `from`",
     "is not reached in steps of",
-    "with a larger step",
+    "choose a larger step",
     "has fractions",
     "must be at most solver.",
     "a radius of at least",
@@ -66,7 +66,7 @@ fn all_sweeps_goals_and_fits_are_valid() {
     }
 }
 
-/// Returns a random TOML value for a key; many values are near those that the parameter accepts.
+/// Returns a random TOML value for a parameter; many of the values are valid or almost valid.
 fn value(rng: &mut ChaCha8Rng, parameter: &Parameter) -> String {
     let default = parameter.default().to_toml();
     let numbers = [
@@ -102,7 +102,7 @@ fn value(rng: &mut ChaCha8Rng, parameter: &Parameter) -> String {
 
 /// Returns true for a list of numbers that are not in ascending order.
 ///
-/// The parser rejects such a list, but a schema cannot express this.
+/// The parser rejects such a list, but a schema cannot express the order of numbers.
 fn is_out_of_order(value: &serde_json::Value) -> bool {
     let numbers: Option<Vec<f64>> =
         value.as_array().and_then(|items| items.iter().map(serde_json::Value::as_f64).collect());
@@ -111,7 +111,7 @@ fn is_out_of_order(value: &serde_json::Value) -> bool {
 
 /// The parser rejects every definition that the schema rejects.
 ///
-/// It rejects other definitions only for conditions that a schema cannot express.
+/// The parser rejects other definitions only for conditions that a schema cannot express.
 #[test]
 fn schema_and_parser_agree_on_random_definitions() {
     let schema = schema();
@@ -154,16 +154,16 @@ fn schema_and_parser_agree_on_random_definitions() {
 #[test]
 fn schema_and_parser_agree_on_keys_of_goals_and_fits() {
     let schema = schema();
-    let made = Parameter::with(Role::Made).next().expect("a parameter").key;
+    let key = Parameter::with(Role::Made).next().expect("a parameter").key;
     let goal = format!(
-        "name = 'x'\n[designs]\nlength_over_t = 0.5\nslant_deg = 60\n[variables]\ngap_over_t = {{ from = 0.1, to = 1 }}\n[tolerance]\n{made} = {{ batch_sd = 0.01 }}\n[goal]\n"
+        "name = 'x'\n[designs]\nlength_over_t = 0.5\nslant_deg = 60\n[variables]\ngap_over_t = {{ from = 0.1, to = 1 }}\n[tolerance]\n{key} = {{ batch_sd = 0.01 }}\n[goal]\n"
     );
     let fit = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 0.3\nslant_deg = 60\n\
         [variables]\nc1 = { from = 1, to = 2 }\n[[curve]]\n";
     let place = Place::new();
     let curve = "displacement,force\n0.01,0.1\n0.02,0.3\n";
     fs::write(place.path("c.csv"), curve).expect("writable");
-    let most = "maximize = 'critical_force'\n";
+    let objective = "maximize = 'critical_force'\n";
     for (keys, is_valid) in [
         ("", true),
         ("require = 'coverage >= 0.5'", true),
@@ -176,7 +176,7 @@ fn schema_and_parser_agree_on_keys_of_goals_and_fits() {
         ("require = 5", false),
         ("weight = 1", false),
     ] {
-        let text = format!("{goal}{most}{keys}");
+        let text = format!("{goal}{objective}{keys}");
         let is_goal = DesignGoal::parse(&text, "x.toml", &[]).is_ok();
         assert_eq!(
             (is_goal, mismatch(&schema, &json(&text)).is_none()),

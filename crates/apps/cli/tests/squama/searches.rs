@@ -51,7 +51,7 @@ fn a_running_search_has_a_page_that_reloads_itself() {
     let mut report = Running::spawn(&place.path("."), "report results/firm");
     report.until(|| place.read(page).contains("location.reload"));
     assert!(place.read(page).contains("search, running"));
-    journal.unlock().expect("no lock");
+    journal.unlock().expect("the lock is released");
     assert_eq!(report.end().code(), Some(0));
     assert!(!place.read(page).contains("location.reload"));
 }

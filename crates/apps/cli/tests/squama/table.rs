@@ -7,8 +7,8 @@ pub fn columns(table: &str) -> impl Iterator<Item = &str> {
 
 /// Returns the cells of a column, from the first row to the last.
 pub fn cells<'t>(table: &'t str, column: &str) -> Vec<&'t str> {
-    let place = columns(table).position(|name| name == column).expect("a column");
-    table.lines().skip(1).map(|row| row.split(',').nth(place).expect("a cell")).collect()
+    let index = columns(table).position(|name| name == column).expect("a column");
+    table.lines().skip(1).map(|row| row.split(',').nth(index).expect("a cell")).collect()
 }
 
 /// Returns the cell of the design with the number `design` in a column.

@@ -50,9 +50,9 @@ fn a_single_design_is_reported_as_text_and_json() {
     let yields = json["designs"][0]["yields"].as_array().expect("yields");
     assert_eq!(yields.len(), 2);
     assert_eq!(yields[0]["samples"], 50);
-    let share = yields[0]["yield"].as_f64().expect("a share");
+    let fraction = yields[0]["yield"].as_f64().expect("a fraction");
     let interval = &yields[0]["interval"];
-    assert!(interval[0].as_f64() < Some(share) && interval[1].as_f64() >= Some(share));
+    assert!(interval[0].as_f64() < Some(fraction) && interval[1].as_f64() >= Some(fraction));
     for figure in ["sources.svg", "histogram-critical-force-N.svg"] {
         let svg = place.read(&format!("results/skin/tolerance/{figure}"));
         assert!(svg.contains("<svg") && svg.contains("skin design 0002"), "{figure}");

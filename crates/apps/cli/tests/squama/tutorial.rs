@@ -1,4 +1,4 @@
-//! Runs the commands of the tutorial and of the README, and compares values with their output.
+//! Runs the commands of the tutorial and of the README, and checks values that the README quotes.
 
 use std::fs;
 use std::path::Path;
@@ -50,7 +50,7 @@ fn every_command_of_the_tutorial_runs_and_writes_its_files() {
     let place = Place::new();
     copy_sweeps(&place);
     if !long_campaigns() {
-        // Make the search quick: the yield takes minutes, and steep slants half of the other time.
+        // Make the search quick: the yield takes minutes, and steep slants half of the rest.
         let mut goal = place.read("sweeps/goals/pin.toml");
         for (slow, quick) in [
             (r#", "yield >= 0.9""#, ""),

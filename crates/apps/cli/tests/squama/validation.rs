@@ -4,7 +4,7 @@ use crate::agreement::disagreement;
 use crate::{Place, long_campaigns};
 
 #[test]
-fn the_committed_page_matches_the_command() {
+fn the_committed_validation_page_matches_the_output_of_validate() {
     let place = Place::new();
     // `prints` requires exit code 0, which means that every benchmark lies in its band.
     let options = if long_campaigns() { "" } else { "--quick" };
@@ -20,11 +20,11 @@ fn the_committed_page_matches_the_command() {
     let gains: Vec<&str> = searches.lines().filter(|line| line.ends_with(" % |")).collect();
     assert!(gains.len() == 5 && gains.iter().all(|row| row.contains("| +")), "{gains:?}");
     let differing = disagreement(&page, if long_campaigns() { &committed } else { sweeps });
-    assert_eq!(differing, None, "write it again with: cargo run --release -- validate");
+    assert_eq!(differing, None, "write the page again with: cargo run --release -- validate");
 }
 
 #[test]
-fn pages_without_a_name_are_rejected() {
+fn an_output_path_without_a_file_name_is_rejected() {
     let place = Place::new();
     insta::assert_snapshot!(place.refused("validate --out /"), @"error: --out /: not accepted, expected the name of a file");
 }

@@ -27,15 +27,18 @@ fn rankings_without_preferences_are_rejected() {
     place.squama("run x.toml -q --out r").assert().code(0);
     place.prints("rank r");
     std::fs::remove_file(place.path("r/ranking.toml")).expect("a file");
-    let told = place.refused("export r --xlsx x.xlsx");
-    assert!(told.contains("ranking.toml: is missing") && told.contains("squama rank r"), "{told}");
+    let message = place.refused("export r --xlsx x.xlsx");
+    assert!(
+        message.contains("ranking.toml: is missing") && message.contains("squama rank r"),
+        "{message}"
+    );
     assert!(!place.path("x.xlsx").exists());
     place.prints("rank r");
     place.prints("export r --xlsx x.xlsx");
 }
 
 #[test]
-fn searches_and_tolerances_are_exported_and_rejected_elsewhere() {
+fn searches_and_analyses_are_exported_but_rejected_as_runs() {
     let place = Place::with(
         "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
          slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n[goal]\n\
@@ -70,7 +73,7 @@ fn searches_and_tolerances_are_exported_and_rejected_elsewhere() {
 #[test]
 fn folders_without_a_run_are_rejected() {
     let place = Place::with(FEW);
-    insta::assert_snapshot!(place.refused("export . --xlsx x.xlsx"), @"error: .: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit");
+    insta::assert_snapshot!(place.refused("export . --xlsx x.xlsx"), @"error: .: contains no designs.csv, expected the folder of a run, a search, a tolerance analysis or a fit");
     insta::assert_snapshot!(place.refused("export . --xlsx x.csv"), @"error: x.csv: a workbook needs a name that ends in .xlsx");
     assert_eq!(place.list("."), "x.toml");
 }
@@ -87,8 +90,8 @@ fn a_full_disk_is_an_error_and_leaves_the_old_workbook() {
     // Write a workbook first: the export would reject an existing file that squama did not write.
     place.prints("export r --xlsx r/x.xlsx");
     let old = std::fs::read(place.path("r/x.xlsx")).expect("a workbook");
-    // The limits end the export at once, while rows are written to a temporary file, and at the
-    // end.
+    // The three limits end the export at its start, while rows are written to a temporary file, and
+    // at its end.
     for blocks in [1, 20, 60] {
         let message = place.refused_on_a_full_disk(blocks, "export r --xlsx r/x.xlsx");
         assert_eq!(

@@ -20,7 +20,7 @@ pub fn figures(goal: &DesignGoal, found: &Found) -> anyhow::Result<Vec<Figure>> 
     Ok(figures)
 }
 
-/// Draws the best design, also at the critical tilt if the goal measures the puncture.
+/// Draws the best design at rest and, if the goal measures the puncture, at the critical tilt.
 fn optimum(goal: &DesignGoal, best: &BestDesign) -> anyhow::Result<Figure> {
     let with_load = goal.space.sweep().measures().contains(&Measure::Puncture);
     let title = format!("{}: the best design", goal.name());
@@ -28,24 +28,24 @@ fn optimum(goal: &DesignGoal, best: &BestDesign) -> anyhow::Result<Figure> {
     Ok(Figure::new("optimum", svg))
 }
 
-/// Lists the evaluated designs with their positions in a figure.
+/// Lists the judged designs with their positions in a figure.
 ///
-/// `place` computes the position from the index and the objectives of a design.
-fn designs(found: &Found, place: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<SearchedDesign> {
+/// `position` computes the position from the index and the objectives of a design.
+fn designs(found: &Found, position: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<SearchedDesign> {
     found
         .history
         .iter()
         .enumerate()
         .filter_map(|(index, candidate)| match &candidate.verdict {
             Judgement::Judged(worth) => {
-                Some(SearchedDesign { place: place(index, &worth.objectives), met: worth.met })
+                Some(SearchedDesign { place: position(index, &worth.objectives), met: worth.met })
             }
             _ => None,
         })
         .collect()
 }
 
-/// Draws the first objective of every evaluated design, and the best value so far.
+/// Draws the first objective of every judged design, and a line through the successive best values.
 fn history(goal: &DesignGoal, found: &Found) -> Figure {
     let designs = designs(found, |index, objectives| [(index + 1) as f64, objectives[0]]);
     let sign = if goal.objectives[0].goal == Goal::Maximize { 1.0 } else { -1.0 };
@@ -66,7 +66,7 @@ fn history(goal: &DesignGoal, found: &Found) -> Figure {
     Figure::new("history", figure.svg())
 }
 
-/// Draws the first two objectives of every evaluated design, and the front.
+/// Draws the first two objectives of every judged design, and a line through the front.
 fn front(goal: &DesignGoal, found: &Found, front: &[BestDesign]) -> Figure {
     let designs = designs(found, |_, objectives| [objectives[0], objectives[1]]);
     let line: Vec<[f64; 2]> = front

@@ -13,7 +13,7 @@ use crate::json;
 /// Returns the result of a search as JSON.
 pub fn record(report: &SearchReport<'_>) -> Value {
     let SearchReport { goal, found } = *report;
-    let words = BindingText::new(goal);
+    let texts = BindingText::new(goal);
     let left_out = &found.left_out;
     let failed = left_out.failed.iter().map(|(why, count)| (why.to_string(), json!(count)));
     let mut record = json!({
@@ -26,7 +26,7 @@ pub fn record(report: &SearchReport<'_>) -> Value {
     });
     let (key, answer) = match &found.answer {
         Answer::Optimum(best) => {
-            let mut optimum = design(goal, &words, best);
+            let mut optimum = design(goal, &texts, best);
             optimum["answer"] = report.answer(best).record(best.checks.gaps.as_ref());
             optimum["reason"] = json!(best.reason);
             if let Some(Rounding { step, unit, exact, rounded }) = &found.rounding {
@@ -36,17 +36,17 @@ pub fn record(report: &SearchReport<'_>) -> Value {
             ("optimum", optimum)
         }
         Answer::Front(front) => {
-            ("front", front.designs.iter().map(|best| design(goal, &words, best)).collect())
+            ("front", front.designs.iter().map(|best| design(goal, &texts, best)).collect())
         }
-        Answer::Infeasible(nearest) => ("infeasible", infeasible(goal, &words, found, *nearest)),
+        Answer::Infeasible(nearest) => ("infeasible", infeasible(goal, &texts, found, *nearest)),
     };
     record[key] = answer;
     let constant = constant_objectives(goal, found).into_iter();
     record["constant"] = constant.map(|(column, _)| column).collect();
     if goal.fitness.is_some() {
-        let ends = found.rescaled.iter();
-        let ends = ends.map(|ends| (ends.column.clone(), json!([ends.worst, ends.best])));
-        record["rescaled"] = Value::Object(ends.collect());
+        let bounds = found.rescaled.iter();
+        let bounds = bounds.map(|of| (of.column.clone(), json!([of.worst, of.best])));
+        record["rescaled"] = Value::Object(bounds.collect());
     }
     record
 }
@@ -57,7 +57,7 @@ fn variables(goal: &DesignGoal, candidate: &Candidate) -> Map<String, Value> {
     variables.map(|p| (p.key.to_owned(), json!(p.get(&case)))).collect()
 }
 
-fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Value {
+fn design(goal: &DesignGoal, texts: &BindingText<'_>, best: &BestDesign) -> Value {
     let columns = design_columns(goal.space.sweep());
     let measures = columns.iter().filter(|column| column.name != "design");
     let measures = measures.map(|c| (c.name.to_string(), json!(c.cell(&best.row))));
@@ -68,9 +68,9 @@ fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Valu
         "values": measures,
         "binding": best.bindings.iter().map(|binding| {
         json!({
-            "limit": words.limit(&binding.limit, &best.target),
+            "limit": texts.limit(&binding.limit, &best.target),
             "multiplier": binding.price,
-            "price": words.price(binding, &best.target),
+            "price": texts.price(binding, &best.target),
         })
     }).collect::<Vec<_>>(),
     });
@@ -85,28 +85,28 @@ fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Valu
     design["failed_checks"] = failed.iter().map(ToString::to_string).collect();
     design["full_coupling"] = json!(best.checks.coupling);
     design["weakest_place"] = json!(best.checks.places);
-    if let Some(made) = &best.confirmation {
-        design["made"] = json!(made);
+    if let Some(confirmation) = &best.confirmation {
+        design["made"] = json!(confirmation);
     }
     design
 }
 
-/// Returns the values of the objectives that are no statistics over samples.
+/// Returns the objectives that are not statistics over samples, with their values.
 fn objectives(goal: &DesignGoal, best: &BestDesign) -> Map<String, Value> {
     let Judgement::Judged(worth) = &best.candidate.verdict else { return Map::new() };
     let values = goal.objectives.iter().zip(&worth.objectives);
-    let drawn = values.filter(|(objective, _)| goal.statistic(&objective.column).is_none());
-    drawn.map(|(objective, value)| (objective.column.to_string(), json!(value))).collect()
+    let nominal = values.filter(|(objective, _)| goal.statistic(&objective.column).is_none());
+    nominal.map(|(objective, value)| (objective.column.to_string(), json!(value))).collect()
 }
 
 /// Returns the requirements and the nearest design, if no design meets the requirements.
 fn infeasible(
     goal: &DesignGoal,
-    words: &BindingText<'_>,
+    texts: &BindingText<'_>,
     found: &Found,
     nearest: Option<usize>,
 ) -> Value {
-    let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
+    let requirements: Vec<Requirement> = texts.requirements().into_iter().cloned().collect();
     let unmet = unmet(goal, found, &requirements, nearest);
     let nearest = nearest.map(|index| &found.history[index]);
     let is_judged =

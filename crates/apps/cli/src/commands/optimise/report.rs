@@ -49,14 +49,13 @@ impl SearchReport<'_> {
     ///
     /// The text is empty if no criteria were rescaled.
     fn rescaled(&self) -> String {
-        let ends = self.found.rescaled.iter();
-        let ends = ends.map(|ends| {
-            format!("{} = [{}, {}]", ends.column, digits(ends.worst), digits(ends.best))
-        });
-        match ends.collect::<Vec<_>>().join(", ") {
-            ends if ends.is_empty() => ends,
-            ends => format!(
-                "\nThe criteria were rescaled between their worst and best values; to keep these bounds: rescale = {{ {ends} }}\n"
+        let bounds = self.found.rescaled.iter();
+        let bounds =
+            bounds.map(|of| format!("{} = [{}, {}]", of.column, digits(of.worst), digits(of.best)));
+        match bounds.collect::<Vec<_>>().join(", ") {
+            bounds if bounds.is_empty() => bounds,
+            bounds => format!(
+                "\nThe criteria were rescaled between their worst and best values; to keep these bounds: rescale = {{ {bounds} }}\n"
             ),
         }
     }
@@ -77,7 +76,7 @@ impl SearchReport<'_> {
 
     /// Formats the best design, its active limits and the results of its checks.
     fn optimum(&self, best: &BestDesign) -> String {
-        let words = BindingText::new(self.goal);
+        let texts = BindingText::new(self.goal);
         let rows = self.answer_rows(best);
         let constant = constant_objectives(self.goal, self.found);
         let title =
@@ -96,8 +95,8 @@ impl SearchReport<'_> {
             let bindings = best.bindings.iter();
             let rows: Vec<_> = bindings
                 .map(|binding| {
-                    let price = words.price(binding, &best.target);
-                    [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
+                    let price = texts.price(binding, &best.target);
+                    [texts.limit(&binding.limit, &best.target), price.unwrap_or_default()]
                 })
                 .collect();
             let is_rounded = self.found.rounding.as_ref().is_some_and(|of| of.rounded.is_some());
@@ -107,8 +106,8 @@ impl SearchReport<'_> {
         if let Some(reason) = &best.reason {
             let _ = writeln!(text, "\n{reason}");
         }
-        // Omit the requested load position: there, the check differs from the search only by full
-        // coupling, which `couplings_report` describes.
+        // Omit the requested load position. At this position the check differs from the search only
+        // by full coupling, which `couplings_report` describes.
         let requested = best.row.case.punctured().load_position;
         let places = best.checks.places.iter().filter(|of| of.place != requested);
         text += &places.filter_map(weakest_place).collect::<String>();
@@ -211,7 +210,7 @@ impl SearchReport<'_> {
 
     /// Returns table rows of the variables, objectives and criteria of a design.
     ///
-    /// Then follow the values with requirements, with limits and margins.
+    /// After these rows follow rows of the required values, with limits and margins.
     fn answer_rows(&self, best: &BestDesign) -> Vec<Vec<String>> {
         let is_required =
             |column: &str| self.goal.requirements.iter().any(|of| of.column == column);
@@ -229,14 +228,14 @@ impl SearchReport<'_> {
 
     /// Lists the objectives, required columns, criteria and failure mode, without duplicates.
     ///
-    /// Variables and statistics over samples are listed elsewhere.
+    /// Omits variables and statistics over samples, which other functions list.
     fn values(&self, best: &BestDesign) -> Vec<[String; 2]> {
         let Judgement::Judged(worth) = &best.candidate.verdict else { return Vec::new() };
         let mut rows: Vec<[String; 2]> = Vec::new();
         for (column, value) in self.goal.values(worth) {
             let is_variable = self.goal.space.parameters().any(|p| p.key == column);
-            let is_of_skins = self.goal.statistic(column).is_some();
-            if !is_variable && !is_of_skins && !rows.iter().any(|[known, _]| *known == column) {
+            let is_statistic = self.goal.statistic(column).is_some();
+            if !is_variable && !is_statistic && !rows.iter().any(|[known, _]| *known == column) {
                 rows.push([column.to_owned(), digits(value)]);
             }
         }
@@ -269,26 +268,26 @@ impl SearchReport<'_> {
 
     /// States the number of designs on the front, and why it is smaller than requested.
     fn title(&self, front: &Front) -> String {
-        let (found, asked) = (front.designs.len(), self.goal.points);
+        let (found, requested) = (front.designs.len(), self.goal.points);
         let mut title = format!("Pareto front: {}\n", counted(found as u64, "design"));
-        if found < asked {
+        if found < requested {
             let reasons = [
                 (front.same, "gave the same design as another point: the front has a step there"),
                 (front.beaten, "gave a dominated design"),
                 (front.empty, "gave no design"),
-                (front.left_out(asked), "left out: the front has no wide gap"),
+                (front.left_out(requested), "left out: the front has no wide gap"),
             ];
             let reasons: Vec<String> = reasons
                 .iter()
                 .filter(|(count, _)| *count > 0)
                 .map(|(count, why)| format!("{} {why}", counted(*count as u64, "point")))
                 .collect();
-            let _ = writeln!(title, "Fewer than the {asked} requested: {}", reasons.join("; "));
+            let _ = writeln!(title, "Fewer than the {requested} requested: {}", reasons.join("; "));
         }
         title
     }
 
-    /// Returns names and values of the variables, objectives and statistics of a design.
+    /// Returns the names and values of the variables, objectives and statistics of a design.
     fn named_values(&self, best: &BestDesign) -> Vec<[String; 2]> {
         let statistics = best.confirmation.as_ref().map(samples::row).unwrap_or_default();
         [self.variables(&best.candidate), self.values(best), statistics].concat()
@@ -296,7 +295,7 @@ impl SearchReport<'_> {
 
     /// Formats the designs of the front with the prices of their objectives.
     fn front(&self, front: &Front) -> String {
-        let words = BindingText::new(self.goal);
+        let texts = BindingText::new(self.goal);
         let (title, designs) = (self.title(front), &front.designs);
         let Some(first) = designs.first() else { return title };
         let header = self.named_values(first).into_iter();
@@ -308,11 +307,11 @@ impl SearchReport<'_> {
             let mut row: Vec<String> = row.map(|[_, value]| value).collect();
             // `Limit::Floor` is a lower bound on another objective (ε-constraint). Its price is the
             // trade-off between both objectives.
-            let floors = best
+            let bounds = best
                 .bindings
                 .iter()
                 .filter(|binding| matches!(binding.limit, optimisation::Limit::Floor(_)));
-            let prices: Vec<_> = floors.filter_map(|b| words.price(b, &best.target)).collect();
+            let prices: Vec<_> = bounds.filter_map(|b| texts.price(b, &best.target)).collect();
             row.push(prices.join("; "));
             if fold_force(self.goal, best).is_some() {
                 row[0].push(FOLDED);
@@ -329,10 +328,12 @@ impl SearchReport<'_> {
         title + &aligned(&rows) + folded + prices + &samples::of_all(designs) + &constant
     }
 
-    /// Formats the obstacles and the nearest design, if no design meets all requirements.
+    /// Formats the distances from the requirements, and the nearest design.
+    ///
+    /// Used if no design meets all requirements; `nearest` is the index of the nearest design.
     fn infeasible(&self, nearest: Option<usize>) -> String {
-        let words = BindingText::new(self.goal);
-        let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
+        let texts = BindingText::new(self.goal);
+        let requirements: Vec<Requirement> = texts.requirements().into_iter().cloned().collect();
         let unmet = unmet(self.goal, self.found, &requirements, nearest);
         // Do not count designs by requirement if the goal uses samples: designs that miss a
         // requirement on a column have no samples, so the counts would not be comparable.
@@ -351,14 +352,16 @@ impl SearchReport<'_> {
     }
 }
 
-/// Legend of the mark of a fold.
+/// Legend that explains the mark of designs with a folded surface.
 const FOLDED_MEANS: &str =
     "  ⚠ the surface of the substrate folds: values at the critical tilt are not valid\n";
 
 /// Fraction of the force at the requested position below which a weaker position is reported.
 const WEAKER: f64 = 0.99;
 
-/// Describes the weakest load position; `None` if it is about as strong as the requested one.
+/// Describes the weakest load position.
+///
+/// `None` if its force is at least [`WEAKER`] times the force at the requested position.
 fn weakest_place(place: &WeakestPlace) -> Option<String> {
     let weakest = place.weakest.filter(|weakest| *weakest < WEAKER * place.requested)?;
     let failure = place.failure.as_ref().map(|mode| format!(" ({mode})")).unwrap_or_default();
@@ -444,7 +447,7 @@ fn has_samples(goal: &DesignGoal, found: &Found) -> bool {
     goal.is_about_samples() && judged.any(|is_judged| is_judged)
 }
 
-/// Counts how many evaluated designs meet each requirement, which shows the obstacle.
+/// Counts how many evaluated designs meet each requirement.
 ///
 /// `nearest` is the index of the nearest design. If no design has samples, requirements on
 /// statistics are ignored.
@@ -454,10 +457,10 @@ pub fn unmet(
     requirements: &[Requirement],
     nearest: Option<usize>,
 ) -> Unmet {
-    let has_skins = has_samples(goal, found);
+    let is_sampled = has_samples(goal, found);
     let requirements: Vec<Requirement> = requirements
         .iter()
-        .filter(|r| has_skins || goal.statistic(&r.column).is_none())
+        .filter(|r| is_sampled || goal.statistic(&r.column).is_none())
         .cloned()
         .collect();
     let values = found.history.iter();
@@ -476,10 +479,10 @@ fn required_values(
         Judgement::Nominal(worth) => {
             // A design without samples has values only for requirements on nominal columns, in the
             // order of these requirements.
-            let mut drawn = worth.required.iter().copied();
+            let mut nominal = worth.required.iter().copied();
             let values = requirements.iter().map(|requirement| {
-                let is_drawn = goal.statistic(&requirement.column).is_none();
-                is_drawn.then(|| drawn.next()).flatten()
+                let is_nominal = goal.statistic(&requirement.column).is_none();
+                is_nominal.then(|| nominal.next()).flatten()
             });
             values.collect()
         }

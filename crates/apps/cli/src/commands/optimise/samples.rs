@@ -9,25 +9,26 @@ use super::super::rank::distance;
 use crate::print::{aligned, counted, digits, rounded};
 
 /// Formats the statistics of the best design over the samples of the search and over new samples.
-pub fn text(made: &Confirmation) -> String {
+pub fn text(confirmation: &Confirmation) -> String {
     let header = ["", "search", "new samples", "95 % interval"].map(str::to_owned);
     let rows: Vec<_> = [header]
         .into_iter()
-        .chain(made.estimates.iter().map(|of| {
+        .chain(confirmation.estimates.iter().map(|of| {
             let [low, high] = of.interval.map(value);
             [of.name.clone(), value(of.seen), value(of.value), format!("{low} to {high}")]
         }))
         .collect();
     let mut text = format!(
         "\nSamples of the best design: {} in the search, {} new\n{}",
-        made.seen,
-        text::number::text(made.fresh as f64),
+        confirmation.seen,
+        text::number::text(confirmation.fresh as f64),
         aligned(&rows)
     );
-    if !made.missed.is_empty() {
-        let _ = write!(text, "  {}", missed(&made.missed));
+    if !confirmation.missed.is_empty() {
+        let _ = write!(text, "  {}", missed(&confirmation.missed));
     }
-    let (open, broken): (Vec<_>, Vec<_>) = made.broken.iter().partition(|r| made.is_open(r));
+    let broken = confirmation.broken.iter();
+    let (open, broken): (Vec<_>, Vec<_>) = broken.partition(|r| confirmation.is_open(r));
     if !broken.is_empty() {
         let _ = writeln!(
             text,
@@ -45,23 +46,23 @@ pub fn text(made: &Confirmation) -> String {
     text
 }
 
-/// Returns a sentence on the requirements that samples miss; empty if there are none.
+/// Returns a sentence on the requirements that samples miss; an empty text if `missed` is empty.
 pub fn missed(missed: &[MissedRequirement]) -> String {
     let (mut parts, mut invalid) = (Vec::new(), None);
     for MissedRequirement { requirement, share } in missed {
-        let share = format!("{} %", text::number::rounded(100.0 * share, 3));
+        let percent = format!("{} %", text::number::rounded(100.0 * share, 3));
         let Some(Requirement { column, relation, limit }) = requirement else {
-            invalid = Some(share);
+            invalid = Some(percent);
             continue;
         };
         let limit = format!("{column} {} {}", relation.sign(), rounded(*limit));
         parts.push(if parts.is_empty() {
-            format!("{limit} is missed by {share} of the samples")
+            format!("{limit} is missed by {percent} of the samples")
         } else {
-            format!("{limit} by {share}")
+            format!("{limit} by {percent}")
         });
     }
-    parts.extend(invalid.map(|share| format!("{share} of the samples have no valid path")));
+    parts.extend(invalid.map(|percent| format!("{percent} of the samples have no valid path")));
     if parts.is_empty() { String::new() } else { format!("{}.\n", parts.join(", ")) }
 }
 
@@ -80,20 +81,20 @@ fn joined(requirements: &[&Requirement]) -> String {
 }
 
 /// Returns the names and values of the statistics of a design over its new samples.
-pub fn row(made: &Confirmation) -> Vec<[String; 2]> {
-    made.estimates.iter().map(|of| [of.name.clone(), value(of.value)]).collect()
+pub fn row(confirmation: &Confirmation) -> Vec<[String; 2]> {
+    confirmation.estimates.iter().map(|of| [of.name.clone(), value(of.value)]).collect()
 }
 
-/// Explains the statistics in the table of a front; empty if there are none.
+/// Explains the statistics in the table of a front; an empty text if no design has statistics.
 pub fn of_all(designs: &[BestDesign]) -> String {
-    let made: Vec<&Confirmation> =
+    let all: Vec<&Confirmation> =
         designs.iter().filter_map(|best| best.confirmation.as_ref()).collect();
-    let Some(first) = made.first() else { return String::new() };
+    let Some(first) = all.first() else { return String::new() };
     let fresh = text::number::text(first.fresh as f64);
     let mut text = format!(
         "  Quantiles and yields come from {fresh} new samples of each design; front.csv has their intervals and the values of the search. Differences smaller than an interval are not significant\n"
     );
-    let broken = made.iter().filter(|made| !made.broken.is_empty()).count();
+    let broken = all.iter().filter(|of| !of.broken.is_empty()).count();
     if broken > 0 {
         let _ = writeln!(
             text,

@@ -9,7 +9,7 @@ use sweep::Sweep;
 
 use super::super::answer::{DesignAnswer, limit_text};
 use super::columns::preferred_columns;
-use super::gap_changes::{cell, missed, words};
+use super::gap_changes::{cell, change_text, missed};
 use crate::print::{FOLDED, aligned, digits, marked};
 
 /// Headers of the table; a column without any value is omitted.
@@ -29,14 +29,15 @@ impl<'a> RankedAnswer<'a> {
     /// Solves the design `best` of `results` again.
     pub fn new(results: &'a Results, preferences: &'a Preferences, best: RankedDesign<'a>) -> Self {
         let sweep = results.definition();
-        // Solve without a time limit, even if a layer makes it slow, because it is only one design.
+        // Solve without a time limit, because only one design is solved. A design on tissue of
+        // finite thickness is slow.
         let solved = sweep.and_then(|sweep| {
             Some((sweep, solved_row(sweep, best.design(), Patience::Unlimited)?))
         });
         Self { results, preferences, best, solved }
     }
 
-    /// Returns the solved design with its requirements.
+    /// Returns the solved design with its requirements; `None` if the design was not solved.
     fn design(&self) -> Option<DesignAnswer<'_>> {
         let (sweep, row) = self.solved.as_ref()?;
         Some(DesignAnswer::new(sweep, row, &self.preferences.requirements))
@@ -44,8 +45,8 @@ impl<'a> RankedAnswer<'a> {
 
     /// Formats values, limits, margins and warnings of the best design.
     ///
-    /// `change` contains its measures with smaller and larger gaps, `coupling` its measures with
-    /// full substrate coupling. Both are `None` if unknown.
+    /// `change` contains the measures of this design with smaller and larger gaps, `coupling` the
+    /// measures with full substrate coupling. Unknown measures are `None`.
     pub fn text(&self, change: Option<&GapChange>, coupling: Option<&CouplingChange>) -> String {
         let mut rows = vec![HEADERS.map(str::to_owned).to_vec()];
         rows.extend(self.rows(change, coupling));
@@ -88,8 +89,8 @@ impl<'a> RankedAnswer<'a> {
         let mut rows = Vec::new();
         for column in columns {
             let value = self.number(column);
-            let own = self.preferences.requirements.iter().filter(|r| r.column == column);
-            let mut limits = own.map(|requirement| limit_text(requirement, value));
+            let limiting = self.preferences.requirements.iter().filter(|r| r.column == column);
+            let mut limits = limiting.map(|requirement| limit_text(requirement, value));
             let gap = change.and_then(|c| c.measures.iter().find(|m| m.column == column));
             let full = coupling.and_then(|c| c.measures.iter().find(|m| m.column == column));
             rows.push(vec![
@@ -97,24 +98,24 @@ impl<'a> RankedAnswer<'a> {
                 value.map_or("none".to_owned(), digits),
                 limits.next().unwrap_or_default(),
                 gap.map_or_else(String::new, cell),
-                full.map_or_else(String::new, |full| words(full.nearest, full.full)),
+                full.map_or_else(String::new, |full| change_text(full.nearest, full.full)),
             ]);
             // Add a row for each further requirement on the same column.
             rows.extend(limits.map(|limit| padded(vec![String::new(), String::new(), limit])));
-            let mode = mode_column(column).map(|mode| (mode, self.word(mode)));
-            rows.extend(mode.map(|(mode, word)| padded(vec![mode.to_owned(), word])));
+            let mode = mode_column(column).map(|mode| (mode, self.text_in(mode)));
+            rows.extend(mode.map(|(mode, text)| padded(vec![mode.to_owned(), text])));
         }
         rows
     }
 
-    /// Returns the number in a column of the best design.
+    /// Returns the number of the best design in a column; `None` if the cell is empty or missing.
     fn number(&self, column: &str) -> Option<f64> {
         let column = self.results.column(column).ok()?;
         self.results.table().number(self.best.row(), column)
     }
 
-    /// Returns the text in a column of the best design.
-    fn word(&self, column: &str) -> String {
+    /// Returns the text of the best design in a column; empty if there is no such column.
+    fn text_in(&self, column: &str) -> String {
         let column = self.results.column(column).ok();
         let text = column.map(|column| self.results.text(self.best.row(), column).into_owned());
         text.unwrap_or_default()

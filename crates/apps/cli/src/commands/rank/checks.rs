@@ -18,16 +18,17 @@ const MOST: usize = 50;
 pub struct Checks<'a> {
     /// Numbers of the designs that fail, in the order of the ranking.
     pub failed: Vec<String>,
-    /// The best design that passes all checks; `None` if this is the first of the ranking.
+    /// The best design that passes all checks, if a better design fails a check.
     ///
-    /// Also `None` if no checked design passes, or if there are no requirements.
+    /// `None` if the first design of the ranking passes, if no checked design passes, or if no design
+    /// is checked.
     pub best: Option<RankedDesign<'a>>,
 }
 
 impl<'a> Checks<'a> {
     /// Checks designs in the order of the ranking until a design passes.
     ///
-    /// Without requirements no design is checked, because it could not miss any.
+    /// Checks no design if there are no requirements, or if the results have no definition.
     pub fn new(results: &Results, ranking: &'a Ranking<'a>) -> Self {
         let preferences = ranking.preferences();
         let mut checks = Self::default();
@@ -57,8 +58,8 @@ fn passes(results: &Results, preferences: &Preferences, design: &RankedDesign<'_
     if depends_on_fold && is_folded(results, design.row()) {
         return false;
     }
-    // Without a definition the design cannot be solved again, and passes. Below, a design that is
-    // slow to solve passes as well: `solve` returns `None`.
+    // Without a definition the design cannot be solved again, and passes. A design that is slow to
+    // solve passes as well, because both functions `solve` return `None`.
     let Some(sweep) = results.definition() else { return true };
     let coupled = CouplingChange::solve(sweep, design.design(), &columns, Patience::Milliseconds);
     let is_coupled = coupled.is_none_or(|change| {
@@ -76,13 +77,13 @@ fn passes(results: &Results, preferences: &Preferences, design: &RankedDesign<'_
         )
 }
 
-/// Returns true if a requirement is met with full substrate coupling.
+/// Returns true if a requirement is met with full substrate coupling, or concerns no measure.
 fn is_met_coupled(change: &CouplingChange, requirement: &Requirement) -> bool {
     let mut measures = change.measures.iter().filter(|m| m.column == requirement.column);
     measures.all(|measure| measure.full.is_some_and(|full| requirement.is_met(full)))
 }
 
-/// Returns true if a requirement is met with a smaller and with a larger gap.
+/// Returns true if a requirement is met with a smaller and a larger gap, or concerns no measure.
 fn is_met_nearby(change: &GapChange, requirement: &Requirement) -> bool {
     let measures = change.measures.iter().filter(|m| m.column == requirement.column);
     measures

@@ -7,14 +7,14 @@ use run::{CouplingChange, GapChange, MeasureChange, Patience};
 
 use super::columns::measured_columns;
 
-/// Ratio from which on a change is printed as a factor, and not in percent.
+/// Smallest ratio of two values that is printed as a factor, and not in percent.
 const LARGE: f64 = 2.0;
 
 /// Solves the best designs of a ranking again with smaller and larger gaps.
 ///
-/// These are the best design by the weights, the design `passing` that passes the checks, the best
-/// design without a fold, and the best design by each criterion. The list is empty if the results
-/// have no definition.
+/// The solved designs are the best by the weights, the design `passing` that passes the checks, the
+/// best without a fold, and the best by each criterion. The list is empty if the results have no
+/// definition.
 pub fn gap_changes(
     results: &Results,
     ranking: &Ranking<'_>,
@@ -27,7 +27,7 @@ pub fn gap_changes(
     let winner = ranking.winner(ranking.preferences().weights);
     let best = [Some(winner), passing, ranking.best_unfolded()];
     // Remove duplicates, because a design is often the best by several criteria, and each design is
-    // solved three times.
+    // solved several times.
     let mut numbers: Vec<&str> = Vec::new();
     for number in best.iter().flatten().chain(&alone.collect::<Vec<_>>()).map(RankedDesign::design)
     {
@@ -43,8 +43,8 @@ pub fn gap_changes(
 
 /// Solves up to three designs again with full substrate coupling.
 ///
-/// These are the best design by the weights, the design `passing` that passes the checks, and the
-/// best design without a fold. The list is empty if the results have no definition.
+/// The solved designs are the best by the weights, the design `passing` that passes the checks, and
+/// the best without a fold. The list is empty if the results have no definition.
 pub fn couplings(
     results: &Results,
     ranking: &Ranking<'_>,
@@ -65,12 +65,12 @@ pub fn couplings(
 
 /// Formats the changes of a measure for a smaller and a larger gap.
 pub fn cell(measure: &MeasureChange) -> String {
-    let [smaller, larger] = measure.changed.map(|changed| words(measure.value, changed));
+    let [smaller, larger] = measure.changed.map(|changed| change_text(measure.value, changed));
     format!("{smaller} / {larger}")
 }
 
-/// Formats the change from `value` to `changed` in percent, or as a factor if it is large.
-pub fn words(value: f64, changed: Option<f64>) -> String {
+/// Formats the change from `value` to `changed` in percent, or a large change as a factor.
+pub fn change_text(value: f64, changed: Option<f64>) -> String {
     let Some(changed) = changed else { return "no value".to_owned() };
     let ratio = changed / value;
     match ratio {
@@ -85,7 +85,7 @@ pub fn words(value: f64, changed: Option<f64>) -> String {
 
 /// Returns a phrase for each requirement that a design misses with a smaller or larger gap.
 pub fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
-    let mut sentences = Vec::new();
+    let mut phrases = Vec::new();
     for requirement in requirements {
         let measures = change.measures.iter().filter(|m| m.column == requirement.column);
         for (side, changed) in
@@ -93,9 +93,9 @@ pub fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
         {
             // A design without a value meets no requirement.
             if changed.is_none_or(|changed| !requirement.is_met(changed)) {
-                sentences.push(format!("misses {requirement} if the gap is 10 % {side}"));
+                phrases.push(format!("misses {requirement} if the gap is 10 % {side}"));
             }
         }
     }
-    sentences
+    phrases
 }

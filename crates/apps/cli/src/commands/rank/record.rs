@@ -12,7 +12,7 @@ use crate::json;
 
 /// Returns the ranking, the checks of the best designs and the answer as JSON.
 ///
-/// `change` contains the measures of the answer, the best design, with smaller and larger gaps.
+/// `change` contains the measures of the answer (the best design) with smaller and larger gaps.
 pub fn report_record(report: &RankReport<'_>, change: Option<&GapChange>) -> Value {
     let RankReport { results, ranking, top, changes, couplings, checks, answer } = *report;
     let mut record = ranking_record(results, ranking, top);
@@ -60,23 +60,24 @@ fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> Value
 }
 
 fn designs(results: &Results, ranking: &Ranking<'_>, all: &[RankedDesign<'_>]) -> Vec<Value> {
-    all.iter().map(|standing| design(results, ranking, standing)).collect()
+    all.iter().map(|ranked| design(results, ranking, ranked)).collect()
 }
 
-/// Returns a design with its fitness, its share of the weights and its values as JSON.
-fn design(results: &Results, ranking: &Ranking<'_>, standing: &RankedDesign<'_>) -> Value {
+/// Returns a design as JSON: fitness, fraction of weights for which the design is best, and values.
+fn design(results: &Results, ranking: &Ranking<'_>, ranked: &RankedDesign<'_>) -> Value {
     let criteria = ranking.preferences().criteria.iter().enumerate();
-    let values = criteria.map(|(c, own)| (own.column.to_string(), standing.value(c).into()));
+    let values =
+        criteria.map(|(c, criterion)| (criterion.column.to_string(), ranked.value(c).into()));
     let mut values: Map<String, Value> = values.collect();
     for mode in preferred_columns(ranking.preferences()).filter_map(mode_column) {
         if let Ok(column) = results.column(mode) {
-            values.insert(mode.to_owned(), results.text(standing.row(), column).into());
+            values.insert(mode.to_owned(), results.text(ranked.row(), column).into());
         }
     }
     json!({
-        "design": standing.design(),
-        "fitness": standing.fitness,
-        "share_of_weights": standing.share(),
+        "design": ranked.design(),
+        "fitness": ranked.fitness,
+        "share_of_weights": ranked.share(),
         "values": values,
     })
 }

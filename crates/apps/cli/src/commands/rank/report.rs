@@ -15,7 +15,7 @@ use super::checks::Checks;
 use super::columns::{is_folded, preferred_columns};
 use crate::print::{FAILED, FOLDED, aligned, counted, digits, shortfall};
 
-/// Maximum number of designs that are best for some weights and that the report names.
+/// Maximum number of designs that the report names as the best for some weights.
 const LISTED: usize = 5;
 
 const FOLDED_MEANS: &str =
@@ -72,7 +72,7 @@ impl RankReport<'_> {
         let rows: Vec<_> =
             left_out.map(|(why, count)| [format!("{count} left out"), why.clone()]).collect();
         text.push_str(&aligned(&rows));
-        // A single design has no other to compare with, so do not report equal criteria.
+        // With a single ranked design, all criteria are trivially equal; do not report this.
         if ranked > 1 {
             for criterion in self.ranking.ties() {
                 let name = &self.preferences().criteria[criterion].name;
@@ -95,8 +95,8 @@ impl RankReport<'_> {
         let mut rows = vec![self.header("fitness")];
         for (_, design) in shown {
             let mut row = self.row(&design, format!("{:.6}", design.fitness));
-            let own = notes.iter().filter(|(row, _)| *row == design.row());
-            row.push(own.map(|(_, note)| note.as_str()).collect::<Vec<_>>().join(", "));
+            let of_design = notes.iter().filter(|(row, _)| *row == design.row());
+            row.push(of_design.map(|(_, note)| note.as_str()).collect::<Vec<_>>().join(", "));
             rows.push(row);
         }
         let mut text = match preferences.criteria.as_slice() {
@@ -114,10 +114,10 @@ impl RankReport<'_> {
         text
     }
 
-    /// Returns designs that are the best in some respect, as table rows with notes.
+    /// Returns the row of each design that is the best in some respect, and a note on this respect.
     ///
-    /// These are the best design that passes all checks, the best without a fold, the best by each
-    /// criterion, and the knee of the front. The note names the respect.
+    /// These designs are the best that passes all checks, the best without a fold, the best by each
+    /// criterion, and the knee of the front.
     fn notes(&self) -> Vec<(usize, String)> {
         let criteria = &self.preferences().criteria;
         let mut notes = Vec::new();
@@ -139,14 +139,14 @@ impl RankReport<'_> {
             }
             notes.push((self.ranking.winner(weights).row(), note));
         }
-        // Omit the knee of the paper's four criteria: most designs are on their front, so the knee
-        // means little.
+        // Omit the knee for the paper's four criteria: most designs are on the front of these
+        // criteria, so the knee means little.
         let knee = self.ranking.knee().filter(|_| !self.preferences().are_the_papers());
         notes.extend(knee.map(|knee| (knee.row(), "knee of the front".to_owned())));
         notes
     }
 
-    /// States the size of the Pareto front, and the designs that are best for most weights.
+    /// States the size of the Pareto front, and the designs with the largest fractions of weights.
     fn sizes(&self) -> String {
         let front = self.ranking.front().len();
         let mut text = format!("  Pareto front: {} (pareto.csv)\n", designs(front));
@@ -191,10 +191,10 @@ impl RankReport<'_> {
         header
     }
 
-    fn row(&self, standing: &RankedDesign<'_>, first: String) -> Vec<String> {
+    fn row(&self, design: &RankedDesign<'_>, first: String) -> Vec<String> {
         let mut row = vec![first];
-        row.extend(shown_cells(self.results, self.preferences(), standing.row()));
-        if self.checks.fails(standing.design()) {
+        row.extend(shown_cells(self.results, self.preferences(), design.row()));
+        if self.checks.fails(design.design()) {
             // Mark the number of the design, which follows the cell `first`.
             row[1].push(FAILED);
         }
@@ -248,8 +248,8 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
                     format!("{text}{FOLDED}")
                 }
                 Ok(_) if column == "design" => text.into_owned(),
-                // Show parameters with 12 digits. They identify a design, and hide the round-off of a
-                // division by the thickness.
+                // Show parameters with 12 digits, which identify a design, and hide the round-off of
+                // a division by the thickness.
                 Ok(number) if parameter_of(column).is_some() => text::number::rounded(number, 12),
                 Ok(number) => digits(number),
                 _ => text.into_owned(),
@@ -282,7 +282,7 @@ pub fn obstacle(unmet: &Unmet) -> String {
     format!("{}\n{}", aligned(&rows), binding(unmet))
 }
 
-/// Formats a requirement, the value of the nearest design, and its shortfall in percent.
+/// Formats a requirement, the value of the nearest design, and the shortfall of this value.
 pub fn distance(requirement: &UnmetRequirement) -> [String; 3] {
     let short = match requirement.shortfall {
         0.0 => "-".to_owned(),

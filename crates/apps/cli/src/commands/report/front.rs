@@ -54,7 +54,7 @@ pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<(PageFront,
     Ok((front, failed.collect()))
 }
 
-/// Returns the objectives of the nominal goal, without the margin that replaces a yield.
+/// Returns the objectives of the nominal goal, without the margin that replaces the yield.
 ///
 /// If the yield is the only objective, returns the column of the first requirement.
 fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
@@ -93,7 +93,7 @@ fn statistics(goal: &DesignGoal) -> Vec<String> {
 
 /// Lists the tolerances of a goal; `None` if the goal uses no samples.
 ///
-/// The report mentions them, because the designs of a grid have no tolerances.
+/// The report lists the tolerances, because the designs of the grid have none.
 fn tolerances_of(goal: &DesignGoal) -> Option<String> {
     let tolerances = goal.space.sweep().deviations().iter();
     let tolerances = tolerances.map(|d| format!("tolerance.{} {}", d.key(), d.to_toml()));
@@ -103,16 +103,17 @@ fn tolerances_of(goal: &DesignGoal) -> Option<String> {
 
 /// Lists the fixed parameters with different values in the search and in the grid.
 fn differences(goal: &DesignGoal, grid: &FolderContents) -> Vec<String> {
-    let held = PARAMETERS
+    let fixed = PARAMETERS
         .iter()
         .filter(|parameter| !goal.space.parameters().any(|variable| variable.key == parameter.key));
-    held.filter_map(|parameter| {
-        let found = only_value(goal.space.sweep(), parameter)?;
-        let expected = only_value(&grid.sweep, parameter)?;
-        let path = parameter.path();
-        (found != expected).then(|| format!("{path} {found} instead of {expected}"))
-    })
-    .collect()
+    fixed
+        .filter_map(|parameter| {
+            let found = only_value(goal.space.sweep(), parameter)?;
+            let expected = only_value(&grid.sweep, parameter)?;
+            let path = parameter.path();
+            (found != expected).then(|| format!("{path} {found} instead of {expected}"))
+        })
+        .collect()
 }
 
 /// Returns the value of `parameter` if all designs of `sweep` have the same value.

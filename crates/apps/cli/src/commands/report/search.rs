@@ -13,7 +13,7 @@ use crate::commands::status::search_report;
 use crate::commands::{DONE, PROGRAM};
 use crate::print::print;
 
-/// Time between two versions of the page, in seconds.
+/// Time after which the page is written again, in seconds.
 const EVERY: u32 = 5;
 
 /// Writes the page of the search in `folder` to `out`, again and again until the search ends.
@@ -58,10 +58,10 @@ fn figures(status: &SearchStatus) -> Vec<String> {
     let sign = if goal.objectives[0].goal == ranking::Goal::Maximize { 1.0 } else { -1.0 };
     let (mut designs, mut line) = (Vec::new(), Vec::<[f64; 2]>::new());
     for (index, design) in status.evaluations.iter().enumerate() {
-        let place = [(index + 1) as f64, design.values[0]];
-        designs.push(Evaluated { place, met: design.is_met });
-        if design.is_met && line.last().is_none_or(|best| sign * place[1] > sign * best[1]) {
-            line.push(place);
+        let point = [(index + 1) as f64, design.values[0]];
+        designs.push(Evaluated { place: point, met: design.is_met });
+        if design.is_met && line.last().is_none_or(|best| sign * point[1] > sign * best[1]) {
+            line.push(point);
         }
     }
     let history = SearchFigure {
@@ -83,8 +83,8 @@ fn figures(status: &SearchStatus) -> Vec<String> {
 
 /// Returns the axes of the parallel coordinates, and the values of each design on these axes.
 ///
-/// The axes are variables, objectives and requirements, in this order and without duplicates. The
-/// flag of a design is true if the design meets the requirements.
+/// The axes are variables with numeric values, objectives and requirements, in this order and
+/// without duplicates. The flag of a design is true if the design meets the requirements.
 fn coordinates(
     goal: &optimisation::DesignGoal,
     status: &SearchStatus,

@@ -32,7 +32,9 @@ pub fn figures(
     files
 }
 
-/// Returns the shares of the sources in the variance of a measure, if it has a linear prediction.
+/// Returns the fraction of the variance of a measure that each source contributes.
+///
+/// `None` if the measure has no linear prediction.
 fn shares(measure: &MeasureTolerance) -> Option<Shares> {
     let sources = measure.linear.as_ref()?.sources.iter().map(|source| {
         let level = if source.level == DeviationLevel::Scale { " from scale to scale" } else { "" };
@@ -48,10 +50,10 @@ fn histogram(
     design: &DesignTolerance,
     measure: &MeasureTolerance,
 ) -> Option<String> {
-    let place = design.columns.iter().position(|column| *column == measure.name)?;
-    let values: Vec<f64> = design.samples.iter().filter_map(|s| s.values[place]).collect();
-    let own = requirements.iter().filter(|requirement| requirement.column == measure.name);
-    let bounds: Vec<_> = own.map(|r| (bound(r), r.limit)).collect();
+    let index = design.columns.iter().position(|column| *column == measure.name)?;
+    let values: Vec<f64> = design.samples.iter().filter_map(|s| s.values[index]).collect();
+    let limiting = requirements.iter().filter(|requirement| requirement.column == measure.name);
+    let bounds: Vec<_> = limiting.map(|r| (bound(r), r.limit)).collect();
     let histogram = Histogram {
         name,
         measure: &measure.name,

@@ -69,17 +69,17 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
 
 /// Returns the name of the first failure mode of the nominal design.
 ///
-/// `None` if failure is not judged.
+/// `None` if the first failure is not requested, or is unknown.
 pub fn first_failure(design: &DesignTolerance) -> Option<&'static str> {
     Some(design.nominal.result.puncture?.measures.failure.mode?.name())
 }
 
 /// Returns a warning that the surface of some samples folds.
 ///
-/// Such samples count as failed only if a requirement excludes folds.
+/// Samples with a fold count as failed only if a requirement excludes folds.
 fn folded(design: &DesignTolerance) -> Option<String> {
-    let place = design.columns.iter().position(|column| column == FOLD_FORCE)?;
-    let folded = design.samples.iter().map(|sample| sample.values.get(place));
+    let index = design.columns.iter().position(|column| column == FOLD_FORCE)?;
+    let folded = design.samples.iter().map(|sample| sample.values.get(index));
     let count = folded.filter(|force| force.is_some_and(Option::is_some)).count();
     let samples = counted(count as u64, "sample");
     let line = format!(
@@ -147,7 +147,7 @@ fn short(value: f64) -> String {
     text::number::rounded(value, 3)
 }
 
-/// Returns the fraction of samples that meet all requirements together.
+/// Returns the fraction of samples that meet all requirements; `None` without requirements.
 fn whole_yield(design: &DesignTolerance) -> Option<Proportion> {
     design.yields.last().and_then(|of| of.proportion)
 }
