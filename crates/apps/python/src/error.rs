@@ -50,11 +50,11 @@ pub trait OrFailed<T> {
 impl<T, E: Display> OrFailed<T> for Result<T, E> {
     fn or_failed(self, what: &str) -> PyResult<T> {
         // Messages name options of commands; functions have keywords instead.
-        let spoken = |text: String| {
+        let in_python = |text: String| {
             let text = text.replace("squama run --resume", "squama.run(..., resume=True)");
             text.replace("--resume", "resume=True").replace("--fresh", "fresh=True")
         };
-        self.map_err(|error| failed(what, &spoken(error.to_string())))
+        self.map_err(|error| failed(what, &in_python(error.to_string())))
     }
 }
 
@@ -93,7 +93,7 @@ pub fn invalid_definition(
     }
 }
 
-/// Returns the invalid value and a description of valid values.
+/// Returns the invalid value, if the problem states one, and a description of valid values.
 fn explained(problem: &Problem) -> (Option<String>, String) {
     match problem {
         Problem::Value(

@@ -34,27 +34,27 @@ pub fn gradients(
     let (py, of) = (skin.py(), skin.get());
     let by = keys.iter().map(|key| parameter(skin, key)).collect::<PyResult<Vec<_>>>()?;
     let columns = design_columns(&of.sweep);
-    let column = |asked: &String| {
-        let found = columns.iter().find(|column| column.name == *asked);
-        found.ok_or_else(|| PyKeyError::new_err(format!("there is no measure {asked}")))
+    let column = |name: &String| {
+        let found = columns.iter().find(|column| column.name == *name);
+        found.ok_or_else(|| PyKeyError::new_err(format!("there is no measure {name}")))
     };
-    let asked = measures.iter().map(column).collect::<PyResult<Vec<_>>>()?;
-    // Solves only the measures that the columns need.
-    let needed = asked.iter().map(|c| measure_of(&c.name).unwrap_or(Measure::Coverage));
+    let requested = measures.iter().map(column).collect::<PyResult<Vec<_>>>()?;
+    // Solve only the measures that the columns need.
+    let needed = requested.iter().map(|c| measure_of(&c.name).unwrap_or(Measure::Coverage));
     let needed: BTreeSet<_> = needed.chain([Measure::Sensitivity]).collect();
     let needed = RequestedMeasures { measures: Vec::from_iter(needed), columns: measures };
     let (evaluator, number) = (evaluator(needed), of.sweep.grid().number(0));
     let row = py.detach(|| evaluator.row(number, &of.case()));
     let fold = columns.iter().find(|c| {
         c.name == name::FOLD_FORCE
-            && asked.iter().any(|column| {
+            && requested.iter().any(|column| {
                 let source = measure_name(&column.name);
                 measure_of(source) == Some(Measure::Puncture)
                     && ![name::FOLD_FORCE, name::SOUND_FORCE].contains(&source)
             })
     });
     let fold = fold.and_then(|column| column.cell(&row).number());
-    let gradients = asked.into_iter().map(|column| gradient(py, column, &row, &by));
+    let gradients = requested.into_iter().map(|column| gradient(py, column, &row, &by));
     Ok((gradients.collect::<PyResult<_>>()?, fold))
 }
 
@@ -62,7 +62,7 @@ pub fn gradients(
 fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<&'static Parameter> {
     let (py, case) = (skin.py(), skin.get().case());
     let parameter = Parameter::named(key).ok_or_else(|| unknown(py, key))?;
-    // Lengths in mm and moduli only affect continuous quantities.
+    // Lengths in mm and moduli do not have the role `Continuous`, but they act continuously.
     let is_smooth = parameter.has(Role::Continuous) || parameter.has(Role::Made);
     if !is_smooth || parameter.size(&case).is_none() {
         let expected = "a parameter that is given as a number and changes continuously";

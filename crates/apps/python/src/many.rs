@@ -10,7 +10,7 @@ use results::{Cell, Column, DesignRow};
 use run::Evaluator;
 use sweep::{PARAMETERS, Parameter, Role, Scalar, key};
 
-use crate::skin::{Skin, asked, evaluator};
+use crate::skin::{Skin, evaluator, parsed_measures};
 use crate::value::{NamedCells, table};
 use crate::work::{Watch, interrupted, pool, watched};
 
@@ -27,7 +27,7 @@ pub fn solve_many(
     threads: Option<Bound<'_, PyAny>>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Vec<NamedCells>> {
-    let (evaluator, pool) = (evaluator(asked(measures)?), pool(threads.as_ref())?);
+    let (evaluator, pool) = (evaluator(parsed_measures(measures)?), pool(threads.as_ref())?);
     let solved = watched(py, progress, move |watch| {
         watch.all.store(skins.len(), Ordering::Relaxed);
         columns(&skins, |first, skins| pool.install(|| solve(skins, first, &evaluator, watch)))
@@ -84,13 +84,13 @@ fn columns(
     for (batch, skins) in skins.chunks(BATCH).enumerate() {
         let rows = solve(batch * BATCH, skins)?;
         for (name, .., cells) in &mut all {
-            let place: Vec<_> = kinds
+            let positions: Vec<_> = kinds
                 .iter()
                 .map(|(_, columns)| columns.iter().position(|c| c.name == *name))
                 .collect();
             let rows = rows.iter().zip(&kind_of[batch * BATCH..]);
             cells.extend(rows.map(|(row, &kind)| {
-                place[kind].map_or(Cell::Empty, |k| kinds[kind].1[k].cell(row))
+                positions[kind].map_or(Cell::Empty, |k| kinds[kind].1[k].cell(row))
             }));
         }
     }
@@ -119,8 +119,9 @@ fn differing(skins: &[Py<Skin>]) -> impl Iterator<Item = &'static Parameter> {
 
 /// The properties of a skin that determine its columns.
 ///
-/// These are: guided needle and random gaps; for each parameter, whether it is given and whether it
-/// is set; and lists with values in column names.
+/// These are: whether the needle is guided and whether the row is imperfect; for each parameter,
+/// whether it is given and whether it differs from its default; and the lists with values in
+/// column names.
 type Kind = ([bool; 2], Vec<[bool; 2]>, [Option<Scalar>; 2]);
 
 fn kind(skin: &Skin) -> Kind {

@@ -74,9 +74,9 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
         }
     }
     // If both gap and pitch are given, the pitch determines the length.
-    let says_length = keys.iter().filter(|key| **key == key::GAP).count() > 1;
+    let sets_length = keys.iter().filter(|key| **key == key::GAP).count() > 1;
     if let Some(missing) = Parameter::with(Role::Geometry).find(|p| {
-        let follows = p.key == key::LENGTH && says_length && keys.contains(&key::PITCH);
+        let follows = p.key == key::LENGTH && sets_length && keys.contains(&key::PITCH);
         !(keys.contains(&p.key) || follows)
     }) {
         return Err(error::invalid_parameter(py, missing.key, None, &missing.expected()));
@@ -112,7 +112,7 @@ pub struct RequestedMeasures {
 }
 
 /// Parses measures: a name, a column, a list, or "all" (all without derivatives).
-pub fn asked(of: Option<&Bound<'_, PyAny>>) -> PyResult<RequestedMeasures> {
+pub fn parsed_measures(of: Option<&Bound<'_, PyAny>>) -> PyResult<RequestedMeasures> {
     let whole = |measures: Vec<Measure>| RequestedMeasures { measures, columns: Vec::new() };
     let Some(of) = of.filter(|of| !of.is_none()) else {
         return Ok(whole(Measure::USUAL.to_vec()));
@@ -144,10 +144,11 @@ pub fn asked(of: Option<&Bound<'_, PyAny>>) -> PyResult<RequestedMeasures> {
 }
 
 /// Returns the cached evaluator for these measures, which keeps its springs.
-pub fn evaluator(asked: RequestedMeasures) -> Arc<Evaluator> {
+pub fn evaluator(requested: RequestedMeasures) -> Arc<Evaluator> {
     static KNOWN: Mutex<BTreeMap<RequestedMeasures, Arc<Evaluator>>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    Arc::clone(known.entry(asked).or_insert_with_key(|RequestedMeasures { measures, columns }| {
+    let entry = known.entry(requested);
+    Arc::clone(entry.or_insert_with_key(|RequestedMeasures { measures, columns }| {
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         Arc::new(if columns.is_empty() {
             Evaluator::new(measures)
@@ -158,7 +159,7 @@ pub fn evaluator(asked: RequestedMeasures) -> Arc<Evaluator> {
 }
 
 impl Skin {
-    /// Returns the skin at an index of a sweep.
+    /// Creates the skin of design `index` of a sweep.
     fn new(sweep: &Sweep, index: u64) -> Self {
         Self { sweep: sweep.only(index) }
     }
@@ -203,8 +204,8 @@ impl Skin {
             Err(_) => text(definition)?,
         };
         // TOML text starts with a name and contains an equals sign, which no path does.
-        let starts = text.trim_start().starts_with("name") && text.contains('=');
-        let sweep = if starts || text.contains('\n') {
+        let is_toml = text.trim_start().starts_with("name") && text.contains('=');
+        let sweep = if is_toml || text.contains('\n') {
             Sweep::parse(&text, "definition", settings)
         } else {
             Sweep::read(Path::new(&text), settings)
@@ -293,7 +294,7 @@ impl Skin {
     ) -> PyResult<Bound<'py, PyAny>> {
         static RESULT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
         let (py, skin) = (slf.py(), slf.get());
-        let evaluator = evaluator(asked(measures)?);
+        let evaluator = evaluator(parsed_measures(measures)?);
         let (number, case) = (skin.sweep.grid().number(0), skin.case());
         let solved = if skin.is_quick() {
             py.detach(|| evaluator.solve(number, &case))
@@ -336,7 +337,7 @@ impl Skin {
     }
 }
 
-/// Number of objects created before other threads may run, which takes milliseconds.
+/// Number of objects that are created, in milliseconds, before other threads may run.
 const PORTION: usize = 1024;
 
 /// Creates a list of skins, and lets other threads run and handles signals in between.

@@ -47,7 +47,7 @@ impl Solved {
             .collect()
     }
 
-    /// Returns every warning about the design, in the words of the commands.
+    /// Returns every warning about the design, as the commands print it.
     fn warnings(&self) -> Vec<String> {
         design_warnings(&self.sweep, &self.design.row, None, None)
     }

@@ -40,7 +40,7 @@ const TABLES_EVERY: Duration = Duration::from_secs(30);
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Keywords<'py> {
-    /// The results folder.
+    /// The results folder; `None` for `results/NAME`.
     out: Option<PathBuf>,
     /// Settings that override the definition: dotted keys and values.
     set: Option<Bound<'py, PyDict>>,

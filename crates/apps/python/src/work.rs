@@ -64,7 +64,7 @@ impl Watch {
     }
 }
 
-/// The accepted numbers of threads, as for the command.
+/// The accepted numbers of threads, as for the option `--threads` of the command.
 const THREADS: RangeInclusive<usize> = 1..=1024;
 
 /// Returns the whole number `value`, or raises `InvalidParameter` if it is outside of `range`.
@@ -121,9 +121,9 @@ pub fn watched<T: Send + 'static>(
             }
             Err(RecvTimeoutError::Timeout) => {}
         }
-        let told =
-            progress.as_ref().map_or(Ok(()), |tell| tell.call1(watch.progress()).map(|_| ()));
-        if let Err(interrupted) = py.check_signals().and(told) {
+        let reported =
+            progress.as_ref().map_or(Ok(()), |report| report.call1(watch.progress()).map(|_| ()));
+        if let Err(interrupted) = py.check_signals().and(reported) {
             watch.stop.store(true, Ordering::Relaxed);
             let _ = py.detach(move || receiver.recv_timeout(GRACE));
             return Err(interrupted);

@@ -194,7 +194,7 @@ def test_errors_name_keywords_and_missing_values(tmp_path):
     assert (squama.solve_many(SKIN, "coverage")["coverage"] == [SKIN.solve("coverage")["coverage"]]).all()
 
 
-def test_errors_and_results_pickle():
+def test_errors_and_results_can_be_pickled():
     kink = squama.KinkWarning("compliance", "gap_over_t", 1.0, 2.0, "touch")
     errors = [squama.InvalidParameter("c2", 0, "a number"), squama.Failed("puncture", "limit point"), kink]
     for error in [*errors, squama.InvalidDefinition("no")]:
@@ -295,7 +295,7 @@ def test_gradients_agree_with_finite_differences(measure):
     assert value == f(x) and (gradient == jac(x)).all()
 
 
-def test_several_measures_have_a_jacobian():
+def test_the_jacobian_of_several_measures_has_a_row_for_each():
     f, jac = squama.function(SKIN, ["gap_over_t", "slant_deg"], ["critical_force", "coverage"])
     x = np.array([0.15, 50.0])
     assert f(x).shape == (2,) and jac(x).shape == (2, 2)
@@ -407,7 +407,7 @@ def test_interrupted_runs_can_be_resumed(tmp_path):
 
 
 def ended_early(begin, ending):
-    """Starts a command, interrupts it when the file ``ending`` exists, and returns True if it had not ended."""
+    """Starts a command, interrupts it when the file ``ending`` exists, and returns True if the command failed."""
     # Restore the handler: a shell that runs the tests in the background ignores the signal.
     heed = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # noqa: E731
     process = subprocess.Popen(begin, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=heed)
@@ -637,7 +637,7 @@ def test_other_threads_run_while_definitions_and_results_are_read(tmp_path):
     with ThreadPoolExecutor(1) as executor:
         ticking = executor.submit(tick)
         try:
-            # Each is one call of the extension: other threads run only if it releases the lock.
+            # Other threads run during a call of the extension only if the call releases the lock.
             for call, argument in ((squama._squama.read, tmp_path / "big"), (lambda text: squama.Skin._designs(text, None), definition)):
                 before = len(ticks)
                 call(argument)

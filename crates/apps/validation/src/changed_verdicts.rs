@@ -1,4 +1,4 @@
-//! Statements of claims with a different verdict in another model than the paper's.
+//! Statements of claims with verdicts that differ between the paper's model and other models.
 
 use crate::page::lines;
 use crate::{CheckedClaim, Finding};
@@ -15,7 +15,7 @@ pub struct ChangedVerdicts {
 impl ChangedVerdicts {
     /// Compares the verdicts in the paper's model with the verdicts in `others`.
     ///
-    /// If `bases` is 2, it compares them with a base of `L` and of `2L`; if it is 1, with `L` only.
+    /// If `bases` is 1, compares the verdicts with a base of `L`; if it is 2, also with `2L`.
     pub(crate) fn compare(
         paper: &[CheckedClaim],
         others: &[&[CheckedClaim]],
@@ -32,7 +32,7 @@ impl ChangedVerdicts {
     }
 
     /// Returns a table of the statements for which a friction of 0.1 or 0.3 changes the verdict.
-    pub(crate) fn in_words(&self) -> String {
+    pub(crate) fn friction_table(&self) -> String {
         let kept = self.kept;
         let setting = "With a friction of 0.1 and of 0.3, and the base L,";
         if self.changed.is_empty() {

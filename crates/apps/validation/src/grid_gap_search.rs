@@ -51,7 +51,7 @@ pub struct FittestDesign {
     pub grid_fitness: f64,
     /// The design found by the search.
     pub found: String,
-    /// Fitness of this design, on the scale where the best grid value of each criterion is 1.
+    /// Fitness of the design found, with criteria scaled so that the best grid value is 1.
     pub found_fitness: f64,
 }
 
@@ -60,11 +60,11 @@ pub struct FittestDesign {
 pub struct FrontOverGrid {
     /// Number of designs on the front.
     pub designs: usize,
-    /// The number of grid designs without a fold and with sufficient compliance.
+    /// The number of grid designs without a fold and with the required compliance.
     pub grid: usize,
-    /// The number of these grid designs that no other grid design dominates.
+    /// The number of grid designs, of those in `grid`, that no other grid design dominates.
     pub grid_front: usize,
-    /// The number of these grid designs that no design of the front equals or dominates.
+    /// The number of grid designs, of those in `grid`, that the front neither equals nor dominates.
     pub undominated: usize,
 }
 
@@ -133,11 +133,11 @@ impl FrontOverGrid {
             .filter(|d| d.compliance.is_some_and(|c| c >= LEAST_COMPLIANCE))
             .filter_map(|d| Some([d.critical_force?, d.coverage?]))
             .collect();
-        let beaten = grid.iter().filter(|a| grid.iter().any(|b| b != *a && at_least(b, *a)));
+        let dominated = grid.iter().filter(|a| grid.iter().any(|b| b != *a && at_least(b, *a)));
         Ok(Self {
             designs: front.len(),
             grid: grid.len(),
-            grid_front: grid.len() - beaten.count(),
+            grid_front: grid.len() - dominated.count(),
             undominated: grid.iter().filter(|a| !front.iter().any(|b| at_least(b, *a))).count(),
         })
     }
@@ -162,7 +162,7 @@ fn is_sound(design: &MeasuredDesign) -> bool {
     design.fold_force.is_none() && design.gap_stretch_min.is_none_or(|least| least > 0.0)
 }
 
-/// Formats the worst and best value of each criterion in a ranking as a key of a goal.
+/// Formats the worst and best value of each criterion in a ranking as the key `rescale` of a goal.
 fn ends(ranking: &Ranking<'_>) -> String {
     let designs: Vec<_> = ranking.by_fitness(Weights::BALANCED).collect();
     // The key has values of columns instead of criteria, because the goal inverts the penetration.

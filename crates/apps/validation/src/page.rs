@@ -30,7 +30,7 @@ impl Validation {
         parts.extend(
             self.needle.parts(["claims changed by the needle", "claims kept under the needle"]),
         );
-        parts.push(("claims with friction", self.friction.in_words()));
+        parts.push(("claims with friction", self.friction.friction_table()));
         let mut page = PAGE.to_owned();
         match &self.between {
             Some(between) => parts.extend(between.parts()),

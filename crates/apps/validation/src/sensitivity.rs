@@ -51,7 +51,7 @@ pub struct Headlines {
     pub corners: [String; 4],
 }
 
-/// The change of a measure from the first setting of a choice to another, over all designs.
+/// The change of a measure from the first setting of a choice to another setting, for all designs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChoiceEffect {
     /// The other setting, as `key = value`.
@@ -187,7 +187,7 @@ impl ChoiceEffect {
                 let lost = pairs.iter().filter(|(a, b)| a.is_some() && b.is_none()).count();
                 let designs = changes.len();
                 let changes = [0, designs / 2, designs.saturating_sub(1)]
-                    .map(|place| changes.get(place).copied().unwrap_or(f64::NAN));
+                    .map(|index| changes.get(index).copied().unwrap_or(f64::NAN));
                 let both: Vec<_> =
                     pairs.iter().filter_map(|pair| Some([pair.0?, pair.1?])).collect();
                 let (setting, ranks) = (setting.clone(), ranking::rank_correlation(&both));

@@ -122,7 +122,9 @@ impl Study {
         }
     }
 
-    /// Returns the study of `sweep` if this study contains all its designs.
+    /// Returns the part of this study with the designs of `sweep`.
+    ///
+    /// `None` if this study lacks any of these designs, or has other measures.
     pub(crate) fn part(&self, sweep: &Sweep) -> Option<Self> {
         let (ours, wanted) = (self.sweep.grid(), sweep.grid());
         // The row equals the index in the grid, because a study solves all designs.

@@ -142,10 +142,10 @@ fn spread(values: impl IntoIterator<Item = f64>, format: impl Fn(f64) -> String)
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);
     let last = values.len().saturating_sub(1);
-    let mut places = vec![0, values.len() / 2, last];
-    // If the median is the same value as an end, it is printed once.
-    places.dedup();
-    let shown = places.into_iter().filter_map(|place| values.get(place).copied().map(&format));
+    let mut indices = vec![0, values.len() / 2, last];
+    // Print the median once if it is also the smallest or the largest value.
+    indices.dedup();
+    let shown = indices.into_iter().filter_map(|index| values.get(index).copied().map(&format));
     shown.collect::<Vec<_>>().join(", ")
 }
 
@@ -154,7 +154,7 @@ mod tests {
     use super::{digits, spread};
 
     #[test]
-    fn a_spread_shows_equal_values_once() {
+    fn a_spread_shows_the_smallest_the_median_and_the_largest_value() {
         assert_eq!(spread([3.0, 1.0, 2.0, 5.0, 4.0], digits), "1.000, 3.000, 5.000");
         assert_eq!(spread([2.0], digits), "2.000");
         assert_eq!(spread([], digits), "");

@@ -1,4 +1,4 @@
-//! The response to a request.
+//! The answer to a request.
 
 pub(crate) mod definition;
 
@@ -10,7 +10,7 @@ use sweep::{Case, Sweep};
 
 use crate::path::{BentStrip, PuncturedRow};
 
-/// A solved design.
+/// The answer to a request: a solved design.
 #[derive(Clone, Debug, Serialize)]
 pub struct Answer {
     /// The identifier of the request.
@@ -19,19 +19,19 @@ pub struct Answer {
     pub fine: bool,
     /// The columns of `designs.csv` that have a value.
     pub values: Vec<Value>,
-    /// The requirements, in their order.
+    /// The requirements of the request, in the same order, with their margins.
     pub requirements: Vec<Required>,
     /// Warnings about the validity of the results.
     pub warnings: Vec<String>,
     /// Physical units of the drawn quantities, as far as the material is known.
     pub units: Units,
-    /// The puncture; `None` if it could not be started.
+    /// The puncture; `None` in a bare answer, or if the puncture could not be started.
     pub puncture: Option<PuncturedRow>,
-    /// The bending; `None` if it could not be started.
+    /// The bending; `None` in a bare answer, or if the bending could not be started.
     pub flexure: Option<BentStrip>,
     /// The derivatives of the measures, in a complete answer; empty if they take too long.
     pub slopes: Vec<Slope>,
-    /// The nearest design on the grid of the sweep.
+    /// The nearest design on the grid of the sweep; `None` for a sweep of a single design.
     pub closest: Option<Closest>,
     /// Command-line options with which `squama design` solves this design.
     pub settings: Vec<String>,
@@ -48,11 +48,11 @@ pub struct Value {
     pub name: String,
     /// Unit, `-` if it has none.
     pub unit: &'static str,
-    /// The meaning, as a short phrase.
+    /// Meaning of the column, as a short phrase.
     pub meaning: &'static str,
-    /// The number, if the cell is numeric.
+    /// Number in the cell, if the cell is numeric.
     pub value: Option<f64>,
-    /// The text, as in the tables.
+    /// Text of the cell, as in the tables.
     pub text: String,
 }
 
@@ -76,11 +76,11 @@ pub struct Required {
 /// Physical values of a unit length, unit force and unit moment.
 #[derive(Clone, Debug, Serialize)]
 pub struct Units {
-    /// Length of 1, mm.
+    /// Physical value of a dimensionless length of 1, mm.
     pub length: Option<f64>,
-    /// Force of 1, N.
+    /// Physical value of a dimensionless force of 1, N.
     pub force: Option<f64>,
-    /// Moment of 1, N mm.
+    /// Physical value of a dimensionless moment of 1, N mm.
     pub moment: Option<f64>,
 }
 
@@ -108,14 +108,14 @@ pub struct Closest {
     pub values: Vec<(&'static str, f64)>,
 }
 
-/// The value at which following a parameter ended.
+/// The result of following a parameter: its last value, and the limit beyond this value.
 #[derive(Clone, Debug, Serialize)]
 pub struct Followed {
     /// The key of the parameter.
     pub key: String,
     /// The last value before the limit.
     pub value: f64,
-    /// A short description of the limit.
+    /// A short description of the limit, or of the end of the range.
     pub reason: String,
 }
 

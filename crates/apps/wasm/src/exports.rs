@@ -13,7 +13,8 @@ use crate::Solver;
 static MODULE: LazyLock<Mutex<(Solver, Vec<u8>)>> = LazyLock::new(Mutex::default);
 
 fn module() -> MutexGuard<'static, (Solver, Vec<u8>)> {
-    // A poisoned lock is harmless: a failed request leaves only its buffer and complete springs.
+    // A poisoned lock is harmless: after a failed request the cached springs are complete, and the
+    // next request overwrites the buffer.
     MODULE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

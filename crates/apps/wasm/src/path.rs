@@ -11,10 +11,10 @@ use sweep::Case;
 /// Number of scales drawn on each side of the middle scale of a strip.
 const BESIDE: usize = 6;
 
-/// Position of a contact, and true if it slips; `None` without friction.
+/// Coordinates `x` and `y` of a contact, and true if the contact slips; `None` without friction.
 type PlacedContact = (f64, f64, Option<bool>);
 
-/// The puncture of a row: path, events and one state.
+/// The puncture of a row: path, events and one drawn state.
 #[derive(Clone, Debug, Serialize)]
 pub struct PuncturedRow {
     /// `u*`, `F*` and the completed fraction of the path for every equilibrium.
@@ -39,7 +39,7 @@ pub struct PuncturedRow {
     pub tip: Option<[f64; 3]>,
 }
 
-/// The bending of a strip: path, events and one state.
+/// The bending of a strip: path, events and one drawn state.
 #[derive(Clone, Debug, Serialize)]
 pub struct BentStrip {
     /// `κ*`, `M*` and the completed fraction of the path for every equilibrium.
@@ -59,7 +59,8 @@ pub struct BentStrip {
 impl PuncturedRow {
     /// Solves the row with the state at the fraction `drawn` of its path.
     ///
-    /// `path` is the path with larger steps. `None` on an error, which the measures report.
+    /// `path` is the path with larger steps. `solve` returns the path, and the states at the given
+    /// points. `None` if `solve` fails; the measures report such errors.
     pub(crate) fn new(
         case: &Case,
         path: &Puncture,
@@ -71,25 +72,26 @@ impl PuncturedRow {
         let is_guided = case.puncture.needle.is_guided();
         let along =
             |point: &PuncturePoint| if is_guided { point.displacement } else { point.tilt_deg };
-        let way = |path: &[PuncturePoint]| path.last().map_or(0.0, along);
-        let place = drawn * way(&path.path);
-        let place = if is_guided { At::Displacement(place) } else { At::Tilt(place) };
+        let end = |path: &[PuncturePoint]| path.last().map_or(0.0, along);
+        let position = drawn * end(&path.path);
+        let position = if is_guided { At::Displacement(position) } else { At::Tilt(position) };
         let is_between = drawn > 0.0 && drawn < 1.0;
-        let solved = solve(if is_between { std::slice::from_ref(&place) } else { &[] }).ok()?;
-        // The end is not requested by its value, because different steps change its last digits.
+        let solved = solve(if is_between { std::slice::from_ref(&position) } else { &[] }).ok()?;
+        // The end of the path is not requested by its value, because the last digits of this value
+        // depend on the steps.
         let state = solved.at.into_iter().flatten().next().unwrap_or(solved.end);
-        // At rest, the answer has only the path and no state.
+        // At rest (`drawn` = 0) no state is drawn.
         let state = (drawn > 0.0).then_some(state);
         let Puncture { path, events, folds, .. } = solved.puncture;
-        let place = |point: &PuncturePoint| [point.displacement, point.force];
+        let on_curve = |point: &PuncturePoint| [point.displacement, point.force];
         let radius = case.puncture.needle_radius.unwrap_or(0.0);
-        let way = way(&path);
-        let shares =
-            path.iter().map(|point| [point.displacement, point.force, share(along(point), way)]);
+        let end = end(&path);
+        let points =
+            path.iter().map(|point| [point.displacement, point.force, fraction(along(point), end)]);
         Some(Self {
-            path: shares.collect(),
-            events: events.iter().map(|event| place(&event.point)).collect(),
-            fold: folds.first().map(|fold| place(&fold.point)),
+            path: points.collect(),
+            events: events.iter().map(|event| on_curve(&event.point)).collect(),
+            fold: folds.first().map(|fold| on_curve(&fold.point)),
             at: state.as_ref().map(|state| [state.displacement, state.force]),
             scales: state.iter().flat_map(scales).collect(),
             contacts: state.iter().flat_map(|state| contacts(case, state)).collect(),
@@ -134,18 +136,18 @@ impl BentStrip {
         solve: impl Fn(f64) -> Option<StripSnapshot>,
     ) -> Self {
         let rotation = |point: &FlexurePoint| point.end_rotation_deg.abs();
-        let way = path.path.iter().map(rotation).fold(0.0, f64::max);
+        let largest = path.path.iter().map(rotation).fold(0.0, f64::max);
         // Bending to the other side has negative rotations.
         let side = path.path.last().map_or(1.0, |point| point.end_rotation_deg.signum());
-        let state = if drawn > 0.0 && way > 0.0 { solve(side * drawn * way) } else { None };
-        let place = |point: &FlexurePoint| [point.curvature, point.moment];
-        let shares = path
+        let state = if drawn > 0.0 && largest > 0.0 { solve(side * drawn * largest) } else { None };
+        let on_curve = |point: &FlexurePoint| [point.curvature, point.moment];
+        let points = path
             .path
             .iter()
-            .map(|point| [point.curvature, point.moment, share(rotation(point), way)]);
+            .map(|point| [point.curvature, point.moment, fraction(rotation(point), largest)]);
         let strip = Self {
-            path: shares.collect(),
-            events: path.events.iter().map(|event| place(&event.point)).collect(),
+            path: points.collect(),
+            events: path.events.iter().map(|event| on_curve(&event.point)).collect(),
             at: state.as_ref().map(|state| [state.curvature, state.moment]),
             scales: Vec::new(),
             membrane: Vec::new(),
@@ -164,7 +166,7 @@ impl BentStrip {
         let shown = middle.saturating_sub(BESIDE)..(middle + BESIDE + 1).min(scales.len());
         let node = |k: usize| [k as f64 * pitch + scales[k][0], scales[k][1]];
         let ([x, y], turn) = (node(middle), scales[middle][2]);
-        let seen = |[px, py]: [f64; 2]| {
+        let relative = |[px, py]: [f64; 2]| {
             let (dx, dy) = (px - x, py - y);
             [turn.cos() * dx + turn.sin() * dy, turn.cos() * dy - turn.sin() * dx].map(rounded)
         };
@@ -173,17 +175,17 @@ impl BentStrip {
         Self {
             scales: shown
                 .map(|k| {
-                    let [x, y] = seen(node(k));
+                    let [x, y] = relative(node(k));
                     [x, y, rounded((scales[k][2] - turn).to_degrees())]
                 })
                 .collect(),
-            membrane: membrane.map(|axis| axis.iter().copied().map(seen).collect()).collect(),
+            membrane: membrane.map(|axis| axis.iter().copied().map(relative).collect()).collect(),
             contacts: state
                 .contacts
                 .iter()
                 .filter(|contact| gaps.contains(&contact.left))
                 .map(|contact| {
-                    let [x, y] = seen(contact.point);
+                    let [x, y] = relative(contact.point);
                     (x, y, contact.slips)
                 })
                 .collect(),
@@ -192,11 +194,11 @@ impl BentStrip {
     }
 }
 
-fn share(value: f64, whole: f64) -> f64 {
+fn fraction(value: f64, whole: f64) -> f64 {
     if whole > 0.0 { value / whole } else { 0.0 }
 }
 
-/// Rounds a number for drawings, because all digits of a strip take megabytes.
+/// Rounds a number for drawings: all digits of the coordinates of a strip would take megabytes.
 fn rounded(number: f64) -> f64 {
     (number * 1e5).round() / 1e5
 }

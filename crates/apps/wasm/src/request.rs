@@ -17,7 +17,7 @@ pub struct Request {
     pub id: u64,
     /// The definition of a sweep, in TOML.
     pub definition: String,
-    /// Parameters that differ from the first design of the sweep, by key.
+    /// Values that replace the parameters of the first design of the sweep, by key.
     #[serde(default)]
     pub set: BTreeMap<String, Setting>,
     /// Requirements, as in `coverage >= 0.6`.
@@ -43,7 +43,7 @@ pub struct Request {
 pub enum Setting {
     /// A number.
     Number(f64),
-    /// A word.
+    /// A text, such as the name of a needle.
     Word(String),
 }
 

@@ -17,7 +17,7 @@ use crate::request::Request;
 /// Largest step along the curves of a complete answer, as a fraction of the path.
 const CURVE_STEP: f64 = 0.02;
 
-/// Answers requests, and keeps the definition and springs between them.
+/// Answers requests, and keeps the definition and the springs between requests.
 #[derive(Debug, Default)]
 pub struct Solver {
     /// The definition of the last request.
@@ -49,16 +49,16 @@ impl Solver {
     /// commands.
     pub fn solve(&mut self, request: &Request) -> Result<Answer, String> {
         let sweep = self.sweep(&request.definition)?;
-        // Omit imperfect samples, which take hundreds of times as long.
+        // Omit imperfect samples, which would take hundreds of times as long.
         let base = Case { imperfection: Imperfection::default(), ..sweep.grid().case(0) };
         let case = request.case(&base)?;
-        let own = definition::alone(&sweep, &base, &case)?;
+        let single = definition::alone(&sweep, &base, &case)?;
         let requirements = request.require.iter().map(|text| text.parse());
         let requirements: Vec<Requirement> = requirements
             .collect::<Result<_, ranking::InvalidRequirement>>()
             .map_err(|error| error.to_string())?;
         let evaluator = self.evaluator(request.measures(&case));
-        let number = own.grid().number(0);
+        let number = single.grid().number(0);
         let solved = if request.bare {
             SolvedDesign { row: evaluator.row(number, &case), puncture: None, flexure: None }
         } else {
@@ -77,10 +77,12 @@ impl Solver {
         let flexure =
             solved.flexure.as_ref().map(|path| bent(&smooth, request.fine, path, drawn[1]));
         let row = &solved.row;
-        let values = Value::all(&own, row);
-        let change = request.fine.then(|| gap_change(&own, row)).flatten();
-        let walk =
-            request.follow.as_ref().map(|walk| follow(&own, &case, walk, &requirements, evaluator));
+        let values = Value::all(&single, row);
+        let change = request.fine.then(|| gap_change(&single, row)).flatten();
+        let followed = request
+            .follow
+            .as_ref()
+            .map(|request| follow(&single, &case, request, &requirements, evaluator));
         Ok(Answer {
             id: request.id,
             fine: request.fine,
@@ -93,14 +95,14 @@ impl Solver {
             slopes: row.result.sensitivity.iter().map(Slope::new).collect(),
             closest: definition::closest(&sweep, &case),
             settings: definition::settings(&sweep, &base, &case),
-            toml: definition::definition(&own, &requirements),
-            follow: walk.transpose()?,
+            toml: definition::definition(&single, &requirements),
+            follow: followed.transpose()?,
         })
     }
 
     /// Returns the sweep of a definition, parsed only if the definition has changed.
     fn sweep(&mut self, definition: &str) -> Result<Sweep, String> {
-        // All requests while the user drags have the same definition, so the last one is kept.
+        // Requests while the user drags have the same definition, so the last definition is kept.
         if let Some((text, sweep)) = &self.sweep
             && text == definition
         {
@@ -115,12 +117,12 @@ impl Solver {
     fn evaluator(&mut self, measures: Vec<Measure>) -> &Evaluator {
         // There are at most two evaluators, for fast and for complete answers.
         let known = self.evaluators.iter().position(|(others, _)| *others == measures);
-        let place = known.unwrap_or_else(|| {
+        let index = known.unwrap_or_else(|| {
             let evaluator = Evaluator::new(&measures);
             self.evaluators.push((measures, evaluator));
             self.evaluators.len() - 1
         });
-        &self.evaluators[place].1
+        &self.evaluators[index].1
     }
 }
 

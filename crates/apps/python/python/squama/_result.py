@@ -68,7 +68,7 @@ class Result:
     def answer(self, require=()):
         """Returns requirements, such as ``"coverage >= 0.6"``, with value, limit and margin, and every warning.
 
-        The answer is a dict with ``"requirements"``, a list of dicts, and ``"warnings"``, in the words of ``squama design``.
+        The answer is a dict with ``"requirements"``, a list of dicts, and ``"warnings"``, as ``squama design`` prints them.
         The skin is solved again with gaps 10 % smaller and larger, to warn of measures that are sensitive to the gap.
         """
         require = [require] if isinstance(require, str) else list(require)

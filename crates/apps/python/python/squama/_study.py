@@ -28,7 +28,7 @@ class Run(Table):
 
     def __init__(self, folder):
         self.folder = os.fspath(folder)
-        # `optimise` sets these.
+        # `optimise` replaces these values.
         self.skin, self.failed_checks = None, []
         known = {name: (unit, meaning) for name, unit, meaning in _squama.columns()}
         known.update({key: (unit, meaning) for key, _, unit, meaning, _, _ in _squama.parameters()})

@@ -9,14 +9,14 @@ use solver::{
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrameNode {
     /// Position at rest.
-    pub(super) place: [f64; 2],
-    /// For `u_x`, `u_y` and `φ`, true if it is fixed.
-    pub(super) held: [bool; 3],
+    pub(super) position: [f64; 2],
+    /// True for each of `u_x`, `u_y` and `φ` that is fixed.
+    pub(super) fixed: [bool; 3],
 }
 
 impl FrameNode {
-    pub(super) fn free(place: [f64; 2]) -> Self {
-        Self { place, held: [false; 3] }
+    pub(super) fn free(position: [f64; 2]) -> Self {
+        Self { position, fixed: [false; 3] }
     }
 }
 
@@ -53,7 +53,7 @@ impl PlaneFrame {
         drive: Drive,
     ) -> Option<Self> {
         let beams = nodes.windows(2).map(|pair| {
-            let [from, to] = [pair[0].place, pair[1].place];
+            let [from, to] = [pair[0].position, pair[1].position];
             CorotationalBeam::new((to[0] - from[0]).hypot(to[1] - from[1]), axial, 1.0).ok()
         });
         let beams = beams.collect::<Option<Vec<_>>>()?;
@@ -78,18 +78,18 @@ impl PlaneFrame {
     ///
     /// The rotations of the ends are the direction of the beam at rest plus the unknown rotations.
     fn ends(&self, z: &[f64], beam: usize) -> (Ends, [usize; 6]) {
-        let [from, to] = [self.nodes[beam].place, self.nodes[beam + 1].place];
+        let [from, to] = [self.nodes[beam].position, self.nodes[beam + 1].position];
         let direction = (to[1] - from[1]).atan2(to[0] - from[0]);
         let unknowns = std::array::from_fn(|k| self.unknown(beam + k / 3, k % 3));
         let rest = [from[0], from[1], direction, to[0], to[1], direction];
         (Ends::from_fn(|k, _| rest[k] + z[unknowns[k]]), unknowns)
     }
 
-    fn is_held(&self, end: usize, beam: usize) -> bool {
-        self.nodes[beam + end / 3].held[end % 3]
+    fn is_fixed(&self, end: usize, beam: usize) -> bool {
+        self.nodes[beam + end / 3].fixed[end % 3]
     }
 
-    /// Returns the path to the final value of the control; `None` if it stops before.
+    /// Returns the path to the final value of the control; `None` if the path stops before.
     pub(super) fn path(self, max_step: f64) -> Option<Vec<solver::Equilibrium>> {
         let settings = Settings { first_step: max_step, max_step, ..Settings::default() };
         let rest = State::at_rest(&self);
@@ -98,7 +98,7 @@ impl PlaneFrame {
         (path.termination() == Some(Termination::Reached)).then_some(points)
     }
 
-    /// Returns the load at its first extremum along the path; `None` without one.
+    /// Returns the load at its first extremum along the path; `None` if it has no extremum.
     pub(super) fn limit_load(self, max_step: f64) -> Option<f64> {
         let load = self.load();
         let points = self.path(max_step)?;
@@ -133,12 +133,12 @@ impl System for PlaneFrame {
         for (i, beam) in self.beams.iter().enumerate() {
             let (ends, unknowns) = self.ends(z, i);
             let force = beam.response(&ends).force;
-            for (k, &row) in unknowns.iter().enumerate().filter(|(k, _)| !self.is_held(*k, i)) {
+            for (k, &row) in unknowns.iter().enumerate().filter(|(k, _)| !self.is_fixed(*k, i)) {
                 residual.add(row, force[k]);
             }
         }
-        for (node, FrameNode { held, .. }) in self.nodes.iter().enumerate() {
-            for k in (0..3).filter(|&k| held[k]) {
+        for (node, FrameNode { fixed, .. }) in self.nodes.iter().enumerate() {
+            for k in (0..3).filter(|&k| fixed[k]) {
                 let row = self.unknown(node, k);
                 residual.add(row, self.units[row] * z[row]);
             }
@@ -150,14 +150,14 @@ impl System for PlaneFrame {
         for (i, beam) in self.beams.iter().enumerate() {
             let (ends, unknowns) = self.ends(z, i);
             let tangent = beam.response(&ends).tangent;
-            for (k, &row) in unknowns.iter().enumerate().filter(|(k, _)| !self.is_held(*k, i)) {
+            for (k, &row) in unknowns.iter().enumerate().filter(|(k, _)| !self.is_fixed(*k, i)) {
                 for (l, &column) in unknowns.iter().enumerate() {
                     matrix.add(row, column, tangent[(k, l)]);
                 }
             }
         }
-        for (node, FrameNode { held, .. }) in self.nodes.iter().enumerate() {
-            for k in (0..3).filter(|&k| held[k]) {
+        for (node, FrameNode { fixed, .. }) in self.nodes.iter().enumerate() {
+            for k in (0..3).filter(|&k| fixed[k]) {
                 let row = self.unknown(node, k);
                 matrix.add(row, row, self.units[row]);
             }

@@ -5,10 +5,12 @@ use substrate::{Footprint, Springs, calibrate, extrapolated};
 
 use super::Benchmark;
 
-/// Gap, divided by `a`, at which the coupling of rectangles is below the precision of references.
+/// Gap, divided by the half-width `a`, of rectangles with negligible coupling.
+///
+/// The coupling is below the precision of the reference values.
 const ALONE: f64 = 1e5;
 
-/// Names of the six coefficients.
+/// Names of the six spring coefficients: direct (α) and coupling (β), each for `x`, `y` and `φ`.
 const NAMES: [&str; 6] = ["α_x", "α_y", "α_φ", "β_x", "β_y", "β_φ"];
 
 fn footprint(gap: f64, width: f64) -> anyhow::Result<Footprint> {

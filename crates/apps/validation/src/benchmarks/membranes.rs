@@ -22,7 +22,7 @@ const MESHES: [usize; 3] = [8, 16, 64];
 fn tip(elements: usize, load: f64) -> Option<Tip> {
     let mut nodes: Vec<_> =
         (0..=elements).map(|i| FrameNode::free([i as f64 / elements as f64, 0.0])).collect();
-    nodes[0].held = [true; 3];
+    nodes[0].fixed = [true; 3];
     let end = PlaneFrame::new(nodes, AXIAL, elements, Drive::Load(load))?.path(0.02)?.pop()?;
     let [x, y, turn] = [0, 1, 2].map(|k| end.state.z[3 * elements + k]);
     Some(Tip { deflection: -y, shortening: -x, rotation: -turn })
@@ -49,11 +49,11 @@ fn cantilever(load: f64, reference: &Tip) -> anyhow::Result<[Benchmark; 3]> {
     let order = (coarse / medium).log2();
     // The error is quadratic in the element length, and the finest mesh has 8 times the elements of
     // the coarsest.
-    let left = coarse / 64.0;
+    let remaining = coarse / 64.0;
     let names = ["deflection", "shortening", "rotation"];
     Ok(std::array::from_fn(|k| {
         let name = format!("cantilever, P L²/EI = {load}: {} of the tip", names[k]);
-        let (values, band) = ([reference[k], fine[k]], (left + DIGITS) / reference[k]);
+        let (values, band) = ([reference[k], fine[k]], (remaining + DIGITS) / reference[k]);
         Benchmark { order: Some(order), ..Benchmark::new(name, "Mattiasson 1981", values, band) }
     }))
 }

@@ -14,8 +14,8 @@ pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
 /// Compares the limit load of half a toggle frame with its closed form.
 fn toggle() -> anyhow::Result<Benchmark> {
     let (base, height, axial) = (1.0, 0.2, 1e3);
-    let hinge = FrameNode { place: [0.0, 0.0], held: [true, true, false] };
-    let slide = FrameNode { place: [base, height], held: [true, false, false] };
+    let hinge = FrameNode { position: [0.0, 0.0], fixed: [true, true, false] };
+    let slide = FrameNode { position: [base, height], fixed: [true, false, false] };
     let frame = PlaneFrame::new(vec![hinge, slide], axial, 1, Drive::Depth(2.5 * height));
     let load = frame.and_then(|frame| frame.limit_load(0.05));
     let ours = load.context("the toggle has no limit load")?;
@@ -31,13 +31,13 @@ fn lee(elements: usize, axial: f64) -> Option<f64> {
     let beam = (0..=elements).map(|i| [i as f64 / elements as f64, 1.0]);
     let mut nodes: Vec<_> = column.chain(beam).map(FrameNode::free).collect();
     for end in [0, 2 * elements] {
-        nodes[end].held = [true, true, false];
+        nodes[end].fixed = [true, true, false];
     }
     let loaded = elements + elements / 5;
     PlaneFrame::new(nodes, axial, loaded, Drive::Depth(0.6))?.limit_load(0.01)
 }
 
-/// Compares the limit load of Lee's frame, and determines the order of convergence.
+/// Compares the limit load of Lee's frame with the literature, and returns the convergence order.
 fn lees_frame() -> anyhow::Result<Benchmark> {
     // EA L²/EI = 12 (L/h)² for a thickness h of L/60.
     let axial = 43_200.0;

@@ -21,15 +21,15 @@ pub(super) fn correlation(evidence: &Evidence, stiffness: DesignValue) -> Option
     Some(ranking::rank_correlation(&pairs)?.into())
 }
 
-/// Returns the effect of the slant on a value, relative to the larger effect of gap and length.
+/// Returns the effect of the slant on a value, divided by the larger effect of gap and length.
 ///
 /// Effects are fractions of the variance of the logarithm.
-pub(super) fn shares(
+pub(super) fn slant_effect(
     evidence: &Evidence,
     among: fn(&MeasuredDesign) -> bool,
     value: DesignValue,
 ) -> Option<Measured> {
-    // Values span decades, so without the logarithm the largest would dominate the variance.
+    // Values span decades, so without the logarithm the largest values would dominate the variance.
     let designs: Vec<_> = evidence
         .designs
         .iter()

@@ -7,7 +7,7 @@ use super::statistics::{DesignParameter, DesignValue};
 use super::{digits, named};
 use crate::study::MeasuredDesign;
 
-/// Relative difference below which two values are equal.
+/// Relative difference below which two values count as equal.
 ///
 /// The values of equivalent designs differ by the round-off of their paths.
 const EQUAL: f64 = 1e-6;
@@ -28,7 +28,7 @@ pub(crate) struct Evidence {
     pub(crate) by_gap: Vec<PunctureCurve>,
     /// The rows of Fig. 9 with slants of 0° and 75°, under the same force.
     pub(crate) loaded: Option<[LoadedRow; 2]>,
-    /// Stiffness of two blocks just after first contact, relative to just before.
+    /// Stiffness of two blocks just after first contact, divided by the stiffness just before.
     pub(crate) kink: Option<f64>,
     /// The strips of Figs. 10c and 11b, sorted by slant, with `L/t = 1` and `d/t = 0.1`.
     pub(crate) strips: Vec<BentStrip>,
@@ -114,9 +114,9 @@ pub(crate) struct Balanced {
     pub(crate) best: MeasuredDesign,
     /// The fitness of the best design.
     pub(crate) fitness: f64,
-    /// Percentage of the weightings for which this design is the best.
+    /// Percentage of the weightings for which the design `best` wins.
     pub(crate) share: f64,
-    /// Percentage of the weightings for which the optimum printed in the paper is the best.
+    /// Percentage of the weightings for which the optimum printed in the paper wins.
     pub(crate) share_of_printed: f64,
 }
 
@@ -151,7 +151,7 @@ impl Evidence {
         self.designs.iter().find(|d| (d.gap, d.length, d.slant) == (gap, length, slant))
     }
 
-    /// Returns the designs with the largest value among those that have one.
+    /// Returns the designs with the largest value of all designs that have a value.
     pub(crate) fn best(
         &self,
         among: impl Fn(&MeasuredDesign) -> bool,

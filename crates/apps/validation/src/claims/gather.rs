@@ -1,4 +1,4 @@
-//! Gathers the evidence of a study, and solves the results that its tables lack.
+//! Gathers the evidence of a study, and computes results that its tables do not contain.
 
 use ranking::{Ranking, TetrahedralGrid, Weights};
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ const DEPTHS: usize = 14;
 /// Minimum fraction of the load that a scale must carry to count as loaded.
 const CARRIES: f64 = 0.05;
 
-/// Largest step of paths from which slopes are taken.
+/// Largest step, as a fraction of the path, of paths for the evaluation of slopes.
 const FINE: f64 = 2e-3;
 
 /// Length, divided by `t`, of a strip that bends further than the strips of the paper.

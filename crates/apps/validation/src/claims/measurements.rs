@@ -25,7 +25,9 @@ pub(super) fn measurement(id: &str) -> Option<Measurement> {
     parts.into_iter().find_map(|part| part(id))
 }
 
-/// Measurements of coverage and of the punctures of Figs. 3 and 6.
+/// Returns the measurement for a statement on coverage or on the punctures of Figs. 3 and 6.
+///
+/// `None` for other statements.
 fn of_puncture(id: &str) -> Option<Measurement> {
     Some(match id {
         // If the largest coverage is 0, all coverages are 0.
@@ -57,7 +59,9 @@ fn of_puncture(id: &str) -> Option<Measurement> {
     })
 }
 
-/// Measurements of critical force and puncture stiffness, and of the rows of Fig. 9.
+/// Returns the measurement for a statement on critical force, puncture stiffness or Fig. 9.
+///
+/// `None` for other statements.
 fn of_critical_force(id: &str) -> Option<Measurement> {
     Some(match id {
         "C11" => Number(|e| {
@@ -71,14 +75,14 @@ fn of_critical_force(id: &str) -> Option<Measurement> {
         "C14b" => Number(|e| critical_force::correlation(e, INITIAL_STIFFNESS)),
         "C15a" => Best(|e| e.best(MeasuredDesign::is_in_figures, LARGEST_STIFFNESS)),
         "C15b" => Best(|e| e.best(MeasuredDesign::is_in_figures, INITIAL_STIFFNESS)),
-        "C16a" => Number(|e| critical_force::shares(e, MeasuredDesign::is_in_figures, FORCE)),
-        "C16b" => {
-            Number(|e| critical_force::shares(e, MeasuredDesign::is_in_figures, LARGEST_STIFFNESS))
-        }
-        "C16c" => {
-            Number(|e| critical_force::shares(e, MeasuredDesign::is_in_figures, INITIAL_STIFFNESS))
-        }
-        "C16d" => Number(|e| critical_force::shares(e, |_| true, FORCE)),
+        "C16a" => Number(|e| critical_force::slant_effect(e, MeasuredDesign::is_in_figures, FORCE)),
+        "C16b" => Number(|e| {
+            critical_force::slant_effect(e, MeasuredDesign::is_in_figures, LARGEST_STIFFNESS)
+        }),
+        "C16c" => Number(|e| {
+            critical_force::slant_effect(e, MeasuredDesign::is_in_figures, INITIAL_STIFFNESS)
+        }),
+        "C16d" => Number(|e| critical_force::slant_effect(e, |_| true, FORCE)),
         "C17" => Number(|e| loaded(e, 0, |row| row.carrying)),
         "C18a" => Number(|e| loaded(e, 1, |row| row.carrying)),
         "C18b" => Number(|e| loaded(e, 1, |row| row.touching)),
@@ -86,7 +90,7 @@ fn of_critical_force(id: &str) -> Option<Measurement> {
     })
 }
 
-/// Measurements of bending.
+/// Returns the measurement for a statement on bending; `None` for other statements.
 fn of_flexure(id: &str) -> Option<Measurement> {
     Some(match id {
         "C19a" => Number(flexure::axial_before_contact),
@@ -107,7 +111,9 @@ fn of_flexure(id: &str) -> Option<Measurement> {
     })
 }
 
-/// Measurements of the best designs, and of the kink of two blocks.
+/// Returns the measurement for a statement on the best designs or on the kink of two blocks.
+///
+/// `None` for other statements.
 fn of_best_designs(id: &str) -> Option<Measurement> {
     Some(match id {
         "C25" => Best(|e| e.best(MeasuredDesign::is_covered, |d| d.penetration.map(f64::recip))),
@@ -120,7 +126,7 @@ fn of_best_designs(id: &str) -> Option<Measurement> {
     })
 }
 
-/// Returns the coverage at the smallest gap and largest length, relative to the maximum.
+/// Returns the coverage at the smallest gap and largest length, divided by the maximum.
 fn smallest_gap_largest_length(evidence: &Evidence) -> Option<Measured> {
     let there = evidence.design(0.1, 1.0, 45.0)?;
     let best = evidence.best(|_| true, |d| d.coverage)?;
@@ -129,7 +135,7 @@ fn smallest_gap_largest_length(evidence: &Evidence) -> Option<Measured> {
     Some(if equal { 1.0 } else { there.coverage? / best.value }.into())
 }
 
-/// Returns a number of scales in row `which` of Fig. 9: 0 is upright, 1 has a slant of 75°.
+/// Applies `count` to row `which` of Fig. 9: row 0 is upright, row 1 has a slant of 75°.
 fn loaded(evidence: &Evidence, which: usize, count: fn(&LoadedRow) -> usize) -> Option<Measured> {
     let row = evidence.loaded.as_ref()?.get(which)?;
     let count = count(row);

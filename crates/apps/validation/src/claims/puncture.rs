@@ -13,7 +13,7 @@ pub(super) fn first_contact(evidence: &Evidence, slant: f64) -> Option<f64> {
     evidence.design(0.1, 1.0, slant)?.first_contact
 }
 
-/// Returns `u*` at first contact with 75°, relative to the smaller value of 0° and 45°.
+/// Returns `u*` at first contact with 75°, divided by the smaller value with 0° and 45°.
 pub(super) fn steep_scales_touch_first(evidence: &Evidence) -> Option<Measured> {
     let [flat, slanted, steep] = [0.0, 45.0, 75.0].map(|slant| first_contact(evidence, slant));
     let (flat, slanted, steep) = (flat?, slanted?, steep?);
@@ -66,13 +66,13 @@ pub(super) fn contact_is_delayed(evidence: &Evidence) -> Option<Measured> {
     Some(Measured { value: steps.percent()?, shown })
 }
 
-/// Returns the slope after contact with 75°, relative to the slope with 0°.
+/// Returns the slope after contact with 75°, divided by the slope with 0°.
 pub(super) fn stiffening_by_slant(evidence: &Evidence) -> Option<Measured> {
     let [steep, upright] = [75.0, 0.0].map(|slant| at_slant(evidence, slant));
     Some((steep?.slope_after_contact()? / upright?.slope_after_contact()?).into())
 }
 
-/// Returns the slope after contact of upright scales, relative to their slope before contact.
+/// Returns the slope after contact of upright scales, divided by their slope before contact.
 pub(super) fn stiffening_by_contact(evidence: &Evidence) -> Option<Measured> {
     let curve = at_slant(evidence, 0.0)?;
     Some((curve.slope_after_contact()? / curve.slope_before_contact()?).into())

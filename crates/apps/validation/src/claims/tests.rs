@@ -157,7 +157,7 @@ fn stiffness_must_rise_with_the_slant_and_significantly() {
 }
 
 #[test]
-fn stiffening_claims_also_require_less_tilt() {
+fn the_claim_on_short_scales_also_requires_less_tilt() {
     let by_length = |tilts: [f64; 3]| Evidence {
         by_length: [0.1, 0.5, 1.0]
             .iter()
@@ -228,7 +228,7 @@ fn grid(value: impl Fn(&mut MeasuredDesign)) -> Evidence {
 }
 
 #[test]
-fn both_definitions_of_stiffness_are_checked() {
+fn stiffness_claims_are_reproduced_in_part_with_one_of_two_definitions() {
     let force = |d: &MeasuredDesign| d.slant + 1.0 - d.gap - d.length;
     let both = grid(|d| {
         d.critical_force = Some(force(d));
@@ -296,7 +296,7 @@ fn slanted_scales_soften_and_unslanted_ones_do_not() {
 }
 
 #[test]
-fn a_loss_of_compliance_by_three_orders_of_magnitude_is_checked() {
+fn a_loss_of_compliance_near_three_orders_of_magnitude_is_reproduced() {
     let loss = |loss: f64| {
         let touching = MeasuredDesign {
             initial_compliance: Some(0.5),
@@ -320,7 +320,7 @@ fn a_loss_of_compliance_by_three_orders_of_magnitude_is_checked() {
 }
 
 #[test]
-fn the_most_compliant_design_with_contact_is_checked() {
+fn only_designs_that_touch_count_as_the_most_compliant() {
     let compliant = |gap, slant, compliance, bends_to_contact| MeasuredDesign {
         compliance: Some(compliance),
         bends_to_contact,

@@ -78,7 +78,7 @@ fn interval(text: &str) -> Option<Interval> {
 /// The second range contains the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Limits {
-    holds: Interval,
+    in_full: Interval,
     in_part: Interval,
 }
 
@@ -87,12 +87,12 @@ impl Limits {
     ///
     /// With a single range, a number is reproduced or not, but never in part.
     pub(crate) fn read(text: &str) -> Option<Self> {
-        let (holds, in_part) = text.split_once("; in part ").unwrap_or((text, text));
-        Some(Self { holds: interval(holds)?, in_part: interval(in_part)? })
+        let (in_full, in_part) = text.split_once("; in part ").unwrap_or((text, text));
+        Some(Self { in_full: interval(in_full)?, in_part: interval(in_part)? })
     }
 
     pub(crate) fn verdict(&self, number: f64) -> Verdict {
-        Verdict::graded(within(self.holds, number), within(self.in_part, number))
+        Verdict::graded(within(self.in_full, number), within(self.in_part, number))
     }
 }
 
@@ -117,10 +117,10 @@ impl DesignRange {
 /// The ranges in which the best designs must lie for reproduction in full and in part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Optimum {
-    /// The designs with the printed numbers.
+    /// Ranges of the designs with the printed numbers.
     printed: DesignRange,
-    /// The designs that agree with the printed words.
-    words: DesignRange,
+    /// Ranges of the designs that agree with the printed words, such as small or large.
+    described: DesignRange,
 }
 
 impl Optimum {
@@ -132,8 +132,9 @@ impl Optimum {
     pub(crate) fn read(text: &str) -> Option<Self> {
         // Best designs may always be equal, so limits without `among equals` are invalid.
         let (printed, in_part) = text.split_once("; in part ")?;
-        let words = in_part.strip_suffix(" or among equals").unwrap_or(printed);
-        Some(Self { printed: DesignRange::read(printed)?, words: DesignRange::read(words)? })
+        let described = in_part.strip_suffix(" or among equals").unwrap_or(printed);
+        let [printed, described] = [printed, described].map(DesignRange::read);
+        Some(Self { printed: printed?, described: described? })
     }
 
     /// Returns the verdict on the best designs; several best designs have equal values.
@@ -143,6 +144,6 @@ impl Optimum {
         let all =
             |region: &DesignRange| !best.is_empty() && best.iter().all(|d| region.contains(d));
         let among = best.iter().any(|design| self.printed.contains(design));
-        Verdict::graded(all(&self.printed), among || all(&self.words))
+        Verdict::graded(all(&self.printed), among || all(&self.described))
     }
 }

@@ -6,25 +6,25 @@ use text::toml_source::quoted;
 
 use super::Closest;
 
-/// Keys of the axes that have an option of `squama design`, with this option.
+/// Keys of axes with their own options of `squama design`, and these options.
 const OPTIONS: [(&str, &str); 3] =
     [("gap_over_t", "--gap"), ("length_over_t", "--length"), ("slant_deg", "--slant")];
 
 /// Returns the options with which `squama design` solves `case` instead of `base`.
 pub(crate) fn settings(sweep: &Sweep, base: &Case, case: &Case) -> Vec<String> {
-    let mut words: Vec<String> = Vec::new();
+    let mut options: Vec<String> = Vec::new();
     let by_option = OPTIONS.map(|(key, _)| sweep.grid().axis_in_any_unit(key).map(Axis::parameter));
     for ((_, option), parameter) in OPTIONS.iter().zip(&by_option) {
-        words.extend(parameter.map(|parameter| format!("{option} {}", parameter.get(case))));
+        options.extend(parameter.map(|parameter| format!("{option} {}", parameter.get(case))));
     }
     let axes = sweep.grid().axes().iter().map(Axis::parameter);
     let axes = axes.filter(|one| !by_option.contains(&Some(one)) && one.is_given(case));
-    words.extend(axes.map(|axis| format!("--set designs.{}={}", axis.key, axis.get(case))));
-    words.extend(others(sweep, base, case).map(|setting| format!("--set {setting}")));
-    words
+    options.extend(axes.map(|axis| format!("--set designs.{}={}", axis.key, axis.get(case))));
+    options.extend(others(sweep, base, case).map(|setting| format!("--set {setting}")));
+    options
 }
 
-/// Returns a sweep of only `case`.
+/// Returns a sweep that contains only the design `case`.
 ///
 /// # Errors
 /// If the definition is rejected, with the message of the commands.
@@ -43,13 +43,13 @@ pub(crate) fn alone(sweep: &Sweep, base: &Case, case: &Case) -> Result<Sweep, St
 ///
 /// The requirements have the form of options of `squama rank`. The name contains a hash of the
 /// definition, so that its results have their own folder.
-pub(crate) fn definition(own: &Sweep, requirements: &[Requirement]) -> String {
-    let toml = own.to_toml();
+pub(crate) fn definition(single: &Sweep, requirements: &[Requirement]) -> String {
+    let toml = single.to_toml();
     // FNV-1a, folded to 16 bits.
     let hash = toml
         .bytes()
         .fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
-    let name = format!("{}-{:04x}", own.name(), (hash >> 16) ^ (hash & 0xffff));
+    let name = format!("{}-{:04x}", single.name(), (hash >> 16) ^ (hash & 0xffff));
     let (_, rest) = toml.split_once('\n').unwrap_or(("", &toml));
     let mut text = String::new();
     if !requirements.is_empty() {
@@ -60,9 +60,9 @@ pub(crate) fn definition(own: &Sweep, requirements: &[Requirement]) -> String {
     text + &format!("name = {}\n{rest}", quoted(&name))
 }
 
-/// Returns the settings that differ from the definition, except axes.
+/// Returns the settings of `case` that differ from `base`, except settings of axes.
 fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = String> {
-    // Omit parameters that follow from others, because a definition with both is rejected.
+    // Omit parameters that follow from other parameters: a definition with both is rejected.
     PARAMETERS
         .iter()
         .filter(|one| {
@@ -91,11 +91,11 @@ pub(crate) fn closest(sweep: &Sweep, case: &Case) -> Option<Closest> {
 }
 
 fn nearest(axis: &Axis, case: &Case) -> Scalar {
-    let own = axis.parameter().get(case);
-    let distance = |value: &Scalar| match (value.number(), own.number()) {
+    let of_case = axis.parameter().get(case);
+    let distance = |value: &Scalar| match (value.number(), of_case.number()) {
         (Some(one), Some(other)) => (one - other).abs(),
-        _ => f64::from(u8::from(*value != own)),
+        _ => f64::from(u8::from(*value != of_case)),
     };
     let values = (0..axis.len()).map(|index| axis.value(index));
-    values.min_by(|one, other| distance(one).total_cmp(&distance(other))).unwrap_or(own)
+    values.min_by(|one, other| distance(one).total_cmp(&distance(other))).unwrap_or(of_case)
 }
