@@ -32,7 +32,7 @@ fn sealed(bytes: &[u8]) -> Vec<u8> {
     let seal = [digest.as_str(), "0", "fuzz"].concat();
     let mut journal = line("", format!("\"journal\":{header}}}").as_bytes());
     let begun = Archive::read_from(Cursor::new(journal.clone()), Path::new("journal.jsonl"));
-    assert!(matches!(begun, Ok(Some(_))), "the header is one that squama writes");
+    assert!(matches!(begun, Ok(Some(_))), "the reader accepts the header of every journal");
     for content in bytes.split(|byte| *byte == b'\n') {
         journal.extend(line(&seal, content));
     }

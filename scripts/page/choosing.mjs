@@ -147,10 +147,10 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.ok(!await sent.locator("#unread").isVisible());
       await sent.close();
       // Invalid parts are ignored.
-      const odd = await open(results, "#require=nonsense&require=coverage+>=+x&weights=1,2&criteria=up:none&design=9999&show.width=3&scale=odd");
-      assert.deepEqual(await odd.evaluate(() => [squama.state.requirements, squama.state.weights, squama.state.scale]), [[], [25, 25, 25, 25], "paper"]);
-      assert.match(await odd.locator("#unread").textContent(), /nonsense; coverage >= x/);
-      await odd.close();
+      const invalid = await open(results, "#require=nonsense&require=coverage+>=+x&weights=1,2&criteria=up:none&design=9999&show.width=3&scale=odd");
+      assert.deepEqual(await invalid.evaluate(() => [squama.state.requirements, squama.state.weights, squama.state.scale]), [[], [25, 25, 25, 25], "paper"]);
+      assert.match(await invalid.locator("#unread").textContent(), /nonsense; coverage >= x/);
+      await invalid.close();
       await page.evaluate(() => { squama.pin(null); squama.require([]); });
       await page.locator("#equal-weights").click();
       await page.locator("#table thead button").first().click();

@@ -73,8 +73,8 @@ export default ({ openFile, open, place, results, run, problems }) => {
         await settled(page);
       }
       const tasks = await page.evaluate(() => globalThis.longTasks);
-      const told = (own) => own.map(([, duration]) => `${Math.round(duration)} ms`).join(" ") || "none";
-      console.log(`        tasks of the page above 50 ms: during opening ${told(tasks.filter(([at]) => at < opened))}, during drags ${told(tasks.filter(([at]) => at >= opened))}`);
+      const listed = (own) => own.map(([, duration]) => `${Math.round(duration)} ms`).join(" ") || "none";
+      console.log(`        tasks of the page above 50 ms: during opening ${listed(tasks.filter(([at]) => at < opened))}, during drags ${listed(tasks.filter(([at]) => at >= opened))}`);
       const times = (await page.evaluate(() => squama.live.times)).sort((a, b) => a - b), at = (share) => times[Math.floor(share * (times.length - 1))];
       console.log(`        ${times.length} answers to three drags: median ${at(0.5).toFixed(0)} ms, 90 % within ${at(0.9).toFixed(0)} ms, slowest ${at(1).toFixed(0)} ms`);
       assert.ok(times.length > 30 && at(0.5) < 1000, `${times.length} answers, ${at(0.5)} ms`);
@@ -213,11 +213,11 @@ export default ({ openFile, open, place, results, run, problems }) => {
       await page.close();
     },
     async "the numbers of sticking and slipping contacts match the drawn contacts"() {
-      const page = await explore(SIZES[0]), told = () => page.locator("#live-needle-stuck").textContent();
-      assert.equal(await told(), "");
+      const page = await explore(SIZES[0]), legend = () => page.locator("#live-needle-stuck").textContent();
+      assert.equal(await legend(), "");
       await after(page, () => page.evaluate(() => squama.live.set({ friction: 0.2, slant_deg: 50 })));
       const slip = await page.locator("#live-needle .contact.slips").count(), all = await page.locator("#live-needle .contact").count();
-      assert.ok(slip > 0 && await told() === `Where scales touch: ● ${all - slip} stick, ○ ${slip} slip`, await told());
+      assert.ok(slip > 0 && await legend() === `Where scales touch: ● ${all - slip} stick, ○ ${slip} slip`, await legend());
       await page.close();
     },
     async "typed values and arrow keys change the design, and invalid input is ignored"() {
@@ -253,8 +253,8 @@ export default ({ openFile, open, place, results, run, problems }) => {
       const arrow = page.locator(".control", { hasText: "Length" }).locator(".arrow");
       await page.evaluate(() => { globalThis.seen = []; squama.live.listen("moved", () => globalThis.seen.push(squama.live.value("length_over_t"))); });
       await after(page, () => arrow.click());
-      const seen = await page.evaluate(() => globalThis.seen), ways = seen.slice(1).map((own, k) => Math.sign(own - seen[k]));
-      assert.ok(seen.length > 10 && ways.every((way) => way === 0 || way === ways.find(Boolean)), `${seen.length} steps`);
+      const seen = await page.evaluate(() => globalThis.seen), signs = seen.slice(1).map((own, k) => Math.sign(own - seen[k]));
+      assert.ok(seen.length > 10 && signs.every((sign) => sign === 0 || sign === signs.find(Boolean)), `${seen.length} steps`);
       assert.ok((await values(page)).failure_force >= before);
       assert.match(await page.locator("#live-said").textContent(), /^Length: /);
       await page.close();

@@ -37,16 +37,16 @@ export default ({ open, page, place, folders }) => ({
     const diamond = marks.find(({ row }) => row === null);
     await own.mouse.move(diamond.x, diamond.y);
     assert.match(await own.locator("#tip").textContent(), /^Front \d+: .*Active constraints: /);
-    const isUnderHand = async (k) => {
+    const isInExplorer = async (k) => {
       const values = await own.evaluate(() => Object.fromEntries(squama.live.controls().map(({ key, value }) => [key, value])));
       for (const name of ["gap_over_t", "length_over_t", "slant_deg"]) assert.ok(Math.abs(values[name] - Number(front[k][name])) <= 1e-5 * values[name], `${name} of front ${k + 1}`);
     };
     await own.mouse.click(diamond.x, diamond.y);
     assert.equal(await own.locator("#detail-title").textContent(), chosen);
-    await isUnderHand(Number(await own.evaluate(() => squama.charts.find(({ id }) => id === "front").marks.find(({ row }) => row === null).front)));
+    await isInExplorer(Number(await own.evaluate(() => squama.charts.find(({ id }) => id === "front").marks.find(({ row }) => row === null).front)));
     await own.evaluate(() => squama.live.set({ critical_tilt_deg: 5 }));
     await own.locator('#front-table [data-found="1"]').click();
-    await isUnderHand(1);
+    await isInExplorer(1);
     assert.equal(await own.evaluate(() => squama.live.value("critical_tilt_deg")), 10, "parameters that the search did not vary keep the values of the definition");
     const far = marks.find(({ row, x, y }) => row !== null && marks.every((other) => other.row !== null || Math.hypot(other.x - x, other.y - y) > 20));
     await own.mouse.click(far.x, far.y);

@@ -95,7 +95,7 @@ export default ({ open, run, folders }) => ({
       });
     });
     assert.ok(covered.length > 0);
-    for (const [drawn, told] of covered) assert.ok(Math.abs(drawn - told) < 1e-3, `${drawn} ${told}`);
+    for (const [drawn, coverage] of covered) assert.ok(Math.abs(drawn - coverage) < 1e-3, `${drawn} ${coverage}`);
     await nothing.evaluate(() => squama.require([{ column: "coverage", sign: ">", limit: 2 }]));
     assert.equal(await nothing.locator("#best tbody tr").count(), 0);
     await nothing.waitForTimeout(200);
