@@ -5,7 +5,7 @@
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
 use crate::best::starts;
-use crate::candidate::{Candidate, Target};
+use crate::candidate::{Candidate, Merit, Target};
 use crate::evaluations::Halt;
 use crate::local::{Effort, Search};
 use crate::restarts::met;
@@ -113,6 +113,9 @@ pub(crate) fn improved_from(
         let known = history.iter().chain(&evaluated);
         let is_met = |candidate: &Candidate| met(search, candidate, target).is_some();
         let any_met = known.clone().any(is_met);
+        // Full searches converge, so that their agreement can be judged.
+        let best = search.best(known.clone(), target).filter(|_| effort.rounds == 0);
+        let to_beat = best.map_or(Merit::None, |best| search.merit(best, target));
         // Full searches start only from feasible designs, if there are any. Gradient searches also
         // start from infeasible designs, and may become feasible.
         let known = known.filter(|c| effort.rounds == 0 || !any_met || is_met(c));
@@ -124,7 +127,7 @@ pub(crate) fn improved_from(
             // If some designs are feasible, a search from an infeasible design gets a few steps
             // only.
             let effort = if any_met && !is_met(start) { Effort::PROBE } else { effort };
-            let designs = search.improve(target, start, effort)?;
+            let designs = search.improve(target, start, effort, to_beat)?;
             let best = search.best(designs.iter().chain([start]), target);
             let end = best.and_then(|best| met(search, best, target));
             Ok((designs, end))

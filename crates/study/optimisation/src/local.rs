@@ -88,11 +88,11 @@ pub(crate) struct Search<'a> {
 /// Evaluation budget of a local search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
-    /// Maximum number of evaluations of a gradient search for each variable.
+    /// Maximum number of evaluations of a gradient search in all branches, for each variable.
     ///
     /// Smooth problems need fewer evaluations. A search that has not converged after this number of
     /// evaluations zigzags across a ridge.
-    pub gradient_evaluations: u64,
+    pub gradient_evaluations: usize,
     /// Maximum number of evaluations of a search for a required yield.
     pub yield_evaluations: usize,
     /// Maximum number of coverage branches in a gradient search.
@@ -323,19 +323,21 @@ impl Search<'_> {
 
     /// Runs a local search for `target` from `start`.
     ///
-    /// The choices (discrete variables) keep their values. Returns all evaluated designs except
-    /// `start`.
+    /// The choices (discrete variables) keep their values. A search that converges to a design with
+    /// a merit clearly below `to_beat` ends early. Returns all evaluated designs except `start`.
     pub fn improve(
         &self,
         target: &Target,
         start: &Candidate,
         effort: Effort,
+        to_beat: Merit,
     ) -> Result<Vec<Candidate>, Halt> {
         self.progress.start();
         let units = self.evaluation_units(target);
         let local = LocalSearch {
             search: self,
             target,
+            to_beat,
             solves_all_positions: Cell::new(false),
             best: RefCell::new(start.clone()),
             log: RefCell::default(),
@@ -381,6 +383,8 @@ fn gained(before: Merit, after: Merit, gain: f64) -> bool {
 struct LocalSearch<'a> {
     search: &'a Search<'a>,
     target: &'a Target,
+    /// Merit of a known design. The search ends if it converges to a design that is clearly worse.
+    to_beat: Merit,
     /// True if all load positions are solved, because the corners do not represent them.
     solves_all_positions: Cell<bool>,
     best: RefCell<Candidate>,
@@ -392,33 +396,54 @@ struct LocalSearch<'a> {
 }
 
 impl LocalSearch<'_> {
-    /// Runs the gradient search, then rounds of ridge search, polish and gradient search.
+    /// Runs the gradient search, then rounds of ridge search and derivative-free search.
+    ///
+    /// After each of these searches that improves the design, a gradient search continues.
     fn run(&self, effort: Effort) -> Result<(), Halt> {
         let (mut reach, variables) = (effort.reach, self.best_shares().len());
         // A full search starts at the last design of a gradient search, which may be an optimum.
         if effort.rounds > 0 && self.is_certain()? {
             return Ok(());
         }
-        let mut is_converged = self.search_by_derivatives(effort)?;
+        let is_converged = self.search_by_derivatives(effort)?;
         for _ in 0..effort.rounds {
             if is_converged || self.is_certain()? {
                 break;
             }
-            let before = self.best_merit();
+            let start = self.best_merit();
             // The ridge search precedes the direct search: tangents give the direction along the
             // ridge, and the polls of a direct search rarely have this direction.
             self.search_ridge(reach, effort.ridge * variables)?;
+            if self.continue_to_optimum(start, effort)? {
+                break;
+            }
+            let before = self.best_merit();
             if effort.polish > 0 {
                 self.polish(reach, effort.polish * variables)?;
             }
-            if !gained(before, self.best_merit(), self.search.fineness().gain) {
+            if self.continue_to_optimum(before, effort)? || !self.has_gained(start) {
                 break;
             }
-            is_converged = self.search_by_derivatives(effort)?;
             reach *= 0.3;
         }
-        self.follow_best()?;
+        // A design below the merit to beat is at most the start of another search, which follows it
+        // from rest.
+        if self.best_merit().compare(self.to_beat).is_ge() {
+            self.follow_best()?;
+        }
         Ok(())
+    }
+
+    /// Continues with a gradient search if the design has improved from the merit `before`.
+    ///
+    /// Returns true if the best design is then an optimum.
+    fn continue_to_optimum(&self, before: Merit, effort: Effort) -> Result<bool, Halt> {
+        Ok(self.has_gained(before) && (self.search_by_derivatives(effort)? || self.is_certain()?))
+    }
+
+    /// Returns true if the merit of the best design has clearly improved from `before`.
+    fn has_gained(&self, before: Merit) -> bool {
+        gained(before, self.best_merit(), self.search.fineness().gain)
     }
 
     /// Runs a search by derivatives from the best design.

@@ -199,7 +199,7 @@ impl Restart<'_> {
             }
         }
         drop(task);
-        evaluated.extend(search.improve(target, &centre, Effort::WHOLE)?);
+        evaluated.extend(search.improve(target, &centre, Effort::WHOLE, Merit::None)?);
         Ok(evaluated)
     }
 }

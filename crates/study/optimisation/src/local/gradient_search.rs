@@ -21,20 +21,44 @@ use crate::slopes::Slopes;
 /// Tolerance of SLSQP on constraints and objective, which have values of about 1.
 const ACCURACY: f64 = 1e-11;
 
+/// Limits on a gradient search in several branches.
+#[derive(Clone, Copy)]
+struct Budget {
+    /// Maximum number of coverage branches.
+    pieces: usize,
+    /// Number of evaluations of the whole local search at which the gradient search ends.
+    last: usize,
+}
+
 impl LocalSearch<'_> {
     /// Runs a gradient search from the best design.
     ///
     /// If the search ends infeasible, a second search minimises the largest shortfall (O9). If that
     /// search ends feasible, a third search improves the objective.
     pub(super) fn gradient_search(&self, effort: Effort) -> Result<(), Halt> {
-        self.search_branches(effort, false)?;
+        let first = self.budget(effort);
+        // If a feasible design is known, few infeasible starts are worth more evaluations.
+        let is_feasible_known = matches!(self.to_beat, Merit::Met(_));
+        let next = || if is_feasible_known { first } else { self.budget(effort) };
+        self.search_branches(first, false)?;
         if self.is_short() {
-            self.search_branches(effort, true)?;
+            self.search_branches(next(), true)?;
             if !self.is_short() {
-                self.search_branches(effort, false)?;
+                self.search_branches(next(), false)?;
             }
         }
         Ok(())
+    }
+
+    /// Returns the budget of a gradient search that starts now.
+    fn budget(&self, effort: Effort) -> Budget {
+        let most = effort.gradient_evaluations * self.best_shares().len();
+        Budget { pieces: effort.pieces, last: self.evaluation_count() + most }
+    }
+
+    /// Returns the number of designs that this local search has evaluated so far.
+    fn evaluation_count(&self) -> usize {
+        self.log.borrow().len()
     }
 
     /// Returns true if the best design has a valid judgement but is infeasible.
@@ -46,16 +70,16 @@ impl LocalSearch<'_> {
     ///
     /// Another search follows if the best design is on the border of a branch that has not been
     /// searched. `is_elastic` selects the largest shortfall as the cost (O9).
-    fn search_branches(&self, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
+    fn search_branches(&self, budget: Budget, is_elastic: bool) -> Result<(), Halt> {
         let mut visited: Vec<Option<CoveragePiece>> = Vec::new();
-        while visited.len() < effort.pieces {
+        while visited.len() < budget.pieces {
             // The best design may have reached the border of another branch, so determine its
             // branches again.
             let pieces = self.pieces();
             // Visit each branch only once, so that the search does not alternate between two
             // branches.
             let Some(&piece) = pieces.iter().find(|piece| !visited.contains(piece)) else { break };
-            self.search_branch(piece, effort, is_elastic)?;
+            self.search_branch(piece, budget, is_elastic)?;
             visited.push(piece);
         }
         Ok(())
@@ -81,7 +105,7 @@ impl LocalSearch<'_> {
     fn search_branch(
         &self,
         piece: Option<CoveragePiece>,
-        effort: Effort,
+        budget: Budget,
         is_elastic: bool,
     ) -> Result<(), Halt> {
         let missed = match self.best_merit() {
@@ -100,8 +124,8 @@ impl LocalSearch<'_> {
         let start =
             SelectedFirstOrderState::new(self.best_shares().into_iter().chain(missed).collect());
         let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
-        let most = effort.gradient_evaluations * self.best_shares().len() as u64;
-        match Executor::new(problem, solver, start).max_cost_evals(most).run() {
+        let most = budget.last.saturating_sub(self.evaluation_count());
+        match Executor::new(problem, solver, start).max_cost_evals(most as u64).run() {
             Err(ConstraintSolveError::Evaluation(halt)) if !matches!(halt, Halt::Stalled) => {
                 Err(halt)
             }

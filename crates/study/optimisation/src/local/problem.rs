@@ -19,11 +19,17 @@ use crate::evaluations::Halt;
 use crate::judgement::Judgement;
 use crate::slopes::Slopes;
 
-/// Length below which a step counts as stalled, as a fraction of the ranges of the variables.
-const STILL: f64 = 1e-7;
+/// Length of a step at which a gradient search ends, as a fraction of the ranges of the variables.
+///
+/// Near a smooth optimum the next step would be far shorter. At a kink all further steps would be
+/// as short.
+const SHORTEST_STEP: f64 = 1e-7;
 
-/// Number of successive stalled steps that ends a gradient search.
-const STALLED: usize = 3;
+/// Length of a step below which a search that cannot reach a known design ends.
+const SHORT_STEP: f64 = 1e-4;
+
+/// Ratio of the distance from the known merit to the gain of a step that ends such a search.
+const HOPELESS: f64 = 10.0;
 
 /// Slack (O2) that a search among strips without contact keeps before first contact.
 ///
@@ -73,8 +79,8 @@ pub(super) struct LocalProblem<'a> {
     ///
     /// The last variable relaxes requirements and lower bounds of objectives.
     pub is_elastic: bool,
-    /// Fractions at the last evaluation, and the number of successive stalled steps.
-    still: RefCell<(Vec<f64>, usize)>,
+    /// Fractions and merit at the last evaluation; `None` before the first one.
+    last: RefCell<Option<(Vec<f64>, Merit)>>,
     /// Lower bounds of the variables.
     pub lower: Vec<f64>,
     /// Upper bounds of the variables.
@@ -113,7 +119,7 @@ impl<'a> LocalProblem<'a> {
             stays_open: local.search.judge.depends_on(Measure::Flexure) && is_open(&best.result),
             piece,
             is_elastic: missed.is_some(),
-            still: RefCell::default(),
+            last: RefCell::default(),
             lower: vec![0.0; count + usize::from(missed.is_some())],
             // The shortfall may not exceed its initial value.
             upper: iter::repeat_n(1.0, count).chain(missed).collect(),
@@ -128,8 +134,9 @@ impl<'a> LocalProblem<'a> {
         let (mut candidate, mut row) = self.local.at(self.stage, shares, true)?;
         // Judge feasibility before values are continued beyond a border: a continued value may meet
         // a limit that the design misses.
-        let met = matches!(self.local.search.merit(&candidate, self.local.target), Merit::Met(_));
-        self.end_if_stalled(shares)?;
+        let merit = self.local.search.merit(&candidate, self.local.target);
+        let met = matches!(merit, Merit::Met(_));
+        self.end_if_stalled(shares, merit)?;
         if let Some(piece) = self.piece {
             piece.continue_coverage(&mut row.nominal);
         }
@@ -145,25 +152,38 @@ impl<'a> LocalProblem<'a> {
         Ok(Some(EvaluatedPoint { worth, row, met }))
     }
 
-    /// Returns `Halt::Stalled` after several successive short steps of a gradient search.
+    /// Returns `Halt::Stalled` if another step of a gradient search is useless.
     ///
-    /// At a kink the steps of a gradient search become ever shorter.
-    fn end_if_stalled(&self, shares: &[f64]) -> Result<(), Halt> {
-        let (last, count) = &mut *self.still.borrow_mut();
-        // SLSQP requests cost, gradient and limits at one point in succession. A step is a change
-        // of the point.
-        if last.as_slice() == shares {
+    /// `merit` is the merit of the design at `shares`.
+    fn end_if_stalled(&self, shares: &[f64], merit: Merit) -> Result<(), Halt> {
+        // The ridge search ends when its radius is small enough, so its last steps are short.
+        if self.stage != SearchStage::Gradient {
             return Ok(());
         }
-        // A step counts as long if at least one variable changes.
+        let last = self.last.replace(Some((shares.to_vec(), merit)));
+        let Some((last, before)) = last else { return Ok(()) };
+        // SLSQP requests cost, gradient and limits at one point in succession. A step is a change
+        // of the point.
+        if last == shares {
+            return Ok(());
+        }
         let step = last.iter().zip(shares).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        *count = if !last.is_empty() && step < STILL { *count + 1 } else { 0 };
-        shares.clone_into(last);
-        // Do not stop a ridge search: it ends by its own radius, and its last steps are short.
-        if *count >= STALLED && self.stage == SearchStage::Gradient {
-            Err(Halt::Stalled)
-        } else {
-            Ok(())
+        let is_hopeless = step < SHORT_STEP && self.is_far_behind(before, merit);
+        if step < SHORTEST_STEP || is_hopeless { Err(Halt::Stalled) } else { Ok(()) }
+    }
+
+    /// Returns true if steps such as the last one cannot reach the merit to beat.
+    ///
+    /// The last step has changed the merit from `before` to `after`.
+    fn is_far_behind(&self, before: Merit, after: Merit) -> bool {
+        match (before, after, self.local.to_beat) {
+            (Merit::Met(before), Merit::Met(after), Merit::Met(best)) => {
+                best - after > HOPELESS * (after - before).abs()
+            }
+            (Merit::Short(before), Merit::Short(after), Merit::Met(_)) => {
+                after > HOPELESS * (after - before).abs()
+            }
+            _ => false,
         }
     }
 

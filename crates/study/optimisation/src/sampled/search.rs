@@ -125,7 +125,7 @@ fn refine(
         let start = finer.evaluate(SearchStage::Tolerance, &start.point, false)?.0;
         // Run a full search. If more samples reduce the yield by a tenth, small steps seldom
         // restore it.
-        evaluated.extend(finer.improve(&best.target, &start, Effort::WHOLE)?);
+        evaluated.extend(finer.improve(&best.target, &start, Effort::WHOLE, Merit::None)?);
         // Add the start, which may be the best design: `improve` does not return it.
         evaluated.push(start);
     }
