@@ -361,12 +361,15 @@ impl BandLu {
     ///
     /// The pivot is the entry in column `k`.
     fn pivot(&mut self, k: usize) -> Result<(), SingularMatrix> {
-        let column = self.upper[self.diagonal(k)..].iter().step_by((3 * self.half).max(1));
         let (mut row, mut value, mut largest) = (k, 0.0, 0.0);
-        for (d, &x) in column.take(self.reach[k] - k + 1).enumerate() {
+        let mut entry = self.diagonal(k);
+        for candidate in k..=self.reach[k] {
+            let x = self.upper[entry];
             if x.abs() > largest {
-                (row, value, largest) = (k + d, x, x.abs());
+                (row, value, largest) = (candidate, x, x.abs());
             }
+            // In the next row, the same column is stored one place earlier.
+            entry += 3 * self.half;
         }
         // Reject only a pivot of exactly zero. If the matrix is nearly singular, Newton's method
         // detects this by its steps.

@@ -309,7 +309,8 @@ impl Strip {
         let own = (0..=last).map(|k| (first + k, k, 1.0));
         for (unknown, row, sign) in own.chain(frame) {
             residual.add(unknown, sign * gradient[row]);
-            let entries = hessian.row(row);
+            // The matrix is symmetric, and its columns are contiguous.
+            let entries = hessian.column(row);
             matrix.add_row(unknown, first, entries.iter().map(|entry| sign * entry));
             if let Some((frame, ..)) = frame {
                 matrix.add(unknown, frame, -sign * entries[last]);
