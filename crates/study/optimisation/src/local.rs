@@ -122,7 +122,7 @@ impl Effort {
         reach: 0.0,
         ridge: 0,
         polish: 0,
-        evaluations: 12,
+        evaluations: 8,
     };
     /// Full local search, to convergence.
     pub const WHOLE: Self = Self {
@@ -130,7 +130,7 @@ impl Effort {
         reach: 0.06,
         ridge: 20,
         polish: 8,
-        evaluations: 70,
+        evaluations: 35,
         ..Self::GRADIENT
     };
 
@@ -139,7 +139,7 @@ impl Effort {
     /// This search omits the derivative-free search beyond jumps, because other local searches
     /// start on both sides of a jump.
     pub const NEAR: Self =
-        Self { rounds: 2, reach: 0.01, polish: 0, evaluations: 40, ..Self::WHOLE };
+        Self { rounds: 2, reach: 0.01, polish: 0, evaluations: 25, ..Self::WHOLE };
 
     /// Returns a smaller budget for designs with samples.
     ///
