@@ -35,7 +35,7 @@ pub struct PunctureInput {
     /// All other parameters.
     pub parameters: PunctureParameters,
     /// One scale that deviates from the others, if any.
-    pub odd: Option<PerturbedScale>,
+    pub perturbed: Option<PerturbedScale>,
 }
 
 /// Functions with a tracked maximum along the path, in addition to the stiffness.
@@ -361,10 +361,10 @@ impl Chain {
 impl PunctureInput {
     /// Builds the system of a row with this layout.
     fn chain(&self, layout: RowLayout) -> Result<Chain, OutOfRange> {
-        let Self { design, stiffness, common, parameters, odd } = self;
+        let Self { design, stiffness, common, parameters, perturbed } = self;
         // An upright design with a perturbed slant may lean to the left.
         let row = design.leaning_row()?;
-        let rows = odd.map_or(Rows::Even(row), |scale| Rows::Perturbed(row, scale));
+        let rows = perturbed.map_or(Rows::Even(row), |scale| Rows::Perturbed(row, scale));
         // At the end of a parameter range, a perturbed value lies outside the range.
         let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;
         problem.part(layout)

@@ -7,8 +7,8 @@ use super::row_layout::RowLayout;
 /// Deviations of one scale in a row of equal scales.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PerturbedScale {
-    /// Number of the scale, counted from the punctured scale; positive to the right.
-    pub place: i32,
+    /// Number of scales from the punctured scale to this scale; positive to the right.
+    pub offset: i32,
     /// Change of the gap on the right of the scale, in units of `t`.
     pub gap: f64,
     /// Change of the slant of the scale, degrees.
@@ -23,7 +23,7 @@ impl PerturbedScale {
     pub(super) fn within(self, row: &Row, layout: RowLayout) -> Result<UnevenRow, OutOfRange> {
         let mut scales = vec![*row.scale(); layout.scales()];
         let mut gaps = vec![row.gap(); layout.scales() - 1];
-        let index = usize::try_from(layout.left as i64 + i64::from(self.place));
+        let index = usize::try_from(layout.left as i64 + i64::from(self.offset));
         // A perturbed scale beyond the solved part changes nothing.
         let index = index.unwrap_or(usize::MAX);
         if let Some(scale) = scales.get_mut(index) {

@@ -279,7 +279,13 @@ fn derivatives_with_respect_to_curvature_agree_with_differences() {
             };
             let footprint = design.footprint(parameters.poisson_ratio).unwrap();
             let stiffness = (&substrate::calibrate(&footprint).unwrap()).into();
-            PunctureInput { design, stiffness, common: Common::default(), parameters, odd: None }
+            PunctureInput {
+                design,
+                stiffness,
+                common: Common::default(),
+                parameters,
+                perturbed: None,
+            }
         });
         let neighbours = Neighbours { below, above, step };
         let (_, derivatives) = puncture::differentiate(&input, &[neighbours]).unwrap();
@@ -431,7 +437,7 @@ fn deviation((design, parameters): &(Design, PunctureParameters)) -> Option<(Des
         let curvature = parameters.curvature + by;
         let (stiffness, common) = (stiffness.clone(), Common::default());
         let parameters = PunctureParameters { curvature, ..*parameters };
-        PunctureInput { design: *design, stiffness, common, parameters, odd: None }
+        PunctureInput { design: *design, stiffness, common, parameters, perturbed: None }
     });
     let neighbours = Neighbours { below, above, step };
     let (solved, derivatives) = puncture::differentiate(&here, &[neighbours]).unwrap();

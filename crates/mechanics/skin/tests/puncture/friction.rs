@@ -261,7 +261,7 @@ fn unloading_curves_lie_on_the_unloading_path() {
         assert_eq!(back.stop, Termination::Unloaded);
         let springs = springs(&design, &parameters, &Calibrations::default());
         let stiffness = (&springs).into();
-        let input = PunctureInput { design, stiffness, common, parameters, odd: None };
+        let input = PunctureInput { design, stiffness, common, parameters, perturbed: None };
         let turn = puncture.path.last().unwrap().displacement;
         let points = &back.path[1..back.path.len() - 1];
         let depths: Vec<_> = points.iter().map(|point| point.displacement).collect();

@@ -102,7 +102,7 @@ impl Pair {
         self.designs.map(|design| {
             let footprint = design.footprint(parameters.poisson_ratio).unwrap();
             let stiffness = known.row(&footprint, self.coupling).unwrap().as_ref().clone();
-            PunctureInput { design, stiffness, common, parameters, odd: None }
+            PunctureInput { design, stiffness, common, parameters, perturbed: None }
         })
     }
 

@@ -36,9 +36,9 @@ pub(super) fn puncture(
     let farthest = nominal.measures.scales.min(FARTHEST) as i32;
     let (mut parameters, mut variations) = (Vec::new(), Vec::new());
     for parameter in SCATTERED.into_iter().filter_map(Parameter::named) {
-        for place in -farthest..=farthest {
+        for offset in -farthest..=farthest {
             parameters.push(parameter);
-            variations.extend(one_scale(case, &input, parameter, place));
+            variations.extend(one_scale(case, &input, parameter, offset));
         }
     }
     let (_, derivatives) = puncture::differentiate(&input, &variations)?;
@@ -50,20 +50,20 @@ pub(super) fn puncture(
 
 /// Returns the variation of the gap or slant of a single scale.
 ///
-/// `place` is the number of positions from the punctured scale to the right, negative to the left.
+/// `offset` is the number of scales from the punctured scale to the right, negative to the left.
 fn one_scale(
     case: &Case,
     input: &PunctureInput,
     parameter: &'static Parameter,
-    place: i32,
+    offset: i32,
 ) -> Option<Neighbours<PunctureInput>> {
     let step = STEP * parameter.size(case)?;
     let perturbed = |by: f64| match parameter.key {
-        "gap_over_t" => PerturbedScale { place, gap: by, slant_deg: 0.0 },
-        _ => PerturbedScale { place, gap: 0.0, slant_deg: by },
+        "gap_over_t" => PerturbedScale { offset, gap: by, slant_deg: 0.0 },
+        _ => PerturbedScale { offset, gap: 0.0, slant_deg: by },
     };
     let [below, above] =
-        [-step, step].map(|by| PunctureInput { odd: Some(perturbed(by)), ..input.clone() });
+        [-step, step].map(|by| PunctureInput { perturbed: Some(perturbed(by)), ..input.clone() });
     Some(Neighbours { below, above, step })
 }
 

@@ -337,7 +337,7 @@ pub(super) fn named(
 pub(super) fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
     let Case { design, common, .. } = *case;
     let parameters = case.punctured();
-    PunctureInput { design, stiffness, common, parameters, odd: None }
+    PunctureInput { design, stiffness, common, parameters, perturbed: None }
 }
 
 pub(super) fn bent(case: &Case) -> FlexureInput {

@@ -482,7 +482,7 @@ fn derivatives_are_differences(
         stiffness: (&springs(&design)).into(),
         common,
         parameters: PunctureParameters { depth: Some(0.15), ..parameters },
-        odd: None,
+        perturbed: None,
     };
     let variations: Vec<_> = changes
         .iter()
