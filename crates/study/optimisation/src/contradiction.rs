@@ -90,10 +90,10 @@ impl BestDesign {
     fn elsewhere(&self, requirement: &Requirement) -> Option<(Check, Option<f64>)> {
         let weakest = self.checks.places.iter().find(|of| of.column == requirement.column)?;
         let is_lower_limit = requirement.direction() > 0.0;
-        let check = if weakest.place == self.row.case.punctured().load_position {
+        let check = if weakest.load_position == self.row.case.punctured().load_position {
             Check::Coupling
         } else {
-            Check::Places(weakest.place, weakest.outcome)
+            Check::Places(weakest.load_position, weakest.outcome)
         };
         is_lower_limit.then_some((check, weakest.weakest))
     }

@@ -28,8 +28,9 @@ pub struct WeakestPlace {
     /// Load position of the smallest force, or of the path that ended early.
     ///
     /// 0 is the left corner of the top, 1 the right corner.
-    pub place: f64,
-    /// Status of the path at the load position `place`.
+    #[serde(rename = "place")]
+    pub load_position: f64,
+    /// Status of the path at `load_position`.
     pub outcome: Outcome,
     /// Name of the first failure at the weakest position, if `column` is a failure force.
     pub failure: Option<String>,
@@ -131,7 +132,7 @@ fn weakest(
         column: column.to_owned(),
         requested: nominal,
         weakest: (!is_unknown).then_some(force),
-        place: row.case.punctured().load_position,
+        load_position: row.case.punctured().load_position,
         outcome: row.result.puncture?.outcome,
         failure: mode
             .filter(|_| !is_unknown)

@@ -94,7 +94,7 @@ fn shown_limits(solved: &DesignCurves, puncture: &Puncture) -> Vec<(FailureLimit
 /// Returns the curve of critical force against load position.
 pub(super) fn load_positions(solved: &DesignCurves) -> Option<CurveValues> {
     let all = &solved.puncture?.places;
-    let weakest = Weakest::from_positions(all).ok().and_then(|of| Some([of.place?, of.force?]));
+    let weakest = Weakest::from_positions(all).ok().and_then(|of| Some([of.position?, of.force?]));
     let forces: Vec<_> = all.iter().map(|p| (p.position, p.force)).collect();
     Some(with_missing_forces(&forces, weakest)).filter(|curve| !curve.points.is_empty())
 }

@@ -23,7 +23,7 @@ pub const EVALUATION: &str = "evaluation";
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchedDesign {
     /// Values on the x axis and the y axis.
-    pub place: [f64; 2],
+    pub point: [f64; 2],
     /// True if the design meets every requirement.
     pub met: bool,
 }
@@ -52,14 +52,14 @@ impl SearchFigure<'_> {
     /// Returns the chart as SVG.
     pub fn svg(&self) -> String {
         let [x, y] = [0, 1].map(|k| {
-            let designs = self.designs.iter().map(|design| design.place[k]);
-            let all = designs.chain(self.line.iter().map(|place| place[k]));
+            let designs = self.designs.iter().map(|design| design.point[k]);
+            let all = designs.chain(self.line.iter().map(|point| point[k]));
             ChartAxis::fit(&self.name(k), all)
         });
         let panel = ChartPanel::new(AREA, &x, &y);
         let dots = [false, true].map(|met| {
             let designs = self.designs.iter().filter(|design| design.met == met);
-            let spots = panel.spots(designs.map(|design| design.place));
+            let spots = panel.spots(designs.map(|design| design.point));
             let shade = SHADES[usize::from(met)];
             let dots = spots.into_iter().map(|spot| circle(spot, 1.8).with("fill", shade));
             Element::group(if met { "met" } else { "short" }).containing(dots)

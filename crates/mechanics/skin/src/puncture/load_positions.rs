@@ -56,7 +56,8 @@ pub struct Weakest {
     /// `F*` at the weakest position.
     pub force: Option<f64>,
     /// Load position with the smallest force; of several equal forces, the leftmost position.
-    pub place: Option<f64>,
+    #[serde(rename = "place")]
+    pub position: Option<f64>,
 }
 
 impl Weakest {
@@ -76,7 +77,7 @@ impl Weakest {
             Some(unknown) => Err(unknown.status),
             None => Ok(Self {
                 force: Some(force),
-                place: places.iter().find(|place| is_tied(place, force)).map(|p| p.position),
+                position: places.iter().find(|place| is_tied(place, force)).map(|p| p.position),
             }),
         }
     }

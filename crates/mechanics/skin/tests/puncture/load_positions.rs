@@ -39,7 +39,7 @@ fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
         let mut smallest = f64::INFINITY;
         for (k, place) in puncture.places.iter().enumerate() {
             smallest = smallest.min(place.force.unwrap_or(f64::INFINITY));
-            if k % 3 != 0 && weakest.place != Some(place.position) {
+            if k % 3 != 0 && weakest.position != Some(place.position) {
                 continue;
             }
             let there =
@@ -50,7 +50,7 @@ fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
             assert_eq!(place.critical_event, whole.measures.passage.critical_event);
         }
         assert_eq!(weakest.force, Some(smallest), "{design:?}");
-        assert!(expected.is_none_or(|place| weakest.place == Some(place)), "{weakest:?}");
+        assert!(expected.is_none_or(|place| weakest.position == Some(place)), "{weakest:?}");
         // All other measures refer to the load position of the parameters.
         let own = PunctureParameters { places: None, ..tried };
         let own = solve_as(&known, &design, &common, &own).measures;
@@ -75,7 +75,7 @@ fn positions_on_an_upright_scale_are_mirror_images() {
         }
         assert_eq!((places[2].status, places[2].force), (Status::Untilted, None));
         // Both corners are equally weak; the first position is reported.
-        assert_eq!(measures.weakest.place, Some(0.0));
+        assert_eq!(measures.weakest.position, Some(0.0));
         assert_eq!(measures.weakest.force, places.iter().filter_map(|p| p.force).reduce(f64::min));
     }
 }

@@ -207,7 +207,7 @@ fn load_positions_solved_from_similar_designs_agree_with_paths_from_rest() {
         let [first, second] = inputs.each_ref().map(from_rest);
         let near = puncture::solve_near(&inputs[1], first.end.as_ref()?).unwrap()?;
         let [weakest, expected] = [&near, &second].map(|of| of.measures.weakest);
-        assert_eq!(weakest.place, expected.place, "{pair:?}");
+        assert_eq!(weakest.position, expected.position, "{pair:?}");
         assert!(is_same(weakest.force, expected.force), "{weakest:?} {expected:?} {pair:?}");
         for near in &near.places {
             let whole = second.places.iter().find(|of| of.position == near.position).unwrap();

@@ -299,7 +299,7 @@ fn a_tip_narrower_than_the_gap_passes_without_force() {
 
         let places = solve(&wide, &PunctureParameters { places: Some(11), ..tip });
         let weakest = places.measures.weakest;
-        assert_eq!((weakest.force, weakest.place), (Some(0.0), Some(places.places[5].position)));
+        assert_eq!((weakest.force, weakest.position), (Some(0.0), Some(places.places[5].position)));
         assert!(places.places.iter().all(|place| place.status == Status::Complete));
     }
 }

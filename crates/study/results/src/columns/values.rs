@@ -197,7 +197,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     force(name::WEAKEST_FORCE, Anywhere, |m| &mut m.weakest.force)
         .large().first().needing(PLACES):
         "smallest puncture force, over the evaluated load positions, at which the scale is critically tilted or a guided needle is through";
-    of_puncture(name::WEAKEST_PLACE, FORCE, |p| p.measures.weakest.place.into()).then().needing(PLACES):
+    of_puncture(name::WEAKEST_PLACE, FORCE, |p| p.measures.weakest.position.into()).then().needing(PLACES):
         "load position with the smallest puncture force: 0 the left corner of the top, 1 the right";
     of_puncture("weakest_status", FORCE, |p| p.weakest.map(Outcome::text).into())
         .last().needing(PLACES):

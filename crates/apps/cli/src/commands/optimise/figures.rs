@@ -38,7 +38,7 @@ fn designs(found: &Found, position: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<S
         .enumerate()
         .filter_map(|(index, candidate)| match &candidate.verdict {
             Judgement::Judged(worth) => {
-                Some(SearchedDesign { place: position(index, &worth.objectives), met: worth.met })
+                Some(SearchedDesign { point: position(index, &worth.objectives), met: worth.met })
             }
             _ => None,
         })
@@ -51,8 +51,8 @@ fn history(goal: &DesignGoal, found: &Found) -> Figure {
     let sign = if goal.objectives[0].goal == Goal::Maximize { 1.0 } else { -1.0 };
     let mut line: Vec<[f64; 2]> = Vec::new();
     for design in designs.iter().filter(|design| design.met) {
-        if line.last().is_none_or(|best| sign * design.place[1] > sign * best[1]) {
-            line.push(design.place);
+        if line.last().is_none_or(|best| sign * design.point[1] > sign * best[1]) {
+            line.push(design.point);
         }
     }
     let title = format!("{}: the search", goal.name());

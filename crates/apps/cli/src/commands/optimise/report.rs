@@ -109,7 +109,7 @@ impl SearchReport<'_> {
         // Omit the requested load position. At this position the check differs from the search only
         // by full coupling, which `couplings_report` describes.
         let requested = best.row.case.punctured().load_position;
-        let places = best.checks.places.iter().filter(|of| of.place != requested);
+        let places = best.checks.places.iter().filter(|of| of.load_position != requested);
         text += &places.filter_map(weakest_place).collect::<String>();
         let coupling = best.checks.coupling.clone();
         let named = coupling
@@ -367,7 +367,7 @@ fn weakest_place(place: &WeakestPlace) -> Option<String> {
     let failure = place.failure.as_ref().map(|mode| format!(" ({mode})")).unwrap_or_default();
     Some(format!(
         "\nWeakest load position, with full substrate coupling: {}\n  {} = {}{failure} there, {} at the position of the search\n",
-        described(place.place),
+        described(place.load_position),
         place.column,
         digits(weakest),
         digits(place.requested),

@@ -59,7 +59,7 @@ fn figures(status: &SearchStatus) -> Vec<String> {
     let (mut designs, mut line) = (Vec::new(), Vec::<[f64; 2]>::new());
     for (index, design) in status.evaluations.iter().enumerate() {
         let point = [(index + 1) as f64, design.values[0]];
-        designs.push(Evaluated { place: point, met: design.is_met });
+        designs.push(Evaluated { point, met: design.is_met });
         if design.is_met && line.last().is_none_or(|best| sign * point[1] > sign * best[1]) {
             line.push(point);
         }
