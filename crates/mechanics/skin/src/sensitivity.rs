@@ -68,7 +68,7 @@ pub(crate) struct MeasuredQuantity<S: Skin> {
     /// For an extreme value over all scales: selects the extreme of two values.
     pub(crate) extreme: Option<fn(f64, f64) -> f64>,
     /// True if the value depends on the path direction.
-    pub(crate) turns: bool,
+    pub(crate) depends_on_direction: bool,
 }
 
 /// Function that evaluates a quantity.
@@ -79,7 +79,7 @@ pub(crate) type ValueOf<S> = fn(&S, &SkinState, &[f64], usize) -> f64;
 
 /// Defines a single-valued quantity that does not depend on the path direction.
 pub(crate) fn quantity<S: Skin>(measure: &'static str, value: ValueOf<S>) -> MeasuredQuantity<S> {
-    MeasuredQuantity { measure, value, extreme: None, turns: false }
+    MeasuredQuantity { measure, value, extreme: None, depends_on_direction: false }
 }
 
 /// Quantities measured at one point of a path.
@@ -129,8 +129,8 @@ pub(crate) fn derivatives<S: Skin>(
         let here = point.and_then(|point| Linearisation::new(system, point).ok());
         // A singular tangent does not determine the direction of the path, so no derivative exists.
         let Some(here) = here else { continue };
-        let turns = quantities.iter().any(|quantity| quantity.turns);
-        let mut linearised = Linearised { system, settings, here, turns };
+        let depends_on_direction = quantities.iter().any(|quantity| quantity.depends_on_direction);
+        let mut linearised = Linearised { system, settings, here, depends_on_direction };
         // Compute the motion of the point once for each parameter; all quantities share it.
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
@@ -172,7 +172,7 @@ struct Linearised<'a, S: Skin> {
     system: &'a S,
     settings: &'a Settings,
     here: Linearisation<S::Mode>,
-    turns: bool,
+    depends_on_direction: bool,
 }
 
 /// Motion of a point for a decreasing (`left`) and an increasing (`right`) parameter.
@@ -203,7 +203,7 @@ struct SideMotion<M> {
 impl<S: Skin> Linearised<'_, S> {
     /// Computes the motion of the point on both sides of a parameter value.
     fn sides(&mut self, neighbours: &Neighbours<S>) -> Sides<S::Mode> {
-        let moved = self.here.moved(self.system, neighbours, self.turns);
+        let moved = self.here.moved(self.system, neighbours, self.depends_on_direction);
         let on_left = self.here.violated(&neighbours.below, &moved[0]);
         let on_right = self.here.violated(&neighbours.above, &moved[1]);
         // No contact changes within the step, so both sides have the same motion.
@@ -237,7 +237,7 @@ impl<S: Skin> Linearised<'_, S> {
             name.get_or_insert_with(|| self.name(&here.point().state, after, change));
             let Some(next) = next else { break };
             here = next;
-            moved = here.moved(self.system, neighbours, self.turns);
+            moved = here.moved(self.system, neighbours, self.depends_on_direction);
             violated = here.violated(at_side, &moved[side]);
         }
         // No equilibrium exists after the changes, so there is no derivative on this side.
@@ -333,7 +333,7 @@ impl<S: Skin> MeasuredQuantity<S> {
     ) -> [Option<f64>; 2] {
         // Where a contact changes, the path direction jumps. Values that depend on this direction
         // jump with it and have no derivative.
-        let jumps = self.turns && sides.change().is_some();
+        let jumps = self.depends_on_direction && sides.change().is_some();
         let left = self.rate(neighbours, &sides.left, 0, contenders);
         let right = match &sides.right {
             // Both sides have the same motion and the same scale, hence the same rate.

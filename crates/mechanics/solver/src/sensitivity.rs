@@ -113,13 +113,14 @@ impl<M: Clone> Linearisation<M> {
 
     /// Predicts the points for the smaller and the larger value of a parameter, to first order.
     ///
-    /// The directions of the path are predicted only if `turns` is true, otherwise they are the
-    /// current direction. Results are not finite if the slope of the anchor along the path is zero.
+    /// The directions of the path are predicted only if `predict_direction` is true, otherwise they
+    /// are the current direction. Results are not finite if the slope of the anchor along the path
+    /// is zero.
     pub fn moved<S: System<Mode = M>>(
         &mut self,
         system: &S,
         neighbours: &Neighbours<S>,
-        turns: bool,
+        predict_direction: bool,
     ) -> [MovedPoint<M>; 2] {
         // Rates of the unknowns: first in the section, then along the path so that the condition of
         // the anchor remains satisfied.
@@ -129,23 +130,24 @@ impl<M: Clone> Linearisation<M> {
             *unknown += along * direction;
         }
         let Neighbours { below, above, step } = neighbours;
-        self.turned([below, above], *step, &unknowns, turns)
+        self.turned([below, above], *step, &unknowns, predict_direction)
     }
 
     /// Predicts the points for both systems `sides` from the rates `unknowns` of the unknowns.
     ///
-    /// The directions of the path are predicted only if `turns` is true.
+    /// The directions of the path are predicted only if `predict_direction` is true.
     fn turned<S: System<Mode = M>>(
         &mut self,
         sides: [&S; 2],
         step: f64,
         unknowns: &[f64],
-        turns: bool,
+        predict_direction: bool,
     ) -> [MovedPoint<M>; 2] {
         // Both predictions use the same rates and factors.
         let states = [-step, step].map(|step| self.point.state.moved(step, unknowns));
         let direction = &self.point.direction;
-        let turning = turns.then(|| turning(&mut self.newton, sides, &states, direction, step));
+        let turning =
+            predict_direction.then(|| turning(&mut self.newton, sides, &states, direction, step));
         let [below, above] = [-step, step].map(|step| match &turning {
             Some(turning) => moved(direction, step, turning),
             None => direction.clone(),

@@ -315,5 +315,5 @@ fn compliance(measure: &'static str) -> MeasuredQuantity<Strip> {
     let quantity = quantity(measure, |strip: &Strip, state, direction, _| {
         strip.normalised_stiffness(strip.stiffness(state, direction)).recip()
     });
-    MeasuredQuantity { turns: true, ..quantity }
+    MeasuredQuantity { depends_on_direction: true, ..quantity }
 }

@@ -426,8 +426,12 @@ fn at_turn<const N: usize>(
     point: Option<AnchoredPoint<SkinMode>>,
     quantities: [MeasuredQuantity<Chain>; N],
 ) -> MeasuredPoint<Chain> {
-    let turns = point.as_ref().is_some_and(|p| matches!(p.anchor, PathAnchor::Stationary(_)));
-    MeasuredPoint::new(point, quantities.map(|quantity| MeasuredQuantity { turns, ..quantity }))
+    let depends_on_direction =
+        point.as_ref().is_some_and(|p| matches!(p.anchor, PathAnchor::Stationary(_)));
+    MeasuredPoint::new(
+        point,
+        quantities.map(|quantity| MeasuredQuantity { depends_on_direction, ..quantity }),
+    )
 }
 
 /// Lists the quantities at the critical tilt and at the first fold.
@@ -520,7 +524,7 @@ fn stiffness(measure: &'static str) -> MeasuredQuantity<Chain> {
     let quantity = quantity(measure, |chain: &Chain, state, direction, _| {
         chain.plane_modulus * chain.stiffness(state, direction)
     });
-    MeasuredQuantity { turns: true, ..quantity }
+    MeasuredQuantity { depends_on_direction: true, ..quantity }
 }
 
 /// Creates the measure of the extreme value over all scales, or over all gaps.
