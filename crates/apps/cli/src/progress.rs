@@ -37,7 +37,7 @@ const ADVANCES: usize = 30;
 /// Work that reports its progress to the bar.
 pub trait Watched: Send + Sync + 'static {
     /// Returns the completed fraction, from 0 to 1.
-    fn share(&self) -> f64;
+    fn completed_fraction(&self) -> f64;
 
     /// Describes the progress after the time `elapsed`.
     ///
@@ -116,8 +116,8 @@ impl<W> Drop for Display<W> {
 }
 
 impl Watched for SearchProgress {
-    fn share(&self) -> f64 {
-        self.share()
+    fn completed_fraction(&self) -> f64 {
+        self.completed_fraction()
     }
 
     fn text(&self, remaining: &str, _: Duration) -> String {
@@ -131,12 +131,12 @@ impl Watched for SearchProgress {
 }
 
 impl Watched for WorkMeter {
-    fn share(&self) -> f64 {
-        self.share()
+    fn completed_fraction(&self) -> f64 {
+        self.completed_fraction()
     }
 
     fn text(&self, remaining: &str, _: Duration) -> String {
-        format!("{:.0} %{remaining}", 100.0 * self.share())
+        format!("{:.0} %{remaining}", 100.0 * self.completed_fraction())
     }
 
     fn news(&self) -> Vec<String> {
@@ -192,19 +192,19 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
             // Suspend the bar: text printed over the bar would be garbled.
             bar.suspend(|| eprintln!("{line}"));
         }
-        let (share, elapsed) = (watched.share(), begun.elapsed());
+        let (fraction, elapsed) = (watched.completed_fraction(), begun.elapsed());
         // The fraction decreases when a search needs more work than expected; keep the bar at its
         // farthest position.
-        farthest = farthest.max(share);
+        farthest = farthest.max(fraction);
         bar.set_position((farthest * PARTS as f64) as u64);
-        bar.set_message(watched.text(&remaining.text(share, elapsed), elapsed));
+        bar.set_message(watched.text(&remaining.text(fraction, elapsed), elapsed));
     }
     bar.finish_and_clear();
 }
 
 impl Watched for Counts {
-    fn share(&self) -> f64 {
-        self.work.share()
+    fn completed_fraction(&self) -> f64 {
+        self.work.completed_fraction()
     }
 
     fn text(&self, remaining: &str, elapsed: Duration) -> String {
@@ -228,30 +228,30 @@ impl Watched for Counts {
 #[derive(Debug, Default)]
 struct Remaining {
     /// Completed fraction, from 0 to 1.
-    share: f64,
-    /// Elapsed time at the last increase of `share`.
+    fraction: f64,
+    /// Elapsed time at the last increase of `fraction`.
     at: Duration,
-    /// Number of increases of `share`.
+    /// Number of increases of `fraction`.
     advances: usize,
 }
 
 impl Remaining {
-    /// Updates the completed fraction `share`, and formats the remaining time.
+    /// Updates the completed fraction `fraction`, and formats the remaining time.
     ///
     /// Returns an empty text until there is enough progress for an extrapolation.
-    fn text(&mut self, share: f64, elapsed: Duration) -> String {
-        if share != self.share {
-            (self.share, self.at) = (share, elapsed);
+    fn text(&mut self, fraction: f64, elapsed: Duration) -> String {
+        if fraction != self.fraction {
+            (self.fraction, self.at) = (fraction, elapsed);
             self.advances += 1;
         }
-        if self.share < ENOUGH && self.advances < ADVANCES {
+        if self.fraction < ENOUGH && self.advances < ADVANCES {
             return String::new();
         }
         // Between two increases the remaining time counts down, but not below the time since the
         // last increase, because a slow design may need the same time once more.
         let waited = elapsed.saturating_sub(self.at).as_secs_f64();
-        let expected = self.at.as_secs_f64() * (1.0 - self.share) / self.share;
-        let left = if self.share < 1.0 { (expected - waited).max(waited) } else { 0.0 };
+        let expected = self.at.as_secs_f64() * (1.0 - self.fraction) / self.fraction;
+        let left = if self.fraction < 1.0 { (expected - waited).max(waited) } else { 0.0 };
         // A fraction near zero may give more seconds than a `Duration` can represent.
         let left = Duration::try_from_secs_f64(left.ceil()).ok();
         left.map_or(String::new(), |left| format!("  {} left", time(left)))
@@ -262,9 +262,9 @@ impl Remaining {
 mod tests {
     use super::*;
 
-    fn line(counts: &Counts, share: f64, seconds: u64) -> String {
+    fn line(counts: &Counts, fraction: f64, seconds: u64) -> String {
         let elapsed = Duration::from_secs(seconds);
-        counts.text(&Remaining::default().text(share, elapsed), elapsed)
+        counts.text(&Remaining::default().text(fraction, elapsed), elapsed)
     }
 
     #[test]
@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn remaining_time_needs_progress_and_counts_down_between_advances() {
         let mut remaining = Remaining::default();
-        for (share, seconds, text) in [
+        for (fraction, seconds, text) in [
             // No time is shown yet: an extrapolation of the fraction 0.002 would give 33 minutes
             // after 4 s, and 100 minutes after 12 s.
             (0.002, 4, ""),
@@ -294,7 +294,7 @@ mod tests {
             (0.2, 240, "  3m 20s left"),
             (1.0, 250, "  0.00 s left"),
         ] {
-            assert_eq!(remaining.text(share, Duration::from_secs(seconds)), text);
+            assert_eq!(remaining.text(fraction, Duration::from_secs(seconds)), text);
         }
         let mut remaining = Remaining::default();
         for k in 1..=30_u32 {

@@ -55,12 +55,15 @@ impl Watch {
     fn progress(&self) -> (f64, String) {
         let (part, _, tasks) = self.search.progress();
         if tasks > 0 {
-            return (self.search.share(), part.words().to_owned());
+            return (self.search.completed_fraction(), part.words().to_owned());
         }
         let (done, all) = (self.done.load(Ordering::Relaxed), self.all.load(Ordering::Relaxed));
-        let share =
-            if self.run.share() > 0.0 { self.run.share() } else { done as f64 / all.max(1) as f64 };
-        (share, format!("{done}/{all} designs"))
+        let fraction = if self.run.completed_fraction() > 0.0 {
+            self.run.completed_fraction()
+        } else {
+            done as f64 / all.max(1) as f64
+        };
+        (fraction, format!("{done}/{all} designs"))
     }
 }
 

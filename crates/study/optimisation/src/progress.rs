@@ -99,7 +99,7 @@ impl SearchProgress {
     /// Returns the completed fraction of the expected work, from 0 to 1.
     ///
     /// The fraction decreases if a part starts that was not expected.
-    pub fn share(&self) -> f64 {
+    pub fn completed_fraction(&self) -> f64 {
         let parts = self.parts();
         let current = parts.work.get(parts.at).map_or(0, |part| part.1);
         let done = units(&parts.work[..parts.at.min(parts.work.len())])
@@ -204,7 +204,7 @@ mod tests {
     #[test]
     fn tasks_are_counted_in_the_current_part_and_units_in_all_parts() {
         let progress = SearchProgress::default();
-        assert_eq!(progress.share(), 0.0);
+        assert_eq!(progress.completed_fraction(), 0.0);
         progress.expect(vec![
             (Sample, 12),
             (LocalSearches, 24),
@@ -216,17 +216,23 @@ mod tests {
         drop(progress.task(1));
         progress.evaluate();
         assert_eq!((progress.progress(), progress.designs()), ((Sample, 1, 12), 1));
-        assert_eq!(progress.share(), 1.0 / 120.0);
+        assert_eq!(progress.completed_fraction(), 1.0 / 120.0);
         (0..11).for_each(|_| drop(progress.task(1)));
         progress.begin(LocalSearches, 4, 24);
         let task = progress.task(6);
         task.count(4);
-        assert_eq!((progress.progress(), progress.share()), ((LocalSearches, 0, 4), 16.0 / 120.0));
+        assert_eq!(
+            (progress.progress(), progress.completed_fraction()),
+            ((LocalSearches, 0, 4), 16.0 / 120.0)
+        );
         // Units beyond the expected number are not counted.
         task.count(400);
-        assert_eq!(progress.share(), 18.0 / 120.0);
+        assert_eq!(progress.completed_fraction(), 18.0 / 120.0);
         drop(task);
-        assert_eq!((progress.progress(), progress.share()), ((LocalSearches, 1, 4), 18.0 / 120.0));
+        assert_eq!(
+            (progress.progress(), progress.completed_fraction()),
+            ((LocalSearches, 1, 4), 18.0 / 120.0)
+        );
     }
 
     #[test]
@@ -239,9 +245,9 @@ mod tests {
         drop(progress.task(40));
         progress.begin(Front, 1, 20);
         drop(progress.task(20));
-        assert_eq!(progress.share(), 70.0 / 100.0);
+        assert_eq!(progress.completed_fraction(), 70.0 / 100.0);
         progress.begin(Front, 1, 60);
-        assert_eq!(progress.share(), 70.0 / 130.0);
+        assert_eq!(progress.completed_fraction(), 70.0 / 130.0);
     }
 
     #[test]
@@ -255,15 +261,15 @@ mod tests {
         // The restart is not needed and is dropped. The part of the local searches is reduced to
         // the 20 completed units.
         progress.begin(Check, 1, 20);
-        assert_eq!(progress.share(), 30.0 / 50.0);
+        assert_eq!(progress.completed_fraction(), 30.0 / 50.0);
         progress.begin(Restart, 1, 30);
-        assert_eq!(progress.share(), 30.0 / 60.0);
+        assert_eq!(progress.completed_fraction(), 30.0 / 60.0);
         // An unexpected restart does not replace the expected restart of later local searches.
         let progress = SearchProgress::default();
         progress.expect(vec![(LocalSearches, 20), (LocalSearches, 40), (Restart, 50)]);
         progress.begin(LocalSearches, 1, 20);
         drop(progress.task(20));
         progress.begin(Restart, 1, 30);
-        assert_eq!(progress.share(), 20.0 / 140.0);
+        assert_eq!(progress.completed_fraction(), 20.0 / 140.0);
     }
 }

@@ -83,7 +83,11 @@ impl Place {
         let fitted = definition.expect("a definition").fit(&AtomicBool::new(false), &work);
         // Progress may end below 1, because the noise of several curves may converge faster than
         // predicted.
-        assert!(fitted.is_err() || work.share() > 0.5, "{}", work.share());
+        assert!(
+            fitted.is_err() || work.completed_fraction() > 0.5,
+            "{}",
+            work.completed_fraction()
+        );
         fitted
     }
 

@@ -93,12 +93,12 @@ fn reference_search() -> &'static (Found, Vec<[f64; 2]>) {
             let search = scope.spawn(|| optimise(&goal, folder.path(), &options, &PROGRAM));
             let mut seen = Vec::new();
             while !search.is_finished() {
-                seen.push([progress.designs() as f64, progress.share()]);
+                seen.push([progress.designs() as f64, progress.completed_fraction()]);
                 std::thread::sleep(std::time::Duration::from_millis(2));
             }
             let found = search.join().expect("a search without panic").expect("a search");
             let found = found.expect("no stop request");
-            seen.push([progress.designs() as f64, progress.share()]);
+            seen.push([progress.designs() as f64, progress.completed_fraction()]);
             (found, seen)
         })
     })

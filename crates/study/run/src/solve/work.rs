@@ -67,7 +67,7 @@ impl WorkMeter {
     }
 
     /// Returns the completed fraction of the work, from 0 to 1.
-    pub fn share(&self) -> f64 {
+    pub fn completed_fraction(&self) -> f64 {
         let [done, all] = [&self.done, &self.all].map(|units| units.load(Ordering::Relaxed));
         if all > 0 { (done as f64 / all as f64).min(1.0) } else { 0.0 }
     }
@@ -223,14 +223,14 @@ mod tests {
     fn work_is_counted_within_a_design_and_completed_at_its_end() {
         let uneven = case("slant_deg = 0\ngap_cv = 0.1\n[imperfection]\nsamples = 4");
         let meter = WorkMeter::default();
-        assert_eq!(meter.share(), 0.0);
+        assert_eq!(meter.completed_fraction(), 0.0);
         meter.begin(2 * work_of(&uneven, &[Measure::Puncture]));
         let work = DesignWork::new(&meter, &uneven, &[Measure::Puncture]);
         work.row_done();
-        assert_eq!(meter.share(), 1.0 / 12.0);
+        assert_eq!(meter.completed_fraction(), 1.0 / 12.0);
         work.row_done();
-        assert_eq!(meter.share(), 2.0 / 12.0);
+        assert_eq!(meter.completed_fraction(), 2.0 / 12.0);
         drop(work);
-        assert_eq!(meter.share(), 0.5);
+        assert_eq!(meter.completed_fraction(), 0.5);
     }
 }
