@@ -57,9 +57,9 @@ pub struct Estimate {
     /// `None` for an end at which the interval extends to the bound of the range.
     pub interval: [Option<f64>; 2],
     /// True if the value is at a bound of its range.
-    pub at_end: bool,
+    pub is_at_bound: bool,
     /// Indices of other unknowns that reach their bounds at an end of the interval.
-    pub rests_on: Vec<usize>,
+    pub depends_on_range_of: Vec<usize>,
 }
 
 impl Estimate {
@@ -143,7 +143,7 @@ pub struct FittedCurve {
     /// True if the model carries load at no point, or no measured value is positive.
     ///
     /// The signs of the file are then probably wrong.
-    pub is_turned: bool,
+    pub has_suspect_signs: bool,
     /// Standard deviation of the residuals.
     pub noise: f64,
     /// Correlation of neighbouring residuals, if it is significant.
@@ -346,8 +346,8 @@ impl Residuals<'_> {
             .map(|((unknown, &scaled), interval)| Estimate {
                 value: unknown.value(scaled),
                 interval: interval.ends.map(|end| end.map(|end| unknown.value(end))),
-                at_end: is_at_bound(scaled),
-                rests_on: interval.rests_on,
+                is_at_bound: is_at_bound(scaled),
+                depends_on_range_of: interval.depends_on_range_of,
                 unknown: unknown.clone(),
             })
             .collect();
@@ -400,7 +400,8 @@ impl Residuals<'_> {
                     left_out: measured.left_out.clone(),
                     reversed: measured.reversed,
                     events: self.events((number, curve), model, scaled),
-                    is_turned: model.before == points.len() || points.iter().all(|p| p[1] <= 0.0),
+                    has_suspect_signs: model.before == points.len()
+                        || points.iter().all(|p| p[1] <= 0.0),
                     points,
                     noise: noise.deviation,
                     trend: noise.trend,
@@ -475,7 +476,7 @@ fn undetermined(estimates: &[Estimate], correlations: &[Vec<f64>]) -> Vec<Vec<us
         let group: Vec<_> = (0..estimates.len())
             .filter(|i| {
                 let other = &estimates[*i];
-                let is_open = other.is_undetermined() || other.rests_on.contains(&j);
+                let is_open = other.is_undetermined() || other.depends_on_range_of.contains(&j);
                 *i == j || (is_open && correlations[*i][j].abs() > TOGETHER)
             })
             .collect();

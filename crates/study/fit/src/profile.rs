@@ -51,7 +51,7 @@ pub(crate) struct Interval {
     /// Lower and upper end; `None` if the interval extends to the bound of the range.
     pub(crate) ends: [Option<f64>; 2],
     /// Indices of other unknowns that reach a bound of their range at an end of the interval.
-    pub(crate) rests_on: Vec<usize>,
+    pub(crate) depends_on_range_of: Vec<usize>,
 }
 
 /// Reason why a profile was not completed.
@@ -109,18 +109,21 @@ impl Profiles<'_, '_> {
 
     /// Returns the interval of unknown `j` between `ends`.
     fn interval(&self, j: usize, ends: &[Option<ProfilePoint>; 2]) -> Interval {
-        let mut rests_on = Vec::new();
+        let mut depends_on_range_of = Vec::new();
         for end in ends.iter().flatten() {
             let others = (0..end.scaled.len()).filter(|i| *i != j);
-            rests_on.extend(
+            depends_on_range_of.extend(
                 others.filter(|&i| {
                     is_at_bound(end.scaled[i]) && !is_at_bound(self.minimum.scaled[i])
                 }),
             );
         }
-        rests_on.sort_unstable();
-        rests_on.dedup();
-        Interval { ends: ends.each_ref().map(|end| end.as_ref().map(|end| end.at)), rests_on }
+        depends_on_range_of.sort_unstable();
+        depends_on_range_of.dedup();
+        Interval {
+            ends: ends.each_ref().map(|end| end.as_ref().map(|end| end.at)),
+            depends_on_range_of,
+        }
     }
 
     /// Returns the minimum as a point of the profile of unknown `j`.

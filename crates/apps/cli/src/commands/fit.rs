@@ -207,14 +207,14 @@ fn text(fitted: &Fitted) -> String {
 
 /// Returns the name, value, unit and interval of an estimate.
 fn estimate_row(estimate: &Estimate) -> [String; 4] {
-    let Estimate { unknown, value, interval, at_end, .. } = estimate;
+    let Estimate { unknown, value, interval, is_at_bound, .. } = estimate;
     let interval = match interval.map(|end| end.map(digits)) {
         [Some(low), Some(high)] => format!("{low} to {high}"),
         [Some(low), None] => format!("at least {low}"),
         [None, Some(high)] => format!("at most {high}"),
         [None, None] => "undetermined".to_owned(),
     };
-    let end = if *at_end {
+    let end = if *is_at_bound {
         format!("  (!) at a bound of its range: widen {}", unknown.key())
     } else {
         String::new()
@@ -243,12 +243,14 @@ fn undetermined_text(fitted: &Fitted) -> String {
     for scatter in &fitted.scatter {
         let _ = writeln!(text, "  {}", scatter_text(scatter));
     }
-    for estimate in fitted.estimates.iter().filter(|estimate| !estimate.rests_on.is_empty()) {
+    for estimate in
+        fitted.estimates.iter().filter(|estimate| !estimate.depends_on_range_of.is_empty())
+    {
         let _ = writeln!(
             text,
             "  The interval of {} depends on the range of {}",
             estimate.unknown.name,
-            names(fitted, &estimate.rests_on).join(" and ")
+            names(fitted, &estimate.depends_on_range_of).join(" and ")
         );
     }
     for (i, row) in fitted.correlations.iter().enumerate() {
@@ -326,7 +328,7 @@ fn remarks(curve: &FittedCurve, estimates: &[Estimate]) -> String {
     let FittedCurve { file, beyond, events, .. } = curve;
     let [x, y] = curve.axes.each_ref().map(|axis| axis.split_once(',').map_or(&**axis, |a| a.0));
     let warnings = [
-        curve.is_turned.then(|| {
+        curve.has_suspect_signs.then(|| {
             format!("no point has both {x} and {y} above 0: check the signs of the test data")
         }),
         (*beyond > 0).then(|| {
@@ -437,7 +439,7 @@ fn record(fitted: &Fitted) -> Value {
         "name": fitted.sweep.name(),
         "estimates": fitted.estimates.iter().map(|e| json!({
             "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval,
-            "at_end": e.at_end, "depends_on_range_of": names(fitted, &e.rests_on),
+            "at_end": e.is_at_bound, "depends_on_range_of": names(fitted, &e.depends_on_range_of),
         })).collect::<Vec<_>>(),
         "scatter": fitted.scatter.iter().map(|s| scatter_record(s, fitted)).collect::<Vec<_>>(),
         "correlations": fitted.correlations,

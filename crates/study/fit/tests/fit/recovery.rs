@@ -435,7 +435,7 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
     assert_eq!(fitted.undetermined, [vec![0, 1]]);
     // The interval of the thickness ends where the modulus reaches its bounds.
     assert_eq!(fitted.estimates[0].interval, [None; 2]);
-    assert_eq!(fitted.estimates[1].rests_on, [0]);
+    assert_eq!(fitted.estimates[1].depends_on_range_of, [0]);
     let [thinnest, thickest] = fitted.estimates[1].interval.map(|end| end.expect("an end"));
     assert!((thinnest * 2.5_f64.cbrt() / 0.1 - 1.0).abs() < 0.03, "{thinnest}");
     assert!((thickest / 4.0_f64.cbrt() / 0.1 - 1.0).abs() < 0.03, "{thickest}");
