@@ -42,7 +42,7 @@ impl Benchmark {
     }
 
     /// Returns true if the difference lies within the band.
-    pub fn holds(&self) -> bool {
+    pub fn is_within_band(&self) -> bool {
         self.difference().abs() <= self.band
     }
 }

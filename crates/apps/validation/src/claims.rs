@@ -60,7 +60,7 @@ pub struct CheckedClaim {
 #[derive(Clone, Debug)]
 pub struct CheckedStatement {
     /// Text of the statement; empty if the statement is the claim itself.
-    pub says: String,
+    pub text: String,
     /// The measured quantity.
     pub measured: String,
     /// The limits for reproduction in full and in part.
@@ -127,8 +127,8 @@ fn judge_claim(
         .into_iter()
         .map(|statement| {
             let found = [statement.find(paper)?, statement.find(as_written)?];
-            let Statement { says, measured, limits, .. } = statement;
-            Ok(CheckedStatement { says, measured, limits, found })
+            let Statement { text, measured, limits, .. } = statement;
+            Ok(CheckedStatement { text, measured, limits, found })
         })
         .collect::<anyhow::Result<Vec<_>>>()?;
     let verdicts = [0, 1].map(|base| {

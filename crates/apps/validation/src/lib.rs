@@ -2,7 +2,7 @@
 //!
 //! The validation includes the sensitivity of the claims to choices that the paper leaves open.
 //!
-//! A benchmark holds if the relative difference from its reference lies within its band:
+//! A benchmark is reproduced if the relative difference from its reference lies within its band:
 //!
 //! ```text
 //! |ours/reference − 1| ≤ band
@@ -25,7 +25,7 @@
 //!
 //! ```no_run
 //! for benchmark in validation::benchmarks()? {
-//!     assert!(benchmark.holds(), "{}: {}", benchmark.name, benchmark.ours);
+//!     assert!(benchmark.is_within_band(), "{}: {}", benchmark.name, benchmark.ours);
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -172,7 +172,7 @@ impl Validation {
     }
 
     /// Returns true if every benchmark lies within its band.
-    pub fn holds(&self) -> bool {
-        self.benchmarks.iter().all(Benchmark::holds)
+    pub fn all_within_band(&self) -> bool {
+        self.benchmarks.iter().all(Benchmark::is_within_band)
     }
 }

@@ -115,7 +115,7 @@ impl CheckedClaim {
             format!("| {id} | {place} | {claim} | | | {paper} | {as_written} | {reason} |\n");
         for (letter, statement) in ('a'..='z').zip(&self.statements) {
             let _ =
-                writeln!(rows, "| {id}{letter} | | {} | {} | |", statement.says, statement.cells());
+                writeln!(rows, "| {id}{letter} | | {} | {} | |", statement.text, statement.cells());
         }
         rows
     }
@@ -132,14 +132,14 @@ impl CheckedClaim {
     ) -> Vec<String> {
         let mut rows = Vec::new();
         for (k, ours) in self.statements.iter().enumerate() {
-            let says = if ours.says.is_empty() { &self.claim.claim } else { &ours.says };
+            let text = if ours.text.is_empty() { &self.claim.claim } else { &ours.text };
             let all = std::iter::once(ours).chain(others.iter().map(|of| &of.statements[k]));
             let found: Vec<Vec<_>> =
                 (0..bases).map(|base| all.clone().map(|of| &of.found[base]).collect()).collect();
             let cells: Vec<_> =
                 found.iter().flatten().map(|of| format!("{}: {}", of.verdict, of.ours)).collect();
             if found.iter().any(|found| shown(found)) {
-                rows.push(format!("| {}: {says} | {} |", self.claim.id, cells.join(" | ")));
+                rows.push(format!("| {}: {text} | {} |", self.claim.id, cells.join(" | ")));
             }
         }
         rows

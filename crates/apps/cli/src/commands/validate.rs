@@ -60,7 +60,7 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
     let page = validation.page();
     write_file(out, page.as_bytes())?;
     print(&page)?;
-    let outside: Vec<_> = validation.benchmarks.iter().filter(|b| !b.holds()).collect();
+    let outside: Vec<_> = validation.benchmarks.iter().filter(|b| !b.is_within_band()).collect();
     for benchmark in &outside {
         print(&format!("outside its band: {}\n", benchmark.row()))?;
     }

@@ -13,7 +13,8 @@ pub(crate) struct Statement {
     /// The number of the claim, with a letter if it has several statements.
     pub(crate) id: String,
     /// Text of the statement; empty if the statement is the claim itself.
-    pub(crate) says: String,
+    #[serde(rename = "says")]
+    pub(crate) text: String,
     /// The measured quantity.
     pub(crate) measured: String,
     /// The limits for reproduction in full and in part.
