@@ -30,7 +30,7 @@ pub struct PageFront {
     /// The requirements of the search.
     pub requirements: Vec<Requirement>,
     /// The columns of sample statistics that the search used.
-    pub made: Vec<String>,
+    pub statistics: Vec<String>,
     /// True if the search excluded designs with a fold of the surface.
     pub sound: bool,
     /// The columns of the varied parameters.
@@ -122,7 +122,7 @@ impl PageFront {
                 "limit": requirement.limit,
             })).collect::<Vec<_>>(),
             "sound": self.sound,
-            "made": self.made,
+            "made": self.statistics,
             "variables": self.variables,
             "differences": self.differences,
             "axes": self.axes(),
