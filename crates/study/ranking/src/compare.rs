@@ -91,7 +91,7 @@ pub struct ColumnDifference {
 
 impl ColumnDifference {
     /// Returns true if the values of both runs agree in this column.
-    pub fn is_none(&self) -> bool {
+    pub fn has_no_differences(&self) -> bool {
         self.differing + self.only_first + self.only_second == 0
     }
 }
@@ -237,9 +237,9 @@ impl Comparison<'_> {
     }
 
     /// Returns true if both runs have the same designs with the same values.
-    pub fn is_none(&self) -> bool {
+    pub fn has_no_differences(&self) -> bool {
         self.matching.alone.iter().all(Vec::is_empty)
-            && self.columns.iter().all(ColumnDifference::is_none)
+            && self.columns.iter().all(ColumnDifference::has_no_differences)
     }
 
     fn cell(&self, rows: [usize; 2], columns: [usize; 2]) -> Difference<'_> {

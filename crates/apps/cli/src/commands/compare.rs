@@ -66,7 +66,7 @@ pub fn compare(arguments: &Arguments) -> anyhow::Result<u8> {
         let _ = writeln!(text, "{}: {}", folder.display(), files.join(" "));
     }
     print(&text)?;
-    Ok(if arguments.exit_code && !comparison.is_none() { DIFFERENT } else { DONE })
+    Ok(if arguments.exit_code && !comparison.has_no_differences() { DIFFERENT } else { DONE })
 }
 
 /// Parses the value of `--tolerance`.
@@ -115,7 +115,7 @@ fn unmatched(designs: &[&str], folder: &str) -> String {
 
 fn columns(comparison: &Comparison<'_>) -> String {
     let (same, differing): (Vec<_>, Vec<_>) =
-        comparison.columns.iter().partition(|column| column.is_none());
+        comparison.columns.iter().partition(|column| column.has_no_differences());
     let mut text = String::new();
     if !differing.is_empty() {
         let mut rows = vec![HEADER.map(str::to_owned)];

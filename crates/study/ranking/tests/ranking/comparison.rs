@@ -39,7 +39,7 @@ fn designs_are_matched_by_their_parameters() {
     let comparison = compare(&first, &second, 0.0).expect("comparable");
     assert_eq!(comparison.matched(), 4);
     assert_eq!(comparison.unmatched(), [vec![], vec!["0005"]]);
-    assert!(column(&comparison, "coverage").is_none());
+    assert!(column(&comparison, "coverage").has_no_differences());
     let compliance = column(&comparison, "compliance");
     assert_eq!((compliance.compared, compliance.differing), (2, 1));
     assert_eq!((compliance.only_first, compliance.only_second), (1, 1));
@@ -50,14 +50,14 @@ fn designs_are_matched_by_their_parameters() {
     let changes = &column(&comparison, "flexure_status").changes;
     let changes: Vec<_> = changes.iter().map(|((a, b), n)| format!("{a} > {b}: {n}")).collect();
     assert_eq!(changes, ["complete > no convergence: 1", "too many points > complete: 1"]);
-    assert!(!comparison.is_none());
+    assert!(!comparison.has_no_differences());
 }
 
 #[test]
 fn a_run_equals_itself() {
     let first = results(FIRST, None);
     let comparison = compare(&first, &first, 0.0).expect("comparable");
-    assert!(comparison.is_none());
+    assert!(comparison.has_no_differences());
     assert_eq!(column(&comparison, "compliance").correlation, Some(1.0));
     assert_eq!(column(&comparison, "flexure_status").correlation, None);
 }
@@ -121,7 +121,7 @@ fn designs_are_matched_up_to_round_off() {
     let first = results("design,gap_over_t,coverage\n1,0.09999999999999999,1\n2,0.3,2\n", None);
     let second = results("design,gap_over_t,coverage\n1,0.30000000000000004,2\n2,0.1,1\n", None);
     let comparison = compare(&first, &second, 1e-12).expect("comparable");
-    assert_eq!((comparison.matched(), comparison.is_none()), (2, true));
+    assert_eq!((comparison.matched(), comparison.has_no_differences()), (2, true));
     let twice = results("design,gap_over_t,coverage\n1,0.1,1\n2,0.10000000000000002,2\n", None);
     let error = compare(&first, &twice, 1e-12).expect_err("equal designs");
     assert!(error.to_string().contains("designs 1 and 2"), "{error}");
