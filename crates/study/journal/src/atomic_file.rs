@@ -32,7 +32,7 @@ impl OutputError {
     }
 
     /// Creates the error for an existing file that squama did not write and therefore keeps.
-    pub fn strange(path: &Path) -> Self {
+    pub fn foreign(path: &Path) -> Self {
         let advice = "move the file, or choose another folder with --out DIR";
         let reason = "there is a file of that name that squama has not written".to_owned();
         Self { path: path.to_owned(), reason, advice }

@@ -32,7 +32,7 @@ pub fn require_own(path: &Path) -> Result<(), OutputError> {
         path.to_owned()
     };
     let is_own = metadata.is_file() && (metadata.len() == 0 || has_mark(&marked).unwrap_or(false));
-    if is_own { Ok(()) } else { Err(OutputError::strange(path)) }
+    if is_own { Ok(()) } else { Err(OutputError::foreign(path)) }
 }
 
 fn has_mark(path: &Path) -> io::Result<bool> {

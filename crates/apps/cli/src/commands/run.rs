@@ -231,7 +231,7 @@ fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
 ///
 /// If the surface of this design folds, the text adds the best value without a fold.
 fn best_text(best: &Best) -> String {
-    if let Some(parameter) = best.apart {
+    if let Some(parameter) = best.incomparable_by {
         return format!("not comparable between designs of different {parameter}");
     }
     let text = leader_text(&best.leader, best.unit);

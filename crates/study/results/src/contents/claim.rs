@@ -123,7 +123,7 @@ fn require_none(folder: &ResultsFolder, name: &str) -> Result<(), OutputError> {
     let path = folder.file(name);
     // Do not follow links: squama did not write a link, even if its target does not exist.
     let exists = fs::symlink_metadata(&path).is_ok();
-    if exists { Err(OutputError::strange(&path)) } else { Ok(()) }
+    if exists { Err(OutputError::foreign(&path)) } else { Ok(()) }
 }
 
 #[cfg(test)]

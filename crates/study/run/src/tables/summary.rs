@@ -31,7 +31,7 @@ pub struct Best {
     /// Value, the first design with this value, and the number of other designs with this value.
     pub leader: Leader<DesignNumber>,
     /// Parameter that differs between designs and makes their values incomparable, if any.
-    pub apart: Option<&'static str>,
+    pub incomparable_by: Option<&'static str>,
     /// True if the value is not valid because the surface of the substrate folds.
     pub is_folded: bool,
     /// Best value of the designs without a fold, if the best value of all designs is not valid.
@@ -46,7 +46,7 @@ struct Contest {
     best: Option<Leader<DesignNumber>>,
     /// Best value of the designs without a fold.
     unfolded: Option<Leader<DesignNumber>>,
-    apart: Option<&'static str>,
+    incomparable_by: Option<&'static str>,
     /// Whether a fold of the surface invalidates the measure.
     is_invalid_after_fold: bool,
 }
@@ -74,7 +74,7 @@ impl Summary {
                 column,
                 best: None,
                 unfolded: None,
-                apart: incomparable_by(sweep, column.name()),
+                incomparable_by: incomparable_by(sweep, column.name()),
                 is_invalid_after_fold: is_invalid_after_fold(name),
             })
         };
@@ -124,9 +124,9 @@ impl Summary {
                 let (leader, unfolded) = (contest.best?, contest.unfolded);
                 let is_folded = unfolded.is_none_or(|unfolded| unfolded.first != leader.first);
                 let unfolded = unfolded.filter(|_| is_folded);
-                let Contest { label, column, apart, .. } = *contest;
+                let Contest { label, column, incomparable_by, .. } = *contest;
                 let unit = column.physical_unit();
-                Some(Best { label, unit, leader, apart, is_folded, unfolded })
+                Some(Best { label, unit, leader, incomparable_by, is_folded, unfolded })
             })
     }
 }
@@ -175,7 +175,7 @@ mod tests {
         // Design 0003 has the least penetration, but its surface folds.
         let unfolded = Some("0001".to_owned());
         assert_eq!(folds, [(false, None), (true, unfolded), (false, None)]);
-        let apart = of_tilts.best().next();
-        assert_eq!(apart.and_then(|best| best.apart), Some("critical_tilt_deg"));
+        let best = of_tilts.best().next();
+        assert_eq!(best.and_then(|best| best.incomparable_by), Some("critical_tilt_deg"));
     }
 }
