@@ -63,7 +63,7 @@ fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<&'static Parameter> 
     let (py, case) = (skin.py(), skin.get().case());
     let parameter = Parameter::named(key).ok_or_else(|| unknown(py, key))?;
     // Lengths in mm and moduli do not have the role `Continuous`, but they act continuously.
-    let is_smooth = parameter.has(Role::Continuous) || parameter.has(Role::Made);
+    let is_smooth = parameter.has(Role::Continuous) || parameter.has(Role::Toleranced);
     if !is_smooth || parameter.size(&case).is_none() {
         let expected = "a parameter that is given as a number and changes continuously";
         return Err(error::invalid_parameter(py, key, None, expected));

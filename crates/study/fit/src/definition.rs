@@ -208,7 +208,7 @@ fn parameters(entries: &KeyValues, sweep: &Sweep) -> Result<Vec<Unknown>, Invali
         .iter()
         .map(|variable| {
             let parameter = variable.parameter();
-            let is_number = parameter.has(Role::Continuous) || parameter.has(Role::Made);
+            let is_number = parameter.has(Role::Continuous) || parameter.has(Role::Toleranced);
             if let VariableValues::Between(from, to) = *variable.values()
                 && is_number
             {

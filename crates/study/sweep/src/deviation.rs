@@ -103,8 +103,8 @@ impl Deviation {
     /// Like [`Self::moved`], but returns `None` if a parameter leaves its bounds.
     pub fn applied(&self, case: &Case, by: f64) -> Option<Case> {
         let moved = self.moved(case, by)?;
-        let is_valid =
-            Parameter::with(Role::Made).all(|parameter| parameter.contains(parameter.get(&moved)));
+        let is_valid = Parameter::with(Role::Toleranced)
+            .all(|parameter| parameter.contains(parameter.get(&moved)));
         (is_valid && moved.has_valid_load_position()).then_some(moved)
     }
 

@@ -146,7 +146,7 @@ fn fitted_toml(fitted: &Fitted) -> String {
 /// `None` if the parameter does not vary between the specimens, or is no property of the product.
 fn deviation(scatter: &Scatter) -> Option<String> {
     let Scatter { parameter, deviation, .. } = scatter;
-    let is_possible = parameter.has(Role::Made) && *deviation > 0.0;
+    let is_possible = parameter.has(Role::Toleranced) && *deviation > 0.0;
     is_possible.then(|| format!("{} = {{ batch_sd = {} }}", parameter.key, digits(*deviation)))
 }
 

@@ -154,7 +154,7 @@ fn schema_and_parser_agree_on_random_definitions() {
 #[test]
 fn schema_and_parser_agree_on_keys_of_goals_and_fits() {
     let schema = schema();
-    let key = Parameter::with(Role::Made).next().expect("a parameter").key;
+    let key = Parameter::with(Role::Toleranced).next().expect("a parameter").key;
     let goal = format!(
         "name = 'x'\n[designs]\nlength_over_t = 0.5\nslant_deg = 60\n[variables]\ngap_over_t = {{ from = 0.1, to = 1 }}\n[tolerance]\n{key} = {{ batch_sd = 0.01 }}\n[goal]\n"
     );

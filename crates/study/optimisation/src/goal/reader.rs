@@ -185,7 +185,7 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
         .iter()
         .filter(|variable| {
             let parameter = variable.parameter();
-            let describes = parameter.has(Role::Continuous) || parameter.has(Role::Made);
+            let describes = parameter.has(Role::Continuous) || parameter.has(Role::Toleranced);
             matches!(variable.values(), VariableValues::Between(..)) && !describes
         })
         .map(|variable| {

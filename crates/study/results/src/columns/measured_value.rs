@@ -228,7 +228,7 @@ impl MeasuredValue {
         let is_unit = quantity.is_none() && self.unit.contains("E_m I_m");
         // A parameter with manufacturing deviations is a property of the product, not of the
         // measurement: designs with and without friction can be compared.
-        let is_required = self.needs.contains(&parameter.key) && !parameter.has(Role::Made);
+        let is_required = self.needs.contains(&parameter.key) && !parameter.has(Role::Toleranced);
         is_required
             || (ends && self.point.depends_on_end())
             || (is_unit && parameter.has(Role::UnitOfBending))

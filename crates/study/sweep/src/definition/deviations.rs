@@ -14,7 +14,7 @@ const EXAMPLE: &str =
 
 /// Reads the deviation in `entry`, an entry of the section `[tolerance]`.
 pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
-    let Some(parameter) = Parameter::named(&entry.key).filter(|p| p.has(Role::Made)) else {
+    let Some(parameter) = Parameter::named(&entry.key).filter(|p| p.has(Role::Toleranced)) else {
         return Err(unknown(entry));
     };
     let Value::Table(entries) = &entry.value else {
@@ -60,7 +60,7 @@ fn wrong(entry: &KeyValue, problem: String) -> Problem {
 }
 
 fn unknown(entry: &KeyValue) -> Problem {
-    let possible = Parameter::with(Role::Made);
+    let possible = Parameter::with(Role::Toleranced);
     let known: Vec<_> = possible.map(|parameter| parameter.key).collect();
     let hint = match text::nearest(&entry.key, &known) {
         Some(near) => format!("did you mean {near}?"),

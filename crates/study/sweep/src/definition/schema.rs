@@ -18,7 +18,7 @@ pub fn definition_schema() -> Map<String, Value> {
     let variables = PARAMETERS.iter().map(|p| (p.key, p.variable_schema()));
     let about = "Parameters that a search, a fit or a random draw varies";
     keys.insert(suggestion::VARIABLES.to_owned(), section_of(about, variables));
-    let deviations = Parameter::with(Role::Made).map(|p| (p.key, deviation(p)));
+    let deviations = Parameter::with(Role::Toleranced).map(|p| (p.key, deviation(p)));
     let about = "Manufacturing deviations from the nominal design";
     keys.insert(suggestion::TOLERANCE.to_owned(), section_of(about, deviations));
     keys

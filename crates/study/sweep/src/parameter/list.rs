@@ -29,8 +29,8 @@ use crate::parameter::ParameterKind::{
     Count, CountOrWord, Number, Numbers, OptionalNumber, SignedNumber, Word,
 };
 use crate::parameter::Role::{
-    Continuous, EndsBending, EndsPuncture, Geometry, InMm, InsteadOf, Made, MovesSprings,
-    Scattered, UnitOfBending,
+    Continuous, EndsBending, EndsPuncture, Geometry, InMm, InsteadOf, MovesSprings, Scattered,
+    Toleranced, UnitOfBending,
 };
 use crate::parameter::{CountRange, Parameter, ParameterKind, Range, key};
 use crate::scalar::Scalar;
@@ -115,18 +115,18 @@ macro_rules! parameters {
 /// Keys are unique over all sections, because an axis is named by its key alone.
 pub static PARAMETERS: &[Parameter] = parameters! {
     "designs" {
-        key::GAP, "t", [Geometry, Continuous, Made, Scattered, MovesSprings],
+        key::GAP, "t", [Geometry, Continuous, Toleranced, Scattered, MovesSprings],
             number(LENGTH, |c| &mut c.design.gap), "gap d between neighbouring bases";
-        "gap_mm", "mm", [InMm(key::GAP), Made, Scattered, MovesSprings],
+        "gap_mm", "mm", [InMm(key::GAP), Toleranced, Scattered, MovesSprings],
             optional(POSITIVE, |c| &mut c.in_mm.gap), in_mm!("gap", "gap between neighbouring bases");
-        key::LENGTH, "t", [Geometry, Continuous, Made, MovesSprings],
+        key::LENGTH, "t", [Geometry, Continuous, Toleranced, MovesSprings],
             number(LENGTH, |c| &mut c.design.length), "length L of a scale";
-        "length_mm", "mm", [InMm(key::LENGTH), Made, MovesSprings],
+        "length_mm", "mm", [InMm(key::LENGTH), Toleranced, MovesSprings],
             optional(POSITIVE, |c| &mut c.in_mm.length), in_mm!("length", "length of a scale");
-        key::PITCH, "mm", [InMm(key::GAP), Made, MovesSprings],
+        key::PITCH, "mm", [InMm(key::GAP), Toleranced, MovesSprings],
             optional(POSITIVE, |c| &mut c.in_mm.pitch),
             "base plus gap in mm, instead of the gap or, in addition to a gap, instead of the length; with thickness_mm in [material]";
-        key::SLANT, "deg", [Geometry, Continuous, Made, Scattered],
+        key::SLANT, "deg", [Geometry, Continuous, Toleranced, Scattered],
             number(Range { low: Included(0.0), high: Excluded(90.0) }, |c| &mut c.design.slant_deg),
             "slant of the scales from the vertical, to the right";
     }
@@ -135,9 +135,9 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         "base", "-", [MovesSprings],
             words!(design.base: "L" = Base::L, "2L" = Base::TwoL),
             "length of the base of a scale, L or 2L";
-        key::WIDTH, "t", [Continuous, Made, MovesSprings],
+        key::WIDTH, "t", [Continuous, Toleranced, MovesSprings],
             number(LENGTH, |c| &mut c.design.width), "out-of-plane width b of the scales";
-        "width_mm", "mm", [InMm(key::WIDTH), Made, MovesSprings],
+        "width_mm", "mm", [InMm(key::WIDTH), Toleranced, MovesSprings],
             optional(POSITIVE, |c| &mut c.in_mm.width), in_mm!("width", "out-of-plane width of the scales");
         key::BENDING, "-", [],
             words!(puncture.bending: "rigid" = Bending::Rigid, "elastic" = Bending::Elastic),
@@ -145,13 +145,13 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     }
 
     "substrate" {
-        key::POISSON_RATIO, "-", [Continuous, Made, MovesSprings],
+        key::POISSON_RATIO, "-", [Continuous, Toleranced, MovesSprings],
             number(Range::closed(0.0, 0.5), |c| &mut c.puncture.poisson_ratio),
             "Poisson's ratio of the substrate";
-        key::TISSUE, "t", [Continuous, Made, MovesSprings],
+        key::TISSUE, "t", [Continuous, Toleranced, MovesSprings],
             optional(LENGTH, |c| &mut c.tissue_thickness),
             "thickness of the substrate on a rigid base, such as tissue on bone; a half-space unless given";
-        key::TISSUE_MM, "mm", [InMm(key::TISSUE), Made, MovesSprings],
+        key::TISSUE_MM, "mm", [InMm(key::TISSUE), Toleranced, MovesSprings],
             optional(POSITIVE, |c| &mut c.in_mm.tissue_thickness),
             in_mm!("tissue_thickness", "thickness of the tissue on a rigid base");
         "coupling", "-", [MovesSprings],
@@ -163,31 +163,31 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     }
 
     "body" {
-        key::CURVATURE, "1/t", [Continuous, Made],
+        key::CURVATURE, "1/t", [Continuous, Toleranced],
             number(Range::closed(-1.0, 1.0), |c| &mut c.puncture.curvature),
             "curvature 1/R of the body below the skin: positive for a convex body, such as a finger, negative for a concave one";
-        key::RADIUS, "t", [Continuous, Made, InsteadOf(key::CURVATURE)],
+        key::RADIUS, "t", [Continuous, Toleranced, InsteadOf(key::CURVATURE)],
             optional(ANY, |c| &mut c.body_radius),
             "radius R of the body below the skin, instead of the curvature; negative for a concave body";
-        key::RADIUS_MM, "mm", [InMm(key::RADIUS), Made],
+        key::RADIUS_MM, "mm", [InMm(key::RADIUS), Toleranced],
             optional(ANY, |c| &mut c.in_mm.radius),
             in_mm!("radius", "radius of the body below the skin");
-        key::RADIUS_TO, "t", [Continuous, Made],
+        key::RADIUS_TO, "t", [Continuous, Toleranced],
             optional(ANY, |c| &mut c.body_radius_to),
             "other end of the range of radii over which worst_force_between is the smallest force; negative for a concave body";
-        key::RADIUS_TO_MM, "mm", [InMm(key::RADIUS_TO), Made],
+        key::RADIUS_TO_MM, "mm", [InMm(key::RADIUS_TO), Toleranced],
             optional(ANY, |c| &mut c.in_mm.radius_to),
             in_mm!("radius_to", "other end of the range of radii");
     }
 
     "contact" {
-        "c1", "-", [Continuous, Made],
+        "c1", "-", [Continuous, Toleranced],
             number(Range::closed(1e-3, 1e3), |c| &mut c.common.law.c1), "prefactor C1 of the contact law";
         // The exponent of a flat punch is 1. The upper bound is the exponent of a sphere (Hertz).
-        "c2", "-", [Continuous, Made],
+        "c2", "-", [Continuous, Toleranced],
             number(Range::closed(0.05, 1.5), |c| &mut c.common.law.c2), "exponent C2 of the contact law";
         // The upper bound is about the friction of rubber on a rough surface.
-        key::FRICTION, "-", [Continuous, Made],
+        key::FRICTION, "-", [Continuous, Toleranced],
             number(Range::closed(0.0, 2.0), |c| &mut c.common.friction),
             "coefficient of friction between two scales";
     }
@@ -203,13 +203,13 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "number of scales in the row";
         // The largest position beyond 1 depends on gap and tip: `has_valid_load_position` checks
         // the tip, and `punctured` limits the position to the next scale.
-        key::LOAD_POSITION, "-", [Continuous, Made],
+        key::LOAD_POSITION, "-", [Continuous, Toleranced],
             number(Range::closed(0.0, 1e6), |c| &mut c.puncture.load_position),
             "load position on the top of the punctured scale: 0 the left corner, 1 the right; for a round tip up to 1 + gap/base, the left corner of the next scale";
-        key::LOAD_INSET, "t", [Continuous, Made, InsteadOf(key::LOAD_POSITION)],
+        key::LOAD_INSET, "t", [Continuous, Toleranced, InsteadOf(key::LOAD_POSITION)],
             optional(Range::closed(0.0, 1e6), |c| &mut c.load_inset),
             "distance of the load from the right corner of the top, inward, at most to the middle; instead of load_position";
-        "load_inset_mm", "mm", [InMm(key::LOAD_INSET), Made],
+        "load_inset_mm", "mm", [InMm(key::LOAD_INSET), Toleranced],
             optional(ANY, |c| &mut c.in_mm.load_inset),
             in_mm!("load_inset", "distance of the load from the right corner of the top");
         key::NEEDLE, "-", [EndsPuncture],
@@ -220,10 +220,10 @@ pub static PARAMETERS: &[Parameter] = parameters! {
                 set: |c, word| c.puncture.needle = [Needle::Free, Needle::Guided { friction: 0.0 }][word],
             },
             "free: a load fixed to a point of the scale, which may move sideways, as in the paper; guided: a tip that moves straight down and slides on the scale";
-        key::NEEDLE_RADIUS, "t", [Continuous, Made],
+        key::NEEDLE_RADIUS, "t", [Continuous, Toleranced],
             optional(LENGTH, |c| &mut c.puncture.needle_radius),
             "radius of the round tip of a guided needle, which may touch several scales; sharp unless given";
-        "needle_radius_mm", "mm", [InMm(key::NEEDLE_RADIUS), Made],
+        "needle_radius_mm", "mm", [InMm(key::NEEDLE_RADIUS), Toleranced],
             optional(POSITIVE, |c| &mut c.in_mm.needle_radius),
             in_mm!("needle_radius", "radius of the round tip of a guided needle");
         key::UNLOAD, "-", [],
@@ -255,7 +255,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::DEPTH_MM, "mm", [InMm(key::DEPTH)],
             optional(POSITIVE, |c| &mut c.in_mm.depth),
             in_mm!("depth", "depth at which force_at_depth is measured");
-        key::NEEDLE_FORCE, "E_s t^2", [Continuous, Made],
+        key::NEEDLE_FORCE, "E_s t^2", [Continuous, Toleranced],
             optional(POSITIVE, |c| &mut c.needle_force),
             "force of the needle at which tissue_pressure_at_force is measured";
         key::NEEDLE_FORCE_N, "N", [],
@@ -264,16 +264,16 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::PLACES, "-", [],
             count_or("none", 2, 1000, |c| c.puncture.places, |c, count| c.puncture.places = count),
             "number of load positions evaluated for weakest_force, from the left corner of the top to the right, for a round tip over one pitch";
-        key::CONTACT_OVER_SUBSTRATE, "-", [Continuous, Made],
+        key::CONTACT_OVER_SUBSTRATE, "-", [Continuous, Toleranced],
             number(STIFF, |c| &mut c.puncture.contact_modulus_over_substrate),
             "modulus of the scales in contact, E_ct, divided by the modulus of the substrate, E_s";
         key::FAILURE, "-", [],
             words!(judge_failure: "false" = false, "true" = true),
             "whether to find the first failure and the largest stresses; a strength of scales or bonds requests them, too";
-        key::SCALE_STRENGTH_OVER_SUBSTRATE, "-", [Continuous, Made],
+        key::SCALE_STRENGTH_OVER_SUBSTRATE, "-", [Continuous, Toleranced],
             optional(POSITIVE, |c| &mut c.strengths.scale),
             "strength of the scales divided by the modulus of the substrate, E_s; scales cannot break unless given";
-        key::BOND_STRENGTH_OVER_SUBSTRATE, "-", [Continuous, Made],
+        key::BOND_STRENGTH_OVER_SUBSTRATE, "-", [Continuous, Toleranced],
             optional(POSITIVE, |c| &mut c.strengths.bond),
             "strength of the bonds between scales and substrate, divided by E_s; bonds cannot fail unless given";
     }
@@ -282,10 +282,10 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::ACROSS, "-", [],
             words!(across: "false" = false, "true" = true),
             "whether to also puncture the row across, perpendicular to the row; gap_across_over_t requests this, too";
-        key::GAP_ACROSS, "t", [Continuous, Made],
+        key::GAP_ACROSS, "t", [Continuous, Toleranced],
             optional(LENGTH, |c| &mut c.gap_across),
             "gap between neighbouring scales across the row; the gap along it unless given";
-        key::GAP_ACROSS_MM, "mm", [InMm(key::GAP_ACROSS), Made],
+        key::GAP_ACROSS_MM, "mm", [InMm(key::GAP_ACROSS), Toleranced],
             optional(POSITIVE, |c| &mut c.in_mm.gap_across),
             in_mm!("gap_across", "gap between neighbouring scales across the row");
     }
@@ -294,24 +294,24 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         "method", "-", [],
             words!(flexure.method: "unit-cell" = Method::UnitCell, "chain" = Method::Chain),
             "model of the strip: one gap, because all gaps deform alike, or the chain of all gaps";
-        key::MEMBRANE_LENGTH, "t", [Continuous, Made, EndsBending],
+        key::MEMBRANE_LENGTH, "t", [Continuous, Toleranced, EndsBending],
             number(LENGTH, |c| &mut c.flexure.membrane_length),
             "length of the membrane; rounded to whole gaps for a chain and for imperfect strips";
-        "membrane_length_mm", "mm", [InMm(key::MEMBRANE_LENGTH), Made, EndsBending],
+        "membrane_length_mm", "mm", [InMm(key::MEMBRANE_LENGTH), Toleranced, EndsBending],
             optional(POSITIVE, |c| &mut c.in_mm.membrane_length),
             in_mm!("membrane_length", "length of the membrane");
         "gaps", "-", [InsteadOf(key::MEMBRANE_LENGTH)],
             count_or(AUTO, 1, 1_000_000, |c| c.flexure.gaps, |c, count| c.flexure.gaps = count),
             "number of gaps of the strip, equal for all designs, instead of a length";
-        key::MEMBRANE_THICKNESS, "t", [Continuous, Made, UnitOfBending],
+        key::MEMBRANE_THICKNESS, "t", [Continuous, Toleranced, UnitOfBending],
             number(LENGTH, |c| &mut c.flexure.membrane_thickness), "thickness h of the membrane";
-        "membrane_thickness_mm", "mm", [InMm(key::MEMBRANE_THICKNESS), Made, UnitOfBending],
+        "membrane_thickness_mm", "mm", [InMm(key::MEMBRANE_THICKNESS), Toleranced, UnitOfBending],
             optional(POSITIVE, |c| &mut c.in_mm.membrane_thickness),
             in_mm!("membrane_thickness", "thickness of the membrane");
-        key::MEMBRANE_AXIS, "t", [Continuous, Made],
+        key::MEMBRANE_AXIS, "t", [Continuous, Toleranced],
             number(Range::closed(-1e3, 1e3), |c| &mut c.flexure.membrane_axis_offset),
             "depth of the axis of the membrane below the bases of the scales";
-        "membrane_axis_offset_mm", "mm", [InMm(key::MEMBRANE_AXIS), Made],
+        "membrane_axis_offset_mm", "mm", [InMm(key::MEMBRANE_AXIS), Toleranced],
             optional(ANY, |c| &mut c.in_mm.membrane_axis_offset),
             in_mm!("membrane_axis_offset", "depth of the axis of the membrane below the bases");
         "elements_per_gap", "-", [],
@@ -327,13 +327,13 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::UNBEND, "-", [],
             words!(flexure.unload: "false" = false, "true" = true),
             "whether the moment is removed at the end of bending";
-        "max_end_rotation_deg", "deg", [Continuous, Made, EndsBending],
+        "max_end_rotation_deg", "deg", [Continuous, Toleranced, EndsBending],
             SignedNumber {
                 size: Range { low: Excluded(0.0), high: Included(180.0) },
                 field: |c| &mut c.flexure.max_end_rotation_deg,
             },
             "rotation of each end at which bending ends; negative values bend the other way, with the scales outside";
-        key::CONTACT_OVER_MEMBRANE, "-", [Continuous, Made],
+        key::CONTACT_OVER_MEMBRANE, "-", [Continuous, Toleranced],
             number(STIFF, |c| &mut c.flexure.contact_modulus_over_membrane),
             "modulus of the scales in contact, E_ct, divided by the modulus of the membrane, E_m";
     }
@@ -374,22 +374,22 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     }
 
     "material" {
-        key::THICKNESS, "mm", [Made],
+        key::THICKNESS, "mm", [Toleranced],
             optional(POSITIVE, |c| &mut c.material.thickness_mm), "thickness t of the scales";
-        key::SUBSTRATE_MODULUS, "MPa", [Made],
+        key::SUBSTRATE_MODULUS, "MPa", [Toleranced],
             optional(POSITIVE, |c| &mut c.material.substrate_modulus_mpa), "modulus E_s of the substrate";
-        key::MEMBRANE_MODULUS, "MPa", [Made],
+        key::MEMBRANE_MODULUS, "MPa", [Toleranced],
             optional(POSITIVE, |c| &mut c.material.membrane_modulus_mpa), "modulus E_m of the membrane";
-        key::SCALE_MODULUS, "MPa", [Made],
+        key::SCALE_MODULUS, "MPa", [Toleranced],
             optional(POSITIVE, |c| &mut c.material.scale_modulus_mpa),
             "modulus E_ct of the scales in contact, instead of contact_modulus_over_substrate and contact_modulus_over_membrane";
-        key::SCALE_STRENGTH, "MPa", [Made],
+        key::SCALE_STRENGTH, "MPa", [Toleranced],
             optional(POSITIVE, |c| &mut c.material.scale_strength_mpa),
             "bending strength of the scales, instead of scale_strength_over_substrate";
-        key::BOND_STRENGTH, "MPa", [Made],
+        key::BOND_STRENGTH, "MPa", [Toleranced],
             optional(POSITIVE, |c| &mut c.material.bond_strength_mpa),
             "strength of the bonds between scales and substrate, instead of bond_strength_over_substrate";
-        key::DENSITY, "kg/m^3", [Made],
+        key::DENSITY, "kg/m^3", [Toleranced],
             optional(POSITIVE, |c| &mut c.material.scale_density_kg_m3), "density of the scales";
     }
 };

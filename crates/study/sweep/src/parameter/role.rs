@@ -16,7 +16,7 @@ pub enum Role {
     /// of imperfect rows.
     Continuous,
     /// The parameter may have manufacturing deviations, in `[tolerance]`.
-    Made,
+    Toleranced,
     /// The manufacturing deviation may vary from scale to scale.
     Scattered,
     /// The springs of the substrate depend on the parameter.
@@ -144,12 +144,12 @@ mod tests {
             let parameter = parameter.over_t().unwrap_or(parameter);
             let is_skin = parameter.has(Role::Continuous) || parameter.section == "material";
             assert_eq!(
-                parameter.has(Role::Made),
+                parameter.has(Role::Toleranced),
                 is_skin && !parameter.has(Role::EndsPuncture),
                 "{key}"
             );
             assert!(
-                !parameter.has(Role::Scattered) || parameter.has(Role::Made),
+                !parameter.has(Role::Scattered) || parameter.has(Role::Toleranced),
                 "{key} varies from scale to scale, but has no manufacturing deviation"
             );
         }
