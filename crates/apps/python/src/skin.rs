@@ -24,7 +24,7 @@ use text::toml_source::{KeyValue, Value};
 use crate::error::{self, OrFailed as _};
 use crate::names::NAMES;
 use crate::solved::Solved;
-use crate::value::{place, text, value};
+use crate::value::{location, text, value};
 use crate::work::watched;
 
 /// Maximum number of skins in a list; each takes about a kilobyte.
@@ -52,7 +52,7 @@ pub fn unknown(py: Python<'_>, key: &str) -> PyErr {
 /// Creates the sweep of one skin; parameters that are `None` keep their defaults.
 fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     let py = given.py();
-    let entry = |key: &str, value| KeyValue { key: key.to_owned(), value, place: place() };
+    let entry = |key: &str, value| KeyValue { key: key.to_owned(), value, location: location() };
     let mut sections = vec![entry("name", Value::Text(NAME.into()))];
     let mut keys = Vec::new();
     for (name, of) in given.iter().filter(|(_, of)| !of.is_none()) {

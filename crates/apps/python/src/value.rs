@@ -13,7 +13,7 @@ use pyo3::types::{PyBool, PyCapsule, PyDict, PyFloat, PyInt, PyList, PyString, P
 use ranking::Requirement;
 use results::{Cell, Column};
 use text::number;
-use text::toml_source::{KeyValue, Place, Value};
+use text::toml_source::{KeyValue, Location, Value};
 
 use crate::error::OrFailed as _;
 
@@ -21,8 +21,8 @@ use crate::error::OrFailed as _;
 pub type NamedCells = (String, &'static str, &'static str, Cells);
 
 /// Returns the location that messages state for values from Python.
-pub fn place() -> Place {
-    Place::Argument("squama".into())
+pub fn location() -> Location {
+    Location::Argument("squama".into())
 }
 
 /// Converts an object to text. Unlike `to_string`, this function propagates interrupts.
@@ -69,7 +69,7 @@ fn nested_value(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
         let mut table = Vec::with_capacity(entries.len());
         for (key, entry) in entries.iter() {
             let value = nested_value(&entry, depth - 1)?;
-            table.push(KeyValue { key: text(&key)?, value, place: place() });
+            table.push(KeyValue { key: text(&key)?, value, location: location() });
         }
         return Ok(Value::Table(table));
     }

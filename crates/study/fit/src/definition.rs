@@ -9,7 +9,7 @@ use sweep::{
     Case, InvalidDefinition, InvalidSetting, Parameter, Problem, Role, Setting, Sweep,
     VariableValues, WrongValue, read_entries,
 };
-use text::toml_source::{KeyValue, KeyValues, Place, Value};
+use text::toml_source::{KeyValue, KeyValues, Location, Value};
 
 pub use self::curve_table::curves_schema;
 use self::curve_table::tables;
@@ -133,8 +133,8 @@ impl FitDefinition {
                 let missing = measured.test.units(&case).err().filter(|_| measured.is_physical);
                 if let Some(missing) = missing {
                     let expected = format!("{missing} for a file in physical units");
-                    let place = table.place();
-                    return Err(not_accepted(place, "curve.file", &measured.file, &expected));
+                    let location = table.location();
+                    return Err(not_accepted(location, "curve.file", &measured.file, &expected));
                 }
                 for (TestCurve { measured: other, .. }, path) in curves.iter().zip(&paths) {
                     let is_same = (&measured.specimen, &measured.points, &table.path(folder))
@@ -171,14 +171,14 @@ impl FitDefinition {
     }
 }
 
-fn refused(place: &Place, key: &str, problem: Problem) -> InvalidFit {
-    let (place, key, problem) = (place.clone(), key.to_owned(), Box::new(problem));
-    InvalidDefinition::Refused { place, key, problem }.into()
+fn refused(location: &Location, key: &str, problem: Problem) -> InvalidFit {
+    let (location, key, problem) = (location.clone(), key.to_owned(), Box::new(problem));
+    InvalidDefinition::Refused { location, key, problem }.into()
 }
 
-fn not_accepted(place: &Place, key: &str, found: impl Display, expected: &str) -> InvalidFit {
+fn not_accepted(location: &Location, key: &str, found: impl Display, expected: &str) -> InvalidFit {
     let (found, expected) = (found.to_string(), expected.to_owned());
-    refused(place, key, WrongValue::NotAccepted { found, expected }.into())
+    refused(location, key, WrongValue::NotAccepted { found, expected }.into())
 }
 
 /// Returns the sweep of a definition, without the curves.
@@ -191,7 +191,7 @@ fn one_design(entries: &KeyValues, name: &str) -> Result<Sweep, InvalidFit> {
     match sweep.grid().axes().iter().find(|axis| axis.len() > 1) {
         Some(axis) => {
             let key = axis.parameter().key;
-            let file = Place::File { name: name.into(), line: None };
+            let file = Location::File { name: name.into(), line: None };
             let expected = format!("one value, or {key} among [variables]");
             Err(not_accepted(&file, &format!("designs.{key}"), axis.to_toml(), &expected))
         }
@@ -216,11 +216,12 @@ fn parameters(entries: &KeyValues, sweep: &Sweep) -> Result<Vec<Unknown>, Invali
                 return Ok(Unknown { name, unit: parameter.unit, from, to, source });
             }
             let entry = written.iter().find(|entry| entry.key == parameter.key);
-            let place = entry.map_or(Place::Argument("[variables]".into()), |e| e.place.clone());
+            let location =
+                entry.map_or(Location::Argument("[variables]".into()), |e| e.location.clone());
             let expected =
                 "bounds of a continuous parameter of the skin, e.g. { from = 0.1, to = 1 }";
             let key = format!("variables.{}", parameter.key);
-            Err(not_accepted(&place, &key, variable.to_toml(), expected))
+            Err(not_accepted(&location, &key, variable.to_toml(), expected))
         })
         .collect()
 }
@@ -236,7 +237,7 @@ fn per_specimen(
     };
     let Value::List(items) = &entry.value else {
         let expected = "a list of [variables], e.g. [\"substrate_modulus_MPa\"]";
-        return Err(not_accepted(&entry.place, PER_SPECIMEN, &entry.value, expected));
+        return Err(not_accepted(&entry.location, PER_SPECIMEN, &entry.value, expected));
     };
     for item in items {
         let named =
@@ -245,7 +246,7 @@ fn per_specimen(
                 _ => None,
             });
         let (index, parameter) = named.ok_or_else(|| {
-            not_accepted(&entry.place, PER_SPECIMEN, &entry.value, "names of [variables]")
+            not_accepted(&entry.location, PER_SPECIMEN, &entry.value, "names of [variables]")
         })?;
         let shared = unknowns.remove(index);
         let open = curves.iter().enumerate().filter(|(_, curve)| !curve.fixed.contains(&parameter));
@@ -258,7 +259,7 @@ fn per_specimen(
             .collect();
         if own.len() < 2 {
             let expected = "at least two [[curve]] that do not set this parameter";
-            return Err(not_accepted(&entry.place, PER_SPECIMEN, &entry.value, expected));
+            return Err(not_accepted(&entry.location, PER_SPECIMEN, &entry.value, expected));
         }
         unknowns.splice(index..index, own);
     }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use results::{InvalidFolder, ResultsFolder, VerifiedFolder};
 use text::number;
-use text::toml_source::{self, KeyValue, Place, SyntaxError, Value, quoted};
+use text::toml_source::{self, KeyValue, Location, SyntaxError, Value, quoted};
 
 use crate::criterion::{CRITERIA, Criterion};
 use crate::requirement::Requirement;
@@ -53,10 +53,10 @@ pub enum InvalidPreferences {
     #[error(transparent)]
     Syntax(#[from] SyntaxError),
     /// A key of the file is unknown, or has an invalid value.
-    #[error("{place}: {key}: {problem}")]
+    #[error("{location}: {key}: {problem}")]
     Key {
         /// Position of the key.
-        place: Place,
+        location: Location,
         /// Name of the key.
         key: String,
         /// Problem and expected value.
@@ -146,10 +146,10 @@ impl Preferences {
     /// If the text is not valid TOML, or a key is unknown or has an invalid value.
     pub fn parse(text: &str, name: &str) -> Result<Self, InvalidPreferences> {
         let mut found = Self::paper();
-        let (mut weights, mut place) = (None, Place::File { name: name.into(), line: None });
+        let (mut weights, mut location) = (None, Location::File { name: name.into(), line: None });
         for entry in toml_source::parse(text, name)? {
             let wrong = |problem: String| InvalidPreferences::Key {
-                place: entry.place.clone(),
+                location: entry.location.clone(),
                 key: entry.key.clone(),
                 problem,
             };
@@ -162,7 +162,7 @@ impl Preferences {
                     let read = Weights::new(&numbers).map_err(|error| wrong(error.to_string()))?;
                     // The number of weights is checked below, because the key `criteria` may follow
                     // the key `weights`.
-                    (weights, place) = (Some(read), entry.place);
+                    (weights, location) = (Some(read), entry.location);
                 }
                 _ => return Err(unknown(&entry)),
             }
@@ -171,7 +171,7 @@ impl Preferences {
         // which need not be four, have equal weights.
         let Self { requirements, criteria, scale, .. } = found;
         Self::new(requirements, criteria, weights, scale).map_err(|error| InvalidPreferences::Key {
-            place,
+            location,
             key: "criteria".to_owned(),
             problem: error.to_string(),
         })
@@ -194,7 +194,7 @@ impl Preferences {
 
 fn unknown(entry: &KeyValue) -> InvalidPreferences {
     InvalidPreferences::Key {
-        place: entry.place.clone(),
+        location: entry.location.clone(),
         key: entry.key.clone(),
         problem: "is not a key, expected requirements, criteria, weights or scale".to_owned(),
     }

@@ -136,7 +136,7 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
             sweep.grid().axis(parameter.key).is_none()
                 && changed.grid().axis(parameter.key).is_none()
         }) {
-            return Err(InvalidRerun::Axis(setting.place().to_string()));
+            return Err(InvalidRerun::Axis(setting.location().to_string()));
         }
     }
     let on_or_off = |sweep: &Sweep| if sweep.is_imperfect() { "on" } else { "off" };

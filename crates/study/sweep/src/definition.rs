@@ -28,7 +28,7 @@ use reader::Reader;
 use setting::Setting;
 use text::number;
 use text::reason;
-use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
+use text::toml_source::{self, KeyValue, KeyValues, Location, Value};
 
 /// A validated sweep: name, measures, designs.
 #[derive(Clone, Debug)]
@@ -69,7 +69,7 @@ impl Sweep {
         for entry in entries {
             reader.entry(entry);
         }
-        reader.finish(&Place::File { name: name.into(), line: None })
+        reader.finish(&Location::File { name: name.into(), line: None })
     }
 
     /// Returns the name of the sweep, which is also the name of its results folder.

@@ -7,9 +7,9 @@ use toml::de::{DeTable, DeValue};
 
 use crate::message::one_line;
 
-/// Source of a key or a value, which messages name.
+/// Location of a key or a value, for messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Location {
     /// A line in a file.
     File {
         /// Name of the file as the user gave it.
@@ -17,11 +17,11 @@ pub enum Place {
         /// Number of the line, from 1; `None` if unknown.
         line: Option<usize>,
     },
-    /// A command-line option or another source; the text names it.
+    /// A command-line option or another source, named by the text.
     Argument(Arc<str>),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::File { name, line: Some(line) } => write!(f, "{name}:{line}"),
@@ -43,8 +43,8 @@ pub struct KeyValue {
     pub key: String,
     /// Value of the key.
     pub value: Value,
-    /// Source of the key.
-    pub place: Place,
+    /// Location of the key.
+    pub location: Location,
 }
 
 /// Keys and values in the order of the document.
@@ -100,9 +100,9 @@ pub struct SyntaxError(Vec<SyntaxMistake>);
 
 /// A line that is not valid TOML.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{place}: {line}: not valid TOML ({message}), expected key = value or [section]")]
+#[error("{location}: {line}: not valid TOML ({message}), expected key = value or [section]")]
 struct SyntaxMistake {
-    place: Place,
+    location: Location,
     /// Text of the line, shortened.
     line: String,
     message: String,
@@ -120,15 +120,15 @@ pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
     // three bytes in the file.
     if let Some((offset, _)) = text.match_indices(',').nth(MOST_VALUES) {
         let message = format!("more than {MOST_VALUES} values");
-        let (place, line) = (source.place(Some(offset)), source.line(offset));
-        return Err(SyntaxError(vec![SyntaxMistake { place, line, message }]));
+        let (location, line) = (source.location(Some(offset)), source.line(offset));
+        return Err(SyntaxError(vec![SyntaxMistake { location, line, message }]));
     }
     let (table, mut errors) = DeTable::parse_recoverable(text);
     // Sort by position, because `dedup_by` below compares neighbours.
     errors.sort_by_key(|error| error.span().map(|span| span.start));
     let mut mistakes: Vec<_> = errors.iter().map(|error| source.mistake(error)).collect();
     // Keep the first mistake on each line, because it usually causes the others.
-    mistakes.dedup_by(|next, first| next.place == first.place);
+    mistakes.dedup_by(|next, first| next.location == first.location);
     if mistakes.is_empty() { Ok(source.table(table.get_ref())) } else { Err(SyntaxError(mistakes)) }
 }
 
@@ -148,8 +148,8 @@ impl<'a> Document<'a> {
 
     fn mistake(&self, error: &toml::de::Error) -> SyntaxMistake {
         let offset = error.span().map(|span| span.start);
-        let (place, line) = (self.place(offset), self.line(offset.unwrap_or_default()));
-        SyntaxMistake { place, line, message: one_line(error.message()) }
+        let (location, line) = (self.location(offset), self.line(offset.unwrap_or_default()));
+        SyntaxMistake { location, line, message: one_line(error.message()) }
     }
 
     /// Returns the first 60 characters of the line at the byte `offset`.
@@ -163,32 +163,32 @@ impl<'a> Document<'a> {
         if visible.is_empty() { "a line that cannot be shown".to_owned() } else { visible }
     }
 
-    fn place(&self, offset: Option<usize>) -> Place {
+    fn location(&self, offset: Option<usize>) -> Location {
         // Binary search, because counting newlines for each key would take quadratic time.
         let line = offset.map(|offset| self.ends.partition_point(|end| *end < offset) + 1);
-        Place::File { name: Arc::clone(&self.name), line }
+        Location::File { name: Arc::clone(&self.name), line }
     }
 
     fn table(&self, table: &DeTable<'_>) -> KeyValues {
-        entries(table, &|offset| self.place(Some(offset)))
+        entries(table, &|offset| self.location(Some(offset)))
     }
 }
 
-fn entries(table: &DeTable<'_>, place: &dyn Fn(usize) -> Place) -> KeyValues {
+fn entries(table: &DeTable<'_>, location: &dyn Fn(usize) -> Location) -> KeyValues {
     table
         .iter()
         .map(|(key, value)| {
             let key: &toml::Spanned<toml::de::DeString<'_>> = key;
             KeyValue {
                 key: key.get_ref().to_string(),
-                value: value_of(value.get_ref(), place),
-                place: place(key.span().start),
+                value: value_of(value.get_ref(), location),
+                location: location(key.span().start),
             }
         })
         .collect()
 }
 
-fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
+fn value_of(value: &DeValue<'_>, location: &dyn Fn(usize) -> Location) -> Value {
     match value {
         DeValue::String(text) => Value::Text(text.to_string()),
         DeValue::Integer(number) if number.radix() == 10 => {
@@ -203,9 +203,9 @@ fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
         DeValue::Boolean(boolean) => Value::Other(boolean.to_string()),
         DeValue::Datetime(datetime) => Value::Other(datetime.to_string()),
         DeValue::Array(items) => {
-            Value::List(items.iter().map(|item| value_of(item.get_ref(), place)).collect())
+            Value::List(items.iter().map(|item| value_of(item.get_ref(), location)).collect())
         }
-        DeValue::Table(table) => Value::Table(entries(table, place)),
+        DeValue::Table(table) => Value::Table(entries(table, location)),
     }
 }
 
@@ -215,10 +215,10 @@ fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
 ///
 /// Returns an error if `text` is empty, or if it begins like a list, table or quoted string but is
 /// not valid TOML.
-pub fn parse_argument(text: &str, place: &Place) -> Result<Value, String> {
+pub fn parse_argument(text: &str, location: &Location) -> Result<Value, String> {
     let text = text.trim();
     let error = match DeValue::parse(text) {
-        Ok(value) => return Ok(value_of(value.get_ref(), &|_| place.clone())),
+        Ok(value) => return Ok(value_of(value.get_ref(), &|_| location.clone())),
         Err(error) => error,
     };
     // Users write numbers such as `.5` and `5.`, which are not valid TOML.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value as Json, json};
 use sweep::{Case, PARAMETERS, Parameter, Problem, Setting};
-use text::toml_source::{KeyValue, KeyValues, Place, Value};
+use text::toml_source::{KeyValue, KeyValues, Location, Value};
 
 use super::{InvalidFit, Source, TestCurve, Unknown, not_accepted, refused, table};
 use crate::measured_curve::{Branches, CurveEventKind, MeasuredCurve, Test};
@@ -65,9 +65,9 @@ pub(super) fn tables<'e>(
     entries: &'e KeyValues,
     name: &str,
 ) -> Result<Vec<CurveTable<'e>>, InvalidFit> {
-    let file = Place::File { name: name.into(), line: None };
+    let file = Location::File { name: name.into(), line: None };
     let entry = entries.iter().find(|entry| entry.key == "curve");
-    let place = entry.map_or(&file, |entry| &entry.place);
+    let location = entry.map_or(&file, |entry| &entry.location);
     let items = match entry.map(|entry| &entry.value) {
         Some(Value::List(items)) => items.as_slice(),
         _ => &[],
@@ -76,7 +76,7 @@ pub(super) fn tables<'e>(
     let keys = keys.collect::<Option<Vec<_>>>().filter(|keys| !keys.is_empty());
     let keys = keys.ok_or_else(|| {
         let expected = "at least one [[curve]] with a file and its kind";
-        refused(place, "curve", Problem::Missing(expected))
+        refused(location, "curve", Problem::Missing(expected))
     })?;
     Ok(keys.into_iter().map(CurveTable).collect())
 }
@@ -87,8 +87,8 @@ pub(super) struct CurveTable<'e>(&'e [KeyValue]);
 
 impl CurveTable<'_> {
     /// Returns the location of the first key of this table, for messages.
-    pub fn place(&self) -> &Place {
-        &self.0[0].place
+    pub fn location(&self) -> &Location {
+        &self.0[0].location
     }
 
     fn entry(&self, key: &str) -> Option<&KeyValue> {
@@ -99,8 +99,8 @@ impl CurveTable<'_> {
     fn wrong(&self, key: &str, expected: &'static str) -> InvalidFit {
         let name = format!("curve.{key}");
         match self.entry(key) {
-            Some(entry) => not_accepted(&entry.place, &name, &entry.value, expected),
-            None => refused(self.place(), &name, Problem::Missing(expected)),
+            Some(entry) => not_accepted(&entry.location, &name, &entry.value, expected),
+            None => refused(self.location(), &name, Problem::Missing(expected)),
         }
     }
 
@@ -144,8 +144,8 @@ impl CurveTable<'_> {
 
     /// Returns the error that the value `found` of a key of this table is not accepted.
     pub fn not_accepted(&self, key: &str, found: impl Display, expected: &str) -> InvalidFit {
-        let place = self.entry(key).map_or(self.place(), |entry| &entry.place);
-        not_accepted(place, &format!("curve.{key}"), found, expected)
+        let location = self.entry(key).map_or(self.location(), |entry| &entry.location);
+        not_accepted(location, &format!("curve.{key}"), found, expected)
     }
 
     /// Returns the path of the measured file, in canonical form if the file exists.
@@ -299,10 +299,13 @@ impl CurveTable<'_> {
                         "expected {keys} or a parameter of this specimen alone, e.g. gap_over_t"
                     );
                     let value = entry.value.to_string();
-                    refused(&entry.place, &name, Problem::Unknown { value, hint })
+                    refused(&entry.location, &name, Problem::Unknown { value, hint })
                 })?;
                 let text = format!("designs.{}={}", entry.key, entry.value);
-                Ok((parameter, Setting::from_option(&format!("{}: {name}", entry.place), &text)?))
+                Ok((
+                    parameter,
+                    Setting::from_option(&format!("{}: {name}", entry.location), &text)?,
+                ))
             })
             .collect()
     }

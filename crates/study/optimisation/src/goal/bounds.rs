@@ -25,7 +25,7 @@ fn is_lower_bound(requirement: &Requirement, columns: &[&str]) -> bool {
 pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<InvalidDefinition> {
     let Some((least, most)) = open_shares(space) else { return Vec::new() };
     let mut refused = Vec::new();
-    for (requirement, place) in &goal.requirements {
+    for (requirement, location) in &goal.requirements {
         let is_on_coverage = is_lower_bound(requirement, &[name::COVERAGE]);
         let (bound, why) = if is_on_coverage {
             (
@@ -53,7 +53,7 @@ pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<Inva
         } else {
             continue;
         };
-        refused.push(not_accepted(place, "goal.require", requirement, expected));
+        refused.push(not_accepted(location, "goal.require", requirement, expected));
     }
     refused
 }

@@ -3,7 +3,7 @@
 use ranking::{CRITERIA, Criterion, CriterionEnds, FitnessGoal, Goal, Scale, Weights};
 use serde_json::{Value as Json, json};
 use sweep::InvalidDefinition;
-use text::toml_source::{KeyValue, KeyValues, Place, Value};
+use text::toml_source::{KeyValue, KeyValues, Location, Value};
 
 use super::refusal::{no_effect, not_accepted};
 
@@ -13,8 +13,8 @@ const RESCALE: &str = "the worst and the best value of each column, e.g. { cover
 /// Values of the keys `weights` and `rescale` read so far.
 #[derive(Default)]
 pub(super) struct FitnessSection {
-    weights: Option<(Vec<Criterion>, Weights, Place)>,
-    ends: Vec<(CriterionEnds, Place)>,
+    weights: Option<(Vec<Criterion>, Weights, Location)>,
+    ends: Vec<(CriterionEnds, Location)>,
 }
 
 impl FitnessSection {
@@ -42,10 +42,10 @@ impl FitnessSection {
     pub fn weights(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let read = table(&entry.value).and_then(|inner| inner.iter().map(weight).collect());
         let read = read.and_then(|(criteria, weights): (Vec<_>, Vec<_>)| {
-            Some((criteria, Weights::new(&weights).ok()?, entry.place.clone()))
+            Some((criteria, Weights::new(&weights).ok()?, entry.location.clone()))
         });
         let Some(weights) = read else {
-            return Err(not_accepted(&entry.place, "goal.weights", &entry.value, WEIGHTS));
+            return Err(not_accepted(&entry.location, "goal.weights", &entry.value, WEIGHTS));
         };
         self.weights = Some(weights);
         Ok(())
@@ -55,8 +55,8 @@ impl FitnessSection {
     pub fn rescale(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let read = table(&entry.value).map(|inner| inner.iter().map(criterion_ends).collect());
         let read: Option<Vec<_>> = read.flatten();
-        self.ends =
-            read.ok_or_else(|| not_accepted(&entry.place, "goal.rescale", &entry.value, RESCALE))?;
+        self.ends = read
+            .ok_or_else(|| not_accepted(&entry.location, "goal.rescale", &entry.value, RESCALE))?;
         Ok(())
     }
 
@@ -72,8 +72,8 @@ impl FitnessSection {
             Some((criteria, weights, _)) => (criteria.clone(), *weights),
             None => (CRITERIA.to_vec(), Weights::BALANCED),
         };
-        for (ends, place) in &self.ends {
-            check(ends, &criteria, place)?;
+        for (ends, location) in &self.ends {
+            check(ends, &criteria, location)?;
         }
         let ends = self.ends.iter().map(|(ends, _)| ends.clone()).collect();
         Ok(Some(FitnessGoal { criteria, weights, ends }))
@@ -83,10 +83,10 @@ impl FitnessSection {
     ///
     /// `None` if the goal has neither key.
     fn unused(&self) -> Option<InvalidDefinition> {
-        let of_weights = self.weights.iter().map(|(.., place)| ("goal.weights", place));
-        let of_ends = self.ends.iter().map(|(_, place)| ("goal.rescale", place));
-        let (key, place) = of_weights.chain(of_ends).next()?;
-        Some(no_effect(place, key, "the goal does not maximize fitness"))
+        let of_weights = self.weights.iter().map(|(.., location)| ("goal.weights", location));
+        let of_ends = self.ends.iter().map(|(_, location)| ("goal.rescale", location));
+        let (key, location) = of_weights.chain(of_ends).next()?;
+        Some(no_effect(location, key, "the goal does not maximize fitness"))
     }
 }
 
@@ -113,25 +113,24 @@ fn weight(entry: &KeyValue) -> Option<(Criterion, f64)> {
 /// Reads the worst and the best value of a column.
 ///
 /// `None` if they are not two finite numbers.
-fn criterion_ends(entry: &KeyValue) -> Option<(CriterionEnds, Place)> {
+fn criterion_ends(entry: &KeyValue) -> Option<(CriterionEnds, Location)> {
     let Value::List(items) = &entry.value else { return None };
     let [Value::Number(worst), Value::Number(best)] = items.as_slice() else { return None };
     let [worst, best] = [worst.parse::<f64>().ok()?, best.parse().ok()?];
     let ends = CriterionEnds { column: entry.key.clone(), worst, best };
-    (worst.is_finite() && best.is_finite()).then(|| (ends, entry.place.clone()))
+    (worst.is_finite() && best.is_finite()).then(|| (ends, entry.location.clone()))
 }
 
 /// Checks that `ends` belong to one of the `criteria`, and that their best value is the better one.
 fn check(
     ends: &CriterionEnds,
     criteria: &[Criterion],
-    place: &Place,
+    location: &Location,
 ) -> Result<(), InvalidDefinition> {
-    let refused =
-        |found: String, expected: String| Err(not_accepted(place, "goal.rescale", found, expected));
     let Some(criterion) = criteria.iter().find(|criterion| criterion.column == ends.column) else {
         let names: Vec<&str> = criteria.iter().map(|c| c.column.as_ref()).collect();
-        return refused(ends.column.clone(), format!("one of {}", names.join(", ")));
+        let expected = format!("one of {}", names.join(", "));
+        return Err(not_accepted(location, "goal.rescale", ends.column.clone(), expected));
     };
     let [worst, best] =
         [ends.worst, ends.best].map(|value| Scale::Paper.criterion(criterion.goal, value));
@@ -139,11 +138,9 @@ fn check(
         return Ok(());
     }
     let found = format!("{} = [{}, {}]", ends.column, ends.worst, ends.best);
-    refused(
-        found,
-        match criterion.goal {
-            Goal::Maximize => "the worst value, then a larger one".to_owned(),
-            Goal::Minimize => "the worst value, then a smaller one above 0".to_owned(),
-        },
-    )
+    let expected = match criterion.goal {
+        Goal::Maximize => "the worst value, then a larger one",
+        Goal::Minimize => "the worst value, then a smaller one above 0",
+    };
+    Err(not_accepted(location, "goal.rescale", found, expected))
 }

@@ -11,7 +11,7 @@ use sweep::{
     read_entries, refuse,
 };
 use text::nearest;
-use text::toml_source::{KeyValue, KeyValues, Place, Value};
+use text::toml_source::{KeyValue, KeyValues, Location, Value};
 
 use super::bounds::out_of_bounds;
 use super::refusal::{no_effect, not_accepted};
@@ -74,14 +74,14 @@ impl DesignGoal {
         name: &str,
         required: &[Requirement],
     ) -> Result<Self, InvalidDefinition> {
-        let file = Place::File { name: name.into(), line: None };
+        let file = Location::File { name: name.into(), line: None };
         let definition = entries.iter().filter(|entry| entry.key != "goal").cloned().collect();
         let mut refused = Vec::new();
         let mut section = goal_section(entries, &file, &mut refused);
-        for (requirement, place) in &mut section.requirements {
+        for (requirement, location) in &mut section.requirements {
             // Errors in requirements of the command line must not state a line of the file.
             if required.contains(requirement) {
-                *place = argument(requirement);
+                *location = argument(requirement);
             }
         }
         let sweep = match Sweep::of_entries(&definition, name) {
@@ -127,13 +127,13 @@ impl DesignGoal {
 }
 
 /// Returns the position that messages state for a requirement of the command line.
-fn argument(requirement: &Requirement) -> Place {
-    Place::Argument(format!("--require '{requirement}'").into())
+fn argument(requirement: &Requirement) -> Location {
+    Location::Argument(format!("--require '{requirement}'").into())
 }
 
 /// Adds a requirement to the key `require` of the section `[goal]` in `entries`.
 fn require(entries: &mut KeyValues, requirement: &Requirement) {
-    let (name, text, place) = ("require", requirement.to_string(), argument(requirement));
+    let (name, text, location) = ("require", requirement.to_string(), argument(requirement));
     let goal = entries.iter_mut().find(|entry| entry.key == "goal");
     // A definition without a section `[goal]` is refused later.
     let Some(KeyValue { value: Value::Table(goal), .. }) = goal else { return };
@@ -141,7 +141,7 @@ fn require(entries: &mut KeyValues, requirement: &Requirement) {
     match required {
         Some(Value::List(all)) => all.push(Value::Text(text)),
         Some(one) => *one = Value::List(vec![one.clone(), Value::Text(text)]),
-        None => goal.push(KeyValue { key: name.into(), value: Value::Text(text), place }),
+        None => goal.push(KeyValue { key: name.into(), value: Value::Text(text), location }),
     }
 }
 
@@ -156,7 +156,7 @@ fn section<'e>(entries: &'e KeyValues, name: &str) -> &'e [KeyValue] {
 /// Reads the section `[goal]`. Errors are added to `refused`.
 fn goal_section(
     entries: &KeyValues,
-    file: &Place,
+    file: &Location,
     refused: &mut Vec<InvalidDefinition>,
 ) -> GoalSection {
     let mut goal = GoalSection::default();
@@ -174,7 +174,7 @@ fn goal_section(
 ///
 /// These are missing variables, intervals of parameters that are not continuous, and parameters
 /// that have several values but are not variables.
-fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<InvalidDefinition> {
+fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Location) -> Vec<InvalidDefinition> {
     if sweep.variables().is_empty() {
         let expected =
             "a section of at least one variable, e.g. gap_over_t = { from = 0.1, to = 1 }";
@@ -192,22 +192,26 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
             let key = variable.parameter().key;
             let expected =
                 "a list of its values, because it is not a continuous parameter of the skin";
-            let place = entry_place(entries, "variables", key).unwrap_or(file);
-            not_accepted(place, &format!("variables.{key}"), variable.to_toml(), expected)
+            let location = entry_location(entries, "variables", key).unwrap_or(file);
+            not_accepted(location, &format!("variables.{key}"), variable.to_toml(), expected)
         });
     let open = sweep.grid().axes().iter().filter(|axis| axis.len() > 1).map(|axis: &Axis| {
         let key = axis.parameter().key;
         let expected = format!("one value, or {key} among [variables]");
-        let place = entry_place(entries, "designs", key).unwrap_or(file);
-        not_accepted(place, &format!("designs.{key}"), axis.to_toml(), expected)
+        let location = entry_location(entries, "designs", key).unwrap_or(file);
+        not_accepted(location, &format!("designs.{key}"), axis.to_toml(), expected)
     });
     vague.chain(open).collect()
 }
 
 /// Returns the position in the file of a key in the section `section_name`.
-fn entry_place<'e>(entries: &'e KeyValues, section_name: &str, key: &str) -> Option<&'e Place> {
+fn entry_location<'e>(
+    entries: &'e KeyValues,
+    section_name: &str,
+    key: &str,
+) -> Option<&'e Location> {
     let mut section = section(entries, section_name).iter();
-    section.find(|entry| entry.key == key).map(|entry| &entry.place)
+    section.find(|entry| entry.key == key).map(|entry| &entry.location)
 }
 
 /// Returns errors for keys of a goal that have no meaning.
@@ -230,7 +234,7 @@ fn meaningless_keys(
     // This check is for objectives only, because requirements do not compare designs. For example,
     // if the critical tilt is a variable, a force may be required but not maximised.
     let objectives = named.iter().filter(|named| named.key != "goal.require");
-    let incomparable = objectives.flat_map(|Written { column, key, place }| {
+    let incomparable = objectives.flat_map(|Written { column, key, location }| {
         sweep
             .variables()
             .iter()
@@ -239,7 +243,7 @@ fn meaningless_keys(
             })
             .map(|variable| {
                 let found = format!("an objective with {} as a variable", variable.parameter().key);
-                not_accepted(place, key, found, "values that can be compared between designs")
+                not_accepted(location, key, found, "values that can be compared between designs")
             })
     });
     let found = columns.chain(incomparable).chain(contradictions(goal));
@@ -251,12 +255,12 @@ fn named<'a>(goal: &'a GoalSection, fitness: Option<&'a FitnessGoal>) -> Vec<Wri
     let (of_fitness, mut named): (Vec<_>, Vec<_>) =
         goal.columns().partition(|named| named.column == NumberColumn::FITNESS);
     let criteria = fitness.iter().flat_map(|fitness| &fitness.criteria);
-    for (place, criterion) in of_fitness
+    for (location, criterion) in of_fitness
         .first()
         .into_iter()
-        .flat_map(|first| criteria.clone().map(move |criterion| (first.place, criterion)))
+        .flat_map(|first| criteria.clone().map(move |criterion| (first.location, criterion)))
     {
-        named.push(Written { column: &criterion.column, key: "goal.weights", place });
+        named.push(Written { column: &criterion.column, key: "goal.weights", location });
     }
     named
 }
@@ -265,11 +269,11 @@ fn named<'a>(goal: &'a GoalSection, fitness: Option<&'a FitnessGoal>) -> Vec<Wri
 ///
 /// `known` are the names of the columns of `designs.csv`.
 fn missing_column(named: &Written, known: &[&str], sweep: &Sweep) -> Option<InvalidDefinition> {
-    let Written { column, key, place } = *named;
+    let Written { column, key, location } = *named;
     if known.contains(&column) {
         let is_measured = measure_of(column).is_none_or(|m| sweep.measures().contains(&m));
         let expected = "a column of the requested `measures`";
-        return (!is_measured).then(|| not_accepted(place, key, column, expected));
+        return (!is_measured).then(|| not_accepted(location, key, column, expected));
     }
     let expected = match (statistics::nearly(column, known), nearest(column, known)) {
         (Some(quantiles), _) => quantiles,
@@ -279,17 +283,17 @@ fn missing_column(named: &Written, known: &[&str], sweep: &Sweep) -> Option<Inva
                 .to_owned()
         }
     };
-    Some(not_accepted(place, key, column, expected))
+    Some(not_accepted(location, key, column, expected))
 }
 
 /// Returns errors for pairs of requirements that exclude each other.
 fn contradictions(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let mut found = Vec::new();
-    for (k, (upper, place)) in goal.requirements.iter().enumerate() {
+    for (k, (upper, location)) in goal.requirements.iter().enumerate() {
         let mut earlier = goal.requirements[..k].iter().map(|(lower, _)| lower);
         if let Some(other) = earlier.find(|lower| exclude(lower, upper) || exclude(upper, lower)) {
             let expected = format!("a bound that is compatible with {other}");
-            found.push(not_accepted(place, "goal.require", upper, expected));
+            found.push(not_accepted(location, "goal.require", upper, expected));
         }
     }
     found
@@ -310,7 +314,7 @@ fn out_of_reach<'a>(
     goal: &'a GoalSection,
     sweep: &'a Sweep,
 ) -> impl Iterator<Item = InvalidDefinition> + 'a {
-    goal.requirements.iter().filter_map(|(requirement, place)| {
+    goal.requirements.iter().filter_map(|(requirement, location)| {
         let VariableValues::Between(from, to) = *sweep
             .variables()
             .iter()
@@ -321,20 +325,24 @@ fn out_of_reach<'a>(
         };
         let is_met = [from, to].iter().any(|end| requirement.is_met(*end));
         let expected = format!("a bound that values from {from} to {to} can meet");
-        (!is_met).then(|| not_accepted(place, "goal.require", requirement, expected))
+        (!is_met).then(|| not_accepted(location, "goal.require", requirement, expected))
     })
 }
 
 /// Returns the error if the key `round` cannot be applied to the best design.
 fn not_rounded(goal: &GoalSection, space: &DesignSpace) -> Option<InvalidDefinition> {
-    let (round, place) = goal.round.as_ref()?;
+    let (round, location) = goal.round.as_ref()?;
     let name = "goal.round";
     if goal.objectives.len() > 1 {
-        return Some(no_effect(place, name, "it rounds one best design, and a front has several"));
+        return Some(no_effect(
+            location,
+            name,
+            "it rounds one best design, and a front has several",
+        ));
     }
     let mut sizes = space.intervals().iter().filter(|interval| interval.step.is_some());
     if sizes.clone().next().is_none() {
-        return Some(no_effect(place, name, "no variable is a length or an angle"));
+        return Some(no_effect(location, name, "no variable is a length or an angle"));
     }
     let varies_thickness = space.parameters().any(|parameter| parameter.key == key::THICKNESS);
     let over_t = sizes.clone().find(|interval| interval.parameter.unit == "t");
@@ -342,12 +350,12 @@ fn not_rounded(goal: &GoalSection, space: &DesignSpace) -> Option<InvalidDefinit
         let thickness = key::THICKNESS;
         let found = format!("{round} beside {} and {thickness}", interval.parameter.key);
         let expected = "variables in mm, e.g. gap_mm, because the thickness varies";
-        return Some(not_accepted(place, name, found, expected));
+        return Some(not_accepted(location, name, found, expected));
     }
     let coarse = sizes.find(|interval| interval.multiples().is_none_or(|all| all.is_empty()))?;
     let Interval { parameter, from, to, .. } = *coarse;
     let expected = format!("a step with a multiple in {} from {from} to {to}", parameter.key);
-    Some(not_accepted(place, name, round, expected))
+    Some(not_accepted(location, name, round, expected))
 }
 
 /// Formats the keys and values of a goal as TOML.

@@ -3,19 +3,19 @@
 use std::fmt::Display;
 
 use sweep::{InvalidDefinition, WrongValue, refuse};
-use text::toml_source::Place;
+use text::toml_source::Location;
 
 /// Returns the error for a value `found` of `key` where `expected` was expected.
 pub(super) fn not_accepted(
-    place: &Place,
+    location: &Location,
     key: &str,
     found: impl Display,
     expected: impl Into<String>,
 ) -> InvalidDefinition {
-    refuse(place, key, WrongValue::not_accepted(found, expected))
+    refuse(location, key, WrongValue::not_accepted(found, expected))
 }
 
 /// Returns the error for a `key` that has no effect for this `reason`.
-pub(super) fn no_effect(place: &Place, key: &str, reason: &str) -> InvalidDefinition {
-    refuse(place, key, WrongValue::NoEffect(reason.to_owned()))
+pub(super) fn no_effect(location: &Location, key: &str, reason: &str) -> InvalidDefinition {
+    refuse(location, key, WrongValue::NoEffect(reason.to_owned()))
 }

@@ -6,7 +6,7 @@ use ranking::{Criterion, Goal, Relation, Requirement, Standard};
 use serde_json::{Map, Value as Json, json};
 use sweep::{InvalidDefinition, Problem, refuse};
 use text::nearest;
-use text::toml_source::{KeyValue, Place, Value};
+use text::toml_source::{KeyValue, Location, Value};
 
 use super::fitness_section::FitnessSection;
 use super::refusal::not_accepted;
@@ -24,22 +24,22 @@ const KEYS: [&str; 13] = [
 pub(super) struct Written<'a> {
     pub column: &'a str,
     pub key: &'static str,
-    pub place: &'a Place,
+    pub location: &'a Location,
 }
 
 /// Values of the section read so far, with their positions in the file.
 pub(super) struct GoalSection {
-    pub objectives: Vec<(Criterion, Place)>,
-    pub requirements: Vec<(Requirement, Place)>,
+    pub objectives: Vec<(Criterion, Location)>,
+    pub requirements: Vec<(Requirement, Location)>,
     pub standards: Vec<&'static Standard>,
     pub fitness: FitnessSection,
     pub sound: bool,
     pub confirm: bool,
-    pub round: Option<(f64, Place)>,
+    pub round: Option<(f64, Location)>,
     pub samples: usize,
     pub points: usize,
     pub skins: usize,
-    pub skins_place: Option<Place>,
+    pub skins_location: Option<Location>,
     pub seed: u64,
 }
 
@@ -124,7 +124,7 @@ impl Default for GoalSection {
             samples: 128,
             points: 30,
             skins: 200,
-            skins_place: None,
+            skins_location: None,
             seed: 0,
         }
     }
@@ -142,12 +142,12 @@ impl GoalSection {
             "rescale" => self.fitness.rescale(entry)?,
             "sound" => self.sound = switch(entry)?,
             "confirm" => self.confirm = switch(entry)?,
-            "round" => self.round = Some((step(entry)?, entry.place.clone())),
+            "round" => self.round = Some((step(entry)?, entry.location.clone())),
             "samples" => self.samples = count(entry, SAMPLES)?,
             "points" => self.points = count(entry, POINTS)?,
             "skins" => {
                 self.skins = count(entry, SKINS)?;
-                self.skins_place = Some(entry.place.clone());
+                self.skins_location = Some(entry.location.clone());
             }
             "seed" => self.seed = count(entry, SEEDS)? as u64,
             key => {
@@ -156,7 +156,7 @@ impl GoalSection {
                     None => format!("expected one of {}", KEYS.join(", ")),
                 };
                 let problem = Problem::Unknown { value: entry.value.to_string(), hint };
-                return Err(refuse(&entry.place, &format!("goal.{key}"), problem));
+                return Err(refuse(&entry.location, &format!("goal.{key}"), problem));
             }
         }
         Ok(())
@@ -164,18 +164,18 @@ impl GoalSection {
 
     /// Returns the columns of objectives, then of requirements, with their positions in the file.
     pub fn columns(&self) -> impl Iterator<Item = Written<'_>> {
-        let objectives = self.objectives.iter().map(|(criterion, place)| Written {
+        let objectives = self.objectives.iter().map(|(criterion, location)| Written {
             column: &criterion.column,
             key: match criterion.goal {
                 Goal::Maximize => "goal.maximize",
                 Goal::Minimize => "goal.minimize",
             },
-            place,
+            location,
         });
-        let required = self.requirements.iter().map(|(requirement, place)| Written {
+        let required = self.requirements.iter().map(|(requirement, location)| Written {
             column: &requirement.column,
             key: "goal.require",
-            place,
+            location,
         });
         objectives.chain(required)
     }
@@ -187,7 +187,7 @@ impl GoalSection {
             if self.objectives.iter().any(|(other, _)| other.column == criterion.column) {
                 return Err(wrong(entry, column, "each column only once as an objective"));
             }
-            self.objectives.push((criterion, entry.place.clone()));
+            self.objectives.push((criterion, entry.location.clone()));
         }
         if self.objectives.len() > MOST_OBJECTIVES {
             let expected = format!("at most {MOST_OBJECTIVES} objectives");
@@ -203,7 +203,7 @@ impl GoalSection {
         for text in texts(entry, &expected)? {
             let level = Standard::requirement(text);
             let (standard, level) = level.ok_or_else(|| wrong(entry, text, expected.as_str()))?;
-            self.requirements.push((level, entry.place.clone()));
+            self.requirements.push((level, entry.location.clone()));
             self.standards.push(standard);
         }
         Ok(())
@@ -215,7 +215,7 @@ impl GoalSection {
         for text in texts(entry, "a requirement, e.g. \"coverage >= 0.5\"")? {
             match Requirement::from_str(text) {
                 Ok(read) if read.relation != Relation::Equal => {
-                    self.requirements.push((read, entry.place.clone()));
+                    self.requirements.push((read, entry.location.clone()));
                 }
                 _ => return Err(wrong(entry, text, expected)),
             }
@@ -230,7 +230,7 @@ fn wrong(
     found: impl std::fmt::Display,
     expected: impl Into<String>,
 ) -> InvalidDefinition {
-    not_accepted(&entry.place, &format!("goal.{}", entry.key), found, expected)
+    not_accepted(&entry.location, &format!("goal.{}", entry.key), found, expected)
 }
 
 /// Returns the texts in a value that is a list of texts or a single text.

@@ -21,7 +21,7 @@ const ONE_SCATTER: &str =
 ///
 /// `None` if the statistic can be computed, or if the column is not a statistic.
 pub(super) fn unavailable(named: &Written, sweep: &Sweep) -> Option<InvalidDefinition> {
-    let Written { column, key, place } = *named;
+    let Written { column, key, location } = *named;
     let statistic = Statistic::named(column)?;
     let is_column = design_columns(sweep).iter().any(|known| known.name == column);
     let expected = match (sweep.deviations().is_empty(), sweep.is_imperfect(), statistic) {
@@ -31,7 +31,7 @@ pub(super) fn unavailable(named: &Written, sweep: &Sweep) -> Option<InvalidDefin
         (false, false, Statistic::Yield) => return None,
         (false, false, Statistic::Quantile { column, .. }) => not_of_numbers(&column, sweep)?,
     };
-    Some(not_accepted(place, key, column, expected))
+    Some(not_accepted(location, key, column, expected))
 }
 
 /// Returns the text that describes accepted names, if a quantile of `column` is not accepted.
@@ -89,30 +89,30 @@ pub(super) fn nearly(column: &str, known: &[&str]) -> Option<String> {
 /// without requirements on columns, and a number of samples without a statistic.
 pub(super) fn meaningless_keys(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let mut refused = Vec::new();
-    for (requirement, place) in &goal.requirements {
+    for (requirement, location) in &goal.requirements {
         let is_bound = matches!(requirement.relation, Relation::AtLeast | Relation::Above);
         let is_share = requirement.limit > 0.0 && requirement.limit <= 1.0;
         let is_strict = requirement.relation == Relation::Above && requirement.limit >= 1.0;
         if requirement.column == Statistic::YIELD && (!is_bound || !is_share || is_strict) {
             let expected = "the minimum fraction of samples, at most 1, e.g. yield >= 0.9";
-            refused.push(not_accepted(place, "goal.require", requirement, expected));
+            refused.push(not_accepted(location, "goal.require", requirement, expected));
         }
     }
-    for (criterion, place) in &goal.objectives {
+    for (criterion, location) in &goal.objectives {
         if criterion.column == Statistic::YIELD && criterion.goal == Goal::Minimize {
-            refused.push(not_accepted(place, "goal.minimize", "yield", "yield in maximize"));
+            refused.push(not_accepted(location, "goal.minimize", "yield", "yield in maximize"));
         }
     }
     let has_bounds = goal.requirements.iter().any(|(r, _)| Statistic::named(&r.column).is_none());
     let mut yields = goal.columns().filter(|named| named.column == Statistic::YIELD && !has_bounds);
-    refused.extend(yields.next().map(|Written { column, key, place }| {
+    refused.extend(yields.next().map(|Written { column, key, location }| {
         let expected = "also a requirement on the samples, e.g. \"coverage >= 0.5\"";
-        not_accepted(place, key, column, expected)
+        not_accepted(location, key, column, expected)
     }));
     let is_sampled = goal.columns().any(|named| Statistic::named(named.column).is_some());
-    if let Some(place) = goal.skins_place.as_ref().filter(|_| !is_sampled) {
+    if let Some(location) = goal.skins_location.as_ref().filter(|_| !is_sampled) {
         let reason = "the goal names no yield or quantile";
-        refused.push(no_effect(place, "goal.skins", reason));
+        refused.push(no_effect(location, "goal.skins", reason));
     }
     refused
 }

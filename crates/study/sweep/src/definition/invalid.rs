@@ -2,7 +2,7 @@
 
 use crate::grid::TooManyDesigns;
 use crate::parameter::WrongValue;
-use text::toml_source::{Place, SyntaxError};
+use text::toml_source::{Location, SyntaxError};
 
 /// An invalid definition.
 ///
@@ -25,10 +25,10 @@ pub enum InvalidDefinition {
     #[error("{}", lines(.0))]
     Several(Vec<Self>),
     /// A key or a value is invalid.
-    #[error("{place}: {key}: {problem}")]
+    #[error("{location}: {key}: {problem}")]
     Refused {
         /// Position of the key.
-        place: Place,
+        location: Location,
         /// The key, dotted.
         key: String,
         /// The problem, and the accepted values.
@@ -81,32 +81,32 @@ pub enum Problem {
     #[error("{0} is in the list twice")]
     Twice(String),
     /// A parameter is set in its section and in the grid.
-    #[error("{value} conflicts with {other} at {place}; keep one of the two")]
+    #[error("{value} conflicts with {other} at {location}; keep one of the two")]
     Contradiction {
         /// Value of the parameter in its section.
         value: String,
         /// The other key.
         other: String,
         /// Position of the other key.
-        place: Place,
+        location: Location,
     },
     /// Two parameters define the same quantity.
-    #[error("cannot be combined with {other} at {place}; keep one of the two")]
+    #[error("cannot be combined with {other} at {location}; keep one of the two")]
     Alternative {
         /// The other key.
         other: String,
         /// Position of the other key.
-        place: Place,
+        location: Location,
     },
     /// A pitch is given in addition to a gap and a length.
     #[error(
-        "cannot be combined with {other} at {place}: pitch = base + gap; keep two of gap, length and pitch"
+        "cannot be combined with {other} at {location}: pitch = base + gap; keep two of gap, length and pitch"
     )]
     Pitch {
         /// Key of the gap or the length.
         other: String,
         /// Position of the other key.
-        place: Place,
+        location: Location,
     },
     /// A length in mm, a modulus, a strength or a force gives an invalid ratio.
     #[error("{value} with {beside} makes {key} {found}, expected {expected}")]
@@ -138,8 +138,8 @@ pub enum Problem {
     TooManyDesigns(#[from] TooManyDesigns),
 }
 
-/// Creates the error for `key` at `place` in the definition.
-pub fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
-    let (place, key) = (place.clone(), key.to_owned());
-    InvalidDefinition::Refused { place, key, problem: Box::new(problem.into()) }
+/// Creates the error for `key` at `location` in the definition.
+pub fn refuse(location: &Location, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
+    let (location, key) = (location.clone(), key.to_owned());
+    InvalidDefinition::Refused { location, key, problem: Box::new(problem.into()) }
 }

@@ -16,7 +16,7 @@ use crate::parameter::{Parameter, WrongValue, any_of, key};
 use crate::scalar::Scalar;
 use crate::variable::{Variable, VariableValues};
 use text::number;
-use text::toml_source::{KeyValue, KeyValues, Place, Value};
+use text::toml_source::{KeyValue, KeyValues, Location, Value};
 
 /// Number of errors at which reading stops.
 ///
@@ -29,11 +29,11 @@ pub(crate) struct Reader {
     name: Option<String>,
     measures: Option<Vec<Measure>>,
     case: Case,
-    shared: Vec<(&'static Parameter, Place)>,
-    named: Vec<(&'static NamedValues, Place)>,
+    shared: Vec<(&'static Parameter, Location)>,
+    named: Vec<(&'static NamedValues, Location)>,
     axes: Vec<WrittenAxis>,
-    variables: Vec<(Variable, Place)>,
-    deviations: Vec<(Deviation, Place)>,
+    variables: Vec<(Variable, Location)>,
+    deviations: Vec<(Deviation, Location)>,
     refused: Vec<InvalidDefinition>,
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct Reader {
 #[derive(Debug)]
 struct WrittenAxis {
     axis: Axis,
-    place: Place,
+    location: Location,
 }
 
 impl Reader {
@@ -69,13 +69,13 @@ impl Reader {
         // Insert an empty name first, so that a refused name is not also reported as missing.
         let name = self.name.insert(String::new());
         *name = name_of(&entry.value)
-            .map_err(|problem| refuse(&entry.place, &entry.key, Problem::Value(problem)))?;
+            .map_err(|problem| refuse(&entry.location, &entry.key, Problem::Value(problem)))?;
         Ok(())
     }
 
     fn read_measures(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let measures = Measure::read_list(&entry.value);
-        self.measures = Some(measures.map_err(|p| refuse(&entry.place, &entry.key, p))?);
+        self.measures = Some(measures.map_err(|p| refuse(&entry.location, &entry.key, p))?);
         Ok(())
     }
 
@@ -93,15 +93,15 @@ impl Reader {
         let Some(named) = named else {
             let names: Vec<_> = known.iter().map(|known| known.name).collect();
             let wrong = WrongValue::not_accepted(&entry.value, any_of(&names));
-            return Err(refuse(&entry.place, &format!("{section}.{key}"), wrong));
+            return Err(refuse(&entry.location, &format!("{section}.{key}"), wrong));
         };
-        self.named.push((named, entry.place.clone()));
+        self.named.push((named, entry.location.clone()));
         Ok(())
     }
 
     /// Sets the values of the named materials and body, except values that the definition gives.
     fn supply_named(&mut self) {
-        for (named, place) in std::mem::take(&mut self.named) {
+        for (named, location) in std::mem::take(&mut self.named) {
             for (key, value) in named.values {
                 let Some(parameter) = Parameter::named(key) else { continue };
                 let is_given = self.gives(key)
@@ -110,7 +110,7 @@ impl Reader {
                     continue;
                 }
                 parameter.set(&mut self.case, Scalar::Number(*value));
-                self.shared.push((parameter, place.clone()));
+                self.shared.push((parameter, location.clone()));
             }
         }
     }
@@ -141,23 +141,23 @@ impl Reader {
         };
         let key = format!("{}.{}", suggestion::VARIABLES, entry.key);
         let variable = variables::read(parameter, &entry.value);
-        let variable = variable.map_err(|problem| refuse(&entry.place, &key, problem))?;
-        self.variables.push((variable, entry.place.clone()));
+        let variable = variable.map_err(|problem| refuse(&entry.location, &key, problem))?;
+        self.variables.push((variable, entry.location.clone()));
         Ok(())
     }
 
     fn read_deviation(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let key = format!("{}.{}", suggestion::TOLERANCE, entry.key);
         let deviation =
-            deviations::read(entry).map_err(|problem| refuse(&entry.place, &key, problem))?;
+            deviations::read(entry).map_err(|problem| refuse(&entry.location, &key, problem))?;
         // `gap_mm` and `gap_over_t` are the same deviation in two units.
         let other = self.deviations.iter().find(|(d, _)| d.parameter() == deviation.parameter());
-        if let Some((other, place)) = other {
+        if let Some((other, location)) = other {
             let other = format!("{}.{}", suggestion::TOLERANCE, other.key());
-            let problem = Problem::Alternative { other, place: place.clone() };
-            return Err(refuse(&entry.place, &key, problem));
+            let problem = Problem::Alternative { other, location: location.clone() };
+            return Err(refuse(&entry.location, &key, problem));
         }
-        self.deviations.push((deviation, entry.place.clone()));
+        self.deviations.push((deviation, entry.location.clone()));
         Ok(())
     }
 
@@ -175,19 +175,19 @@ impl Reader {
         };
         if section == "designs" {
             let axis = axes::read(parameter, &entry.value);
-            let axis = axis.map_err(|problem| refuse(&entry.place, &key, problem))?;
-            self.axes.push(WrittenAxis { axis, place: entry.place.clone() });
+            let axis = axis.map_err(|problem| refuse(&entry.location, &key, problem))?;
+            self.axes.push(WrittenAxis { axis, location: entry.location.clone() });
         } else {
             let value = parameter.read(&entry.value);
-            let value = value.map_err(|problem| refuse(&entry.place, &key, problem))?;
+            let value = value.map_err(|problem| refuse(&entry.location, &key, problem))?;
             parameter.set(&mut self.case, value);
-            self.shared.push((parameter, entry.place.clone()));
+            self.shared.push((parameter, entry.location.clone()));
         }
         Ok(())
     }
 
     /// Returns the sweep after all keys of `file` have been read, or all errors.
-    pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
+    pub fn finish(mut self, file: &Location) -> Result<Sweep, InvalidDefinition> {
         self.supply_named();
         // If a gap is also given, the pitch determines the length of a scale.
         self.case.in_mm.pitch_determines_length = self.gives(key::PITCH) && self.gives(key::GAP);
@@ -195,7 +195,8 @@ impl Reader {
         self.refused.extend(wrong_together);
         // The checks below need designs, which can be created only from keys without errors.
         InvalidDefinition::refuse_any(std::mem::take(&mut self.refused))?;
-        let written: Vec<_> = self.written().map(|(k, p, place)| (k, p, place.clone())).collect();
+        let written: Vec<_> =
+            self.written().map(|(k, p, location)| (k, p, location.clone())).collect();
         let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
         let variables: Vec<_> = self.variables.into_iter().map(|(variable, _)| variable).collect();
         let deviations = self.deviations.into_iter().map(|(deviation, _)| deviation).collect();
@@ -204,15 +205,15 @@ impl Reader {
         let axes = self.axes.into_iter().map(|written| written.axis);
         let axes = axes::ordered(axes.chain(middles).collect(), &self.case);
         let grid = Grid::new(axes, self.case).map_err(|error| refuse(file, "designs", error))?;
-        for (key, parameter, place) in &written {
+        for (key, parameter, location) in &written {
             let checked = lengths::check(parameter, &grid, &variables);
-            checked.map_err(|problem| refuse(place, key, problem))?;
+            checked.map_err(|problem| refuse(location, key, problem))?;
         }
         Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid, variables, deviations })
     }
 
     /// Returns errors for invalid combinations of keys, each of which has a valid value.
-    fn wrong_together(&self, file: &Place) -> Vec<InvalidDefinition> {
+    fn wrong_together(&self, file: &Location) -> Vec<InvalidDefinition> {
         let mut wrong: Vec<_> = self.contradictions().collect();
         wrong.extend(self.fixed_variables());
         wrong.extend(self.deviations_without_unit());
@@ -239,14 +240,14 @@ impl Reader {
     /// A value of its parameter, or of an alternative parameter, fixes a variable.
     fn fixed_variables(&self) -> impl Iterator<Item = InvalidDefinition> {
         let variables = self.variables.iter().enumerate();
-        variables.filter_map(|(k, (variable, place))| {
+        variables.filter_map(|(k, (variable, location))| {
             let parameter = variable.parameter();
             let others = parameter.others_in(&self.case).filter(|other| !self.leaves_open(other));
             let mut all = std::iter::once(parameter).chain(others);
             let (fixed, (other, there)) = all.find_map(|fixed| {
                 let is_axis = self.axes.iter().any(|axis| axis.axis.parameter() == fixed);
                 let section = if is_axis { "designs" } else { fixed.section };
-                let given = self.place(fixed.key);
+                let given = self.location(fixed.key);
                 let given = given.map(|there| (format!("{section}.{}", fixed.key), there));
                 // If two variables define the same quantity, only the later one is refused.
                 let mut earlier = self.variables[..k].iter();
@@ -255,7 +256,7 @@ impl Reader {
                 Some((fixed, given.or_else(|| Some((key, &earlier?.1)))?))
             })?;
             let key = format!("{}.{}", suggestion::VARIABLES, parameter.key);
-            Some(refuse(place, &key, conflict(parameter, fixed, other, there)))
+            Some(refuse(location, &key, conflict(parameter, fixed, other, there)))
         })
     }
 
@@ -263,11 +264,11 @@ impl Reader {
     ///
     /// For example, a deviation in mm requires the thickness.
     fn deviations_without_unit(&self) -> impl Iterator<Item = InvalidDefinition> {
-        self.deviations.iter().filter_map(|(deviation, place)| {
+        self.deviations.iter().filter_map(|(deviation, location)| {
             let needed = deviation.needs().find(|needed| !self.gives(needed))?;
             let problem = Problem::Needs(Parameter::named(needed)?.path());
             let key = format!("{}.{}", suggestion::TOLERANCE, deviation.key());
-            Some(refuse(place, &key, problem))
+            Some(refuse(location, &key, problem))
         })
     }
 
@@ -275,11 +276,13 @@ impl Reader {
     fn contradictions(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.axes.iter().filter_map(|written| {
             let parameter = written.axis.parameter();
-            let (_, place) = self.shared.iter().find(|(shared, _)| shared.key == parameter.key)?;
+            let (_, location) =
+                self.shared.iter().find(|(shared, _)| shared.key == parameter.key)?;
             let value = parameter.get(&self.case).to_toml();
             let other = format!("designs.{}", parameter.key);
-            let problem = Problem::Contradiction { value, other, place: written.place.clone() };
-            Some(refuse(place, &parameter.path(), problem))
+            let problem =
+                Problem::Contradiction { value, other, location: written.location.clone() };
+            Some(refuse(location, &parameter.path(), problem))
         })
     }
 
@@ -288,12 +291,12 @@ impl Reader {
     /// Examples are the number of gaps and the length of the strip, and the friction and the
     /// critical tilt of a free needle.
     fn check_alternatives(&self) -> Result<(), InvalidDefinition> {
-        for (parameter, place) in &self.shared {
+        for (parameter, location) in &self.shared {
             let gives = !matches!(parameter.get(&self.case), Scalar::Word(_));
-            self.check_alternative(parameter, place, gives)?;
+            self.check_alternative(parameter, location, gives)?;
         }
         for written in &self.axes {
-            self.check_alternative(written.axis.parameter(), &written.place, true)?;
+            self.check_alternative(written.axis.parameter(), &written.location, true)?;
         }
         Ok(())
     }
@@ -304,7 +307,7 @@ impl Reader {
     /// critical tilt of a free needle is the arctangent of its friction, so a friction of 0 is
     /// refused.
     fn check_needle(&self) -> Result<(), InvalidDefinition> {
-        let Some((frictions, path, place)) = self.values(key::NEEDLE_FRICTION) else {
+        let Some((frictions, path, location)) = self.values(key::NEEDLE_FRICTION) else {
             return Ok(());
         };
         let needles = self.values(key::NEEDLE).map(|(needles, ..)| needles);
@@ -328,15 +331,15 @@ impl Reader {
         });
         let Some((friction, expected)) = refused else { return Ok(()) };
         let wrong = WrongValue::not_accepted(friction.to_toml(), expected);
-        Err(refuse(place, &path, wrong))
+        Err(refuse(location, &path, wrong))
     }
 
     /// Returns the values of a parameter, its dotted key and its position in the definition.
     ///
     /// The values of a variable with bounds are the two bounds. `None` if the definition does not
     /// give the parameter.
-    fn values(&self, key: &str) -> Option<(Vec<Scalar>, String, &Place)> {
-        let (path, parameter, place) = self.written().find(|(_, p, _)| p.key == key)?;
+    fn values(&self, key: &str) -> Option<(Vec<Scalar>, String, &Location)> {
+        let (path, parameter, location) = self.written().find(|(_, p, _)| p.key == key)?;
         let axis = self.axes.iter().find(|written| written.axis.parameter() == parameter);
         let variable = self.variables.iter().find(|(v, _)| v.parameter() == parameter);
         let values = match (axis, variable.map(|(variable, _)| variable.values())) {
@@ -347,7 +350,7 @@ impl Reader {
             }
             (None, None) => vec![parameter.get(&self.case)],
         };
-        Some((values, path, place))
+        Some((values, path, location))
     }
 
     /// Refuses a needle radius without a guided needle.
@@ -355,14 +358,14 @@ impl Reader {
         let radius = self.written().find(|(_, parameter, _)| {
             parameter.is_or_determines(key::NEEDLE_RADIUS) && !self.leaves_open(parameter)
         });
-        let Some((key, _, place)) = radius else { return Ok(()) };
+        let Some((key, _, location)) = radius else { return Ok(()) };
         // If the needle is an axis, some designs have a free needle, which cannot have a radius.
         let varies = self.axes.iter().any(|written| written.axis.parameter().key == key::NEEDLE);
         if self.case.puncture.needle.is_guided() && !varies {
             return Ok(());
         }
         let needed = r#"puncture.needle = "guided""#.to_owned();
-        Err(refuse(place, &key, Problem::Needs(needed)))
+        Err(refuse(location, &key, Problem::Needs(needed)))
     }
 
     /// Returns true if `kind` is true for any value that the definition gives to a parameter.
@@ -372,7 +375,7 @@ impl Reader {
 
     /// Refuses elastic scales with friction or a guided needle, which their model does not cover.
     fn check_bending(&self) -> Result<(), InvalidDefinition> {
-        let Some((bending, path, place)) = self.values(key::BENDING) else { return Ok(()) };
+        let Some((bending, path, location)) = self.values(key::BENDING) else { return Ok(()) };
         if !bending.contains(&Scalar::Word("elastic")) {
             return Ok(());
         }
@@ -383,16 +386,16 @@ impl Reader {
         } else {
             return Ok(());
         };
-        Err(refuse(place, &path, Problem::Needs(needed.to_owned())))
+        Err(refuse(location, &path, Problem::Needs(needed.to_owned())))
     }
 
     /// Returns an error for every length in mm without a scale thickness.
     fn lengths_without_thickness(&self) -> impl Iterator<Item = InvalidDefinition> {
         let unknown = !self.gives(key::THICKNESS);
         let in_mm = self.written().filter(move |(_, parameter, _)| unknown && parameter.is_in_mm());
-        in_mm.map(|(key, _, place)| {
+        in_mm.map(|(key, _, location)| {
             let other = format!("material.{}", key::THICKNESS);
-            refuse(place, &key, Problem::Needs(other))
+            refuse(location, &key, Problem::Needs(other))
         })
     }
 
@@ -402,20 +405,20 @@ impl Reader {
     /// moduli of substrate and membrane. Only ratios that the requested measures use are checked.
     fn ratios_without_modulus(&self) -> impl Iterator<Item = InvalidDefinition> {
         let measures = self.measures.as_deref().unwrap_or(&Measure::USUAL);
-        self.written().filter_map(move |(key, parameter, place)| {
+        self.written().filter_map(move |(key, parameter, location)| {
             let mut needed = parameter.ratios().filter(|(ratio, _)| {
                 measures.iter().any(|measure| measure.sections().contains(&ratio.section))
             });
             let (_, below) = needed.find(|(_, below)| !self.gives(below))?;
-            Some(refuse(place, &key, Problem::Needs(format!("material.{below}"))))
+            Some(refuse(location, &key, Problem::Needs(format!("material.{below}"))))
         })
     }
 
     /// Returns an error for a needle force in N without a thickness.
     fn force_without_thickness(&self) -> Option<InvalidDefinition> {
         let mut written = self.written().filter(|_| !self.gives(key::THICKNESS));
-        let (key, _, place) = written.find(|(_, p, _)| p.key == key::NEEDLE_FORCE_N)?;
-        Some(refuse(place, &key, Problem::Needs(format!("material.{}", key::THICKNESS))))
+        let (key, _, location) = written.find(|(_, p, _)| p.key == key::NEEDLE_FORCE_N)?;
+        Some(refuse(location, &key, Problem::Needs(format!("material.{}", key::THICKNESS))))
     }
 
     /// Refuses a parameter if an alternative also has a value.
@@ -424,16 +427,17 @@ impl Reader {
     fn check_alternative(
         &self,
         parameter: &Parameter,
-        place: &Place,
+        location: &Location,
         gives: bool,
     ) -> Result<(), InvalidDefinition> {
         let mut others = parameter.others_in(&self.case).filter(|p| gives && !self.leaves_open(p));
-        let Some((other, there)) = others.find_map(|other| Some((other, self.place(other.key)?)))
+        let Some((other, there)) =
+            others.find_map(|other| Some((other, self.location(other.key)?)))
         else {
             return Ok(());
         };
         let problem = conflict(parameter, other, other.path(), there);
-        Err(refuse(place, &parameter.path(), problem))
+        Err(refuse(location, &parameter.path(), problem))
     }
 
     /// Returns true if no design gives the parameter a number: its value is a word, or missing.
@@ -443,7 +447,7 @@ impl Reader {
     }
 
     /// Refuses a smallest step above the first or the largest step of any design.
-    fn check_steps(&self, file: &Place) -> Result<(), InvalidDefinition> {
+    fn check_steps(&self, file: &Location) -> Result<(), InvalidDefinition> {
         let (_, smallest) = self.span("min_step");
         for other in ["first_step", "max_step"] {
             let (limit, _) = self.span(other);
@@ -453,8 +457,9 @@ impl Reader {
                     Problem::StepOrder { value: number::text(smallest), other: other_key };
                 // At least one of the two keys is in the definition, because the defaults are in
                 // order.
-                let place = self.place("min_step").or_else(|| self.place(other)).unwrap_or(file);
-                return Err(refuse(place, "solver.min_step", problem));
+                let location =
+                    self.location("min_step").or_else(|| self.location(other)).unwrap_or(file);
+                return Err(refuse(location, "solver.min_step", problem));
             }
         }
         Ok(())
@@ -473,14 +478,14 @@ impl Reader {
     }
 
     /// Returns the parameters that the definition gives, with their dotted keys and positions.
-    fn written(&self) -> impl Iterator<Item = (String, &'static Parameter, &Place)> {
-        let shared = self.shared.iter().map(|(p, place)| (p.path(), *p, place));
-        let axes = self.axes.iter().map(|WrittenAxis { axis, place }| {
-            (format!("designs.{}", axis.parameter().key), axis.parameter(), place)
+    fn written(&self) -> impl Iterator<Item = (String, &'static Parameter, &Location)> {
+        let shared = self.shared.iter().map(|(p, location)| (p.path(), *p, location));
+        let axes = self.axes.iter().map(|WrittenAxis { axis, location }| {
+            (format!("designs.{}", axis.parameter().key), axis.parameter(), location)
         });
-        let variables = self.variables.iter().map(|(variable, place)| {
+        let variables = self.variables.iter().map(|(variable, location)| {
             let parameter = variable.parameter();
-            (format!("{}.{}", suggestion::VARIABLES, parameter.key), parameter, place)
+            (format!("{}.{}", suggestion::VARIABLES, parameter.key), parameter, location)
         });
         shared.chain(axes).chain(variables)
     }
@@ -493,22 +498,22 @@ impl Reader {
     /// Returns the position in the definition of the axis or the value of a parameter.
     ///
     /// `None` if the parameter is neither an axis nor set in its section.
-    fn place(&self, key: &str) -> Option<&Place> {
-        let axes = self.axes.iter().map(|written| (written.axis.parameter(), &written.place));
-        let shared = self.shared.iter().map(|(parameter, place)| (*parameter, place));
-        axes.chain(shared).find(|(parameter, _)| parameter.key == key).map(|(_, place)| place)
+    fn location(&self, key: &str) -> Option<&Location> {
+        let axes = self.axes.iter().map(|written| (written.axis.parameter(), &written.location));
+        let shared = self.shared.iter().map(|(parameter, location)| (*parameter, location));
+        axes.chain(shared).find(|(parameter, _)| parameter.key == key).map(|(_, location)| location)
     }
 }
 
 /// Creates the error of two parameters that exclude each other.
 ///
 /// `other` is the key of the parameter `two`, and `there` its position in the definition.
-fn conflict(one: &Parameter, two: &Parameter, other: String, there: &Place) -> Problem {
-    let place = there.clone();
+fn conflict(one: &Parameter, two: &Parameter, other: String, there: &Location) -> Problem {
+    let location = there.clone();
     if one == two || [one, two].iter().all(|parameter| parameter.key != key::PITCH) {
-        Problem::Alternative { other, place }
+        Problem::Alternative { other, location }
     } else {
-        Problem::Pitch { other, place }
+        Problem::Pitch { other, location }
     }
 }
 
@@ -516,7 +521,7 @@ fn unknown(section: &str, entry: &KeyValue) -> InvalidDefinition {
     let dot = if section.is_empty() { "" } else { "." };
     let key = format!("{section}{dot}{}", entry.key);
     let hint = suggestion::for_key(section, &entry.key);
-    refuse(&entry.place, &key, Problem::Unknown { value: entry.value.to_string(), hint })
+    refuse(&entry.location, &key, Problem::Unknown { value: entry.value.to_string(), hint })
 }
 
 /// Returns the entries of a section.
@@ -525,12 +530,12 @@ fn table(section: &KeyValue) -> Result<&KeyValues, InvalidDefinition> {
         Value::Table(entries) => Ok(entries),
         other => {
             let expected = format!("a section, e.g. [{}]", section.key);
-            Err(refuse(&section.place, &section.key, WrongValue::not_accepted(other, expected)))
+            Err(refuse(&section.location, &section.key, WrongValue::not_accepted(other, expected)))
         }
     }
 }
 
-fn missing_name(file: &Place) -> InvalidDefinition {
+fn missing_name(file: &Location) -> InvalidDefinition {
     let expected = "the name of the sweep, e.g. name = \"paper\"";
     refuse(file, "name", Problem::Missing(expected))
 }

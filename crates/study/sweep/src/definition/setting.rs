@@ -6,7 +6,7 @@ use super::suggestion::VARIABLES;
 use crate::case::Case;
 use crate::named_values::{NAME_KEYS, short_name_key};
 use crate::parameter::{Parameter, key};
-use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
+use text::toml_source::{self, KeyValue, KeyValues, Location, Value};
 
 /// Maximum number of parts of a dotted key.
 ///
@@ -27,14 +27,14 @@ const DEEPEST: usize = 8;
 pub struct Setting {
     path: Vec<String>,
     value: Value,
-    place: Place,
+    location: Location,
 }
 
 /// An invalid setting.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{place}: {problem}, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41")]
+#[error("{location}: {problem}, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41")]
 pub struct InvalidSetting {
-    place: Place,
+    location: Location,
     problem: String,
 }
 
@@ -57,8 +57,8 @@ impl Setting {
     /// As [`Self::parse`].
     pub fn from_option(option: &str, text: &str) -> Result<Self, InvalidSetting> {
         // An argument may have several lines, but a message must have one line.
-        let place = Place::Argument(Arc::from(text::one_line(option)));
-        let refuse = |problem: String| InvalidSetting { place: place.clone(), problem };
+        let location = Location::Argument(Arc::from(text::one_line(option)));
+        let refuse = |problem: String| InvalidSetting { location: location.clone(), problem };
         // Split at the first `=`, because the value may be a table or a text with further `=`.
         let (key, value) =
             text.split_once('=').ok_or_else(|| refuse("there is no `=`".to_owned()))?;
@@ -69,7 +69,7 @@ impl Setting {
         if path.len() > DEEPEST {
             return Err(refuse(format!("a key of {} parts, expected at most two", path.len())));
         }
-        let value = toml_source::parse_argument(value, &place).map_err(|message| {
+        let value = toml_source::parse_argument(value, &location).map_err(|message| {
             refuse(format!("`{}` is not a TOML value ({message})", value.trim()))
         })?;
         // `material=PLA` sets `material.scale`; it must not replace the whole section.
@@ -79,7 +79,7 @@ impl Setting {
         {
             path.push(name.key.to_owned());
         }
-        Ok(Self { path, value, place })
+        Ok(Self { path, value, location })
     }
 
     /// Returns the parameter that this setting sets; `None` if its key is not a parameter.
@@ -93,8 +93,8 @@ impl Setting {
     }
 
     /// Returns the origin of the setting for messages: the option as typed.
-    pub fn place(&self) -> &Place {
-        &self.place
+    pub fn location(&self) -> &Location {
+        &self.location
     }
 
     /// Replaces or adds the value of this setting in `table`.
@@ -122,7 +122,7 @@ impl Setting {
             None => self.value.clone(),
             Some((next, rest)) => Value::Table(vec![self.entry(next, rest)]),
         };
-        KeyValue { key: key.to_owned(), value, place: self.place.clone() }
+        KeyValue { key: key.to_owned(), value, location: self.location.clone() }
     }
 
     /// Removes from `table` the values that contradict this setting.
@@ -198,7 +198,9 @@ fn case_of(table: &KeyValues) -> Case {
 fn drop_from_file(table: &mut KeyValues, section: &str, key: &str) {
     for entry in table.iter_mut().filter(|entry| entry.key == section) {
         if let Value::Table(entries) = &mut entry.value {
-            entries.retain(|entry| entry.key != key || !matches!(entry.place, Place::File { .. }));
+            entries.retain(|entry| {
+                entry.key != key || !matches!(entry.location, Location::File { .. })
+            });
         }
     }
 }
