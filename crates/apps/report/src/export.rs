@@ -18,7 +18,9 @@ use std::path::{Path, PathBuf};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, Worksheet, XlsxError};
 
 use ranking::InvalidPreferences;
-use results::{CsvFormat, InvalidFolder, OutputError, ResultsFolder, VerifiedFolder, words};
+use results::{
+    CsvFormat, InvalidFolder, OutputError, ResultsFolder, VerifiedFolder, csv_error_text,
+};
 use text::reason;
 
 use measure_chart::MeasureChart;
@@ -188,11 +190,11 @@ fn profile_of_table(
     (path, file): (&Path, File),
 ) -> Result<(TableProfile, BestValues), ExportError> {
     let (format, mut csv) = open(file).map_err(|error| unreadable(path, reason(&error)))?;
-    let header = csv.headers().map_err(|error| unreadable(path, words(error)))?.clone();
+    let header = csv.headers().map_err(|error| unreadable(path, csv_error_text(error)))?.clone();
     let (mut columns, mut best) =
         (vec![ColumnProfile::default(); header.len()], BestValues::new(&header));
     let (mut row, mut rows) = (csv::StringRecord::new(), 0);
-    while csv.read_record(&mut row).map_err(|error| unreadable(path, words(error)))? {
+    while csv.read_record(&mut row).map_err(|error| unreadable(path, csv_error_text(error)))? {
         rows += 1;
         // Fail early, because writing a sheet of this size takes a minute.
         if rows > ROWS {
@@ -219,9 +221,9 @@ fn copy(
     failed: &dyn Fn(XlsxError) -> ExportError,
 ) -> Result<(Worksheet, u32), ExportError> {
     let (_, mut csv) = open(file).map_err(|error| unreadable(path, reason(&error)))?;
-    let header = csv.headers().map_err(|error| unreadable(path, words(error)))?.clone();
+    let header = csv.headers().map_err(|error| unreadable(path, csv_error_text(error)))?.clone();
     let mut row = csv::StringRecord::new();
-    while csv.read_record(&mut row).map_err(|error| unreadable(path, words(error)))? {
+    while csv.read_record(&mut row).map_err(|error| unreadable(path, csv_error_text(error)))? {
         sheet.add(&row).map_err(failed)?;
     }
     guide.explain(&sheet.table, own, &header).map_err(failed)?;

@@ -225,7 +225,7 @@ pub fn write_found(
         folder.write_text(name, svg)?;
         files.push(name.clone());
     }
-    claim.state(&files)?;
+    claim.finish(&files)?;
     Ok(files)
 }
 
@@ -253,7 +253,7 @@ fn found_tables(goal: &DesignGoal, found: &Found) -> Vec<FoundTable> {
 ///
 /// A difference means that somebody edited the journal.
 fn refuse_edited(folder: &ResultsFolder, tables: &[FoundTable]) -> Result<(), JournalError> {
-    let Some(stated) = Claim::stated(folder, Maker::Search) else { return Ok(()) };
+    let Some(stated) = Claim::recorded(folder, Maker::Search) else { return Ok(()) };
     for FoundTable { name, columns, rows } in tables {
         let Some(table) = WrittenTable::as_stated(folder, name, &stated) else { continue };
         let mut rows = rows.iter();

@@ -307,7 +307,7 @@ impl Comparison<'_> {
         let parameters: Vec<_> = self.first.parameters().collect();
         let columns = difference_columns(&parameters);
         write_rows(&folder, by_cell, format, &columns, self.differences())?;
-        claim.state(&ResultsFolder::COMPARISON)?;
+        claim.finish(&ResultsFolder::COMPARISON)?;
         Ok(ResultsFolder::COMPARISON)
     }
 }

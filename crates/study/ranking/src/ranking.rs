@@ -437,7 +437,7 @@ pub fn write_ranking(
         )?;
         files.splice(2..2, [winners, quaternary]);
     }
-    let lock = claim.state(&files)?;
+    let lock = claim.finish(&files)?;
     Ok((files, lock))
 }
 
@@ -456,6 +456,6 @@ pub fn write_unmet(
     let claim = Claim::take(&folder, Maker::Ranking)?;
     // Write the preferences, because the HTML page of the run first shows these requirements.
     folder.write_text(ResultsFolder::PREFERENCES, &preferences.to_toml())?;
-    let lock = claim.state(&[ResultsFolder::PREFERENCES])?;
+    let lock = claim.finish(&[ResultsFolder::PREFERENCES])?;
     Ok((ResultsFolder::PREFERENCES, lock))
 }

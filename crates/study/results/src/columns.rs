@@ -33,8 +33,9 @@ pub use derived_columns::ValueColumn;
 pub use failures::failure_detail_columns;
 pub use measured_value::{Goal, MeasuredValue, Shown};
 pub use path::{
-    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, LOADED_PLACES, PunctureEvent,
-    SCALES, STEPS, StabilityPoint, flexure_path_columns, path_columns, tip_force_columns,
+    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, LOAD_POSITIONS,
+    PunctureEvent, SCALES, STEPS, StabilityPoint, flexure_path_columns, path_columns,
+    tip_force_columns,
 };
 pub use reruns::RERUN_COLUMNS;
 pub use sensitivity::DERIVATIVE_COLUMNS;

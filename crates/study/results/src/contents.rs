@@ -18,11 +18,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder::ResultsFolder;
 
-/// Prefix of the first line, which holds the SHA-256 of the lines after it.
+/// Key of the first line; its value is the SHA-256 of all lines below it.
 ///
-/// The key says "above" although these lines are below it. A correct key would make existing
-/// folders unreadable.
-const SEAL: &str = "sha256_of_the_above = ";
+/// The name of the key contains "above" by mistake. It is kept, because a new name would make
+/// existing folders unreadable.
+const DIGEST_KEY: &str = "sha256_of_the_above = ";
 
 /// Contents of a results folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -79,12 +79,12 @@ impl Contents {
              {table}"
         );
         // Hash the text, not the parsed values: an edit that keeps the values must be detected too.
-        let sealed = format!("# {SEAL}{}\n{text}", sha256(&text));
+        let sealed = format!("# {DIGEST_KEY}{}\n{text}", sha256(&text));
         folder.write_text(ResultsFolder::CONTENTS, &sealed).map(|_| ())
     }
 
     /// Reads the contents of `folder`. `None` if they are missing or damaged.
-    pub fn stated_in(folder: &ResultsFolder) -> Option<Self> {
+    pub fn read(folder: &ResultsFolder) -> Option<Self> {
         // Damaged contents count as missing here; `VerifiedFolder` reports the damage.
         let text = read_text(&folder.file(ResultsFolder::CONTENTS)).ok()?;
         Self::parse(&text).ok()
@@ -93,7 +93,7 @@ impl Contents {
     /// Parses the text of `contents.toml` after verifying its checksum.
     fn parse(text: &str) -> Result<Self, String> {
         let sealed = text.split_once('\n').and_then(|(seal, text)| {
-            let digest = seal.strip_prefix("# ")?.strip_prefix(SEAL)?;
+            let digest = seal.strip_prefix("# ")?.strip_prefix(DIGEST_KEY)?;
             (digest == sha256(text)).then_some(text)
         });
         let text = sealed.ok_or("its checksum does not match")?;

@@ -149,8 +149,8 @@ pub static FILES: [FileEntry; 49] = [
     plain(ResultsFolder::FLEXURE[1], Maker::Design, Role::Record),
     plain(ResultsFolder::FLEXURE[2], Maker::Design, Role::Record),
     plain(ResultsFolder::FLEXURE[3], Maker::Design, Role::Record),
-    plain(ResultsFolder::WAY_BACK[0], Maker::Design, Role::Record),
-    plain(ResultsFolder::WAY_BACK[1], Maker::Design, Role::Record),
+    plain(ResultsFolder::UNLOADING[0], Maker::Design, Role::Record),
+    plain(ResultsFolder::UNLOADING[1], Maker::Design, Role::Record),
     plain(ResultsFolder::PLACES, Maker::Design, Role::Record),
 ];
 
@@ -214,7 +214,7 @@ impl ResultsFolder {
     pub const FLEXURE: [&'static str; 4] =
         ["flexure_path.csv", "flexure_events.csv", "flexure_scales.csv", "flexure_steps.csv"];
     /// Tables of the unloading paths of one design, for puncture and bending.
-    pub const WAY_BACK: [&'static str; 2] = ["way_back.csv", "flexure_way_back.csv"];
+    pub const UNLOADING: [&'static str; 2] = ["way_back.csv", "flexure_way_back.csv"];
     /// Table of the evaluated load positions of one design.
     pub const PLACES: &'static str = "places.csv";
 

@@ -86,7 +86,7 @@ pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::{PathTable, path_tables, write_path_tables};
 pub use quantity::{Quantity, areal_mass, bending_units, puncture_units};
 pub use reader::table::Table;
-pub use reader::{InvalidResults, Results, definition, words};
+pub use reader::{InvalidResults, Results, csv_error_text, definition};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};
 pub use tables::written_table::WrittenTable;

@@ -6,8 +6,8 @@ use skin::puncture::{Instability, Puncture};
 
 use crate::columns::{
     BentScale, Cell, Column, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES,
-    FLEXURE_STEPS, LOADED_PLACES, PunctureEvent, SCALES, STEPS, flexure_path_columns, path_columns,
-    tip_force_columns,
+    FLEXURE_STEPS, LOAD_POSITIONS, PunctureEvent, SCALES, STEPS, flexure_path_columns,
+    path_columns, tip_force_columns,
 };
 use crate::design::row::SolvedDesign;
 use crate::folder::ResultsFolder;
@@ -94,10 +94,10 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
         columns.retain(|column| !column.name.starts_with("unstable"));
         let points = back.path.iter().map(|&point| (point, Instability::default()));
         let points: Vec<_> = points.collect();
-        tables.push(PathTable::new(ResultsFolder::WAY_BACK[0], &columns, &points));
+        tables.push(PathTable::new(ResultsFolder::UNLOADING[0], &columns, &points));
     }
     if !puncture.places.is_empty() {
-        tables.push(PathTable::new(ResultsFolder::PLACES, LOADED_PLACES, &puncture.places));
+        tables.push(PathTable::new(ResultsFolder::PLACES, LOAD_POSITIONS, &puncture.places));
     }
     tables
 }
@@ -115,7 +115,7 @@ fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
         PathTable::new(steps, FLEXURE_STEPS, &flexure.history),
     ];
     if let Some(back) = &flexure.unloading {
-        tables.push(PathTable::new(ResultsFolder::WAY_BACK[1], &columns, &back.path));
+        tables.push(PathTable::new(ResultsFolder::UNLOADING[1], &columns, &back.path));
     }
     tables
 }

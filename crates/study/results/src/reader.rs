@@ -145,7 +145,7 @@ impl Results {
         let read = read_table(folder.table(file).map_err(InvalidResults::Folder)?, most, is_read);
         let (format, table, in_table) = read.map_err(|error| InvalidResults::Unreadable {
             file: path.display().to_string(),
-            reason: words(error),
+            reason: csv_error_text(error),
         })?;
         let header = table.header();
         match header.first() {
@@ -358,7 +358,7 @@ fn plain(format: CsvFormat, cell: &str) -> String {
 }
 
 /// Returns a one-line message for a table that cannot be read.
-pub fn words(error: csv::Error) -> String {
+pub fn csv_error_text(error: csv::Error) -> String {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => reason(&error),
         csv::ErrorKind::Utf8 { .. } => "it is not UTF-8 text".to_owned(),

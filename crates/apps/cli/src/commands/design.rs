@@ -75,7 +75,7 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     files.push(write_measures(&folder, &chosen.columns, &chosen.solved.row)?);
     folder.write_text("design.toml", &chosen.design.sweep.to_toml())?;
     files.push("design.toml");
-    claim.state(&files)?;
+    claim.finish(&files)?;
     let path = folder.path();
     json::answer(
         arguments.json,

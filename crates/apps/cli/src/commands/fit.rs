@@ -126,7 +126,7 @@ fn write(folder: &ResultsFolder, fitted: &Fitted) -> anyhow::Result<()> {
     let panels: Vec<_> = panels.collect();
     folder.write_text(figure, &fit_figure(fitted.sweep.name(), &panels))?;
     folder.write_text(definition, &fitted_toml(fitted))?;
-    claim.state(&FILES)?;
+    claim.finish(&FILES)?;
     Ok(())
 }
 

@@ -69,7 +69,7 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
     let folder = &sampled.folder;
     let rows = found.measures.iter().flat_map(|measure| measure.rows(&found.variables));
     write_rows(folder, TABLE, folder.csv_format(), INDEX_COLUMNS, rows)?;
-    claim.state(&[TABLE])?;
+    claim.finish(&[TABLE])?;
     json::answer(
         arguments.sampled.solving.json,
         || record(&sweep, &found, folder.path()),

@@ -93,7 +93,7 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
             files.push(name);
         }
     }
-    claim.state(&files)?;
+    claim.finish(&files)?;
     json::answer(
         arguments.sampled.solving.json,
         || record::record(&sweep, &all, folder.path(), &files),

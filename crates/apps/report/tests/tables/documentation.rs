@@ -11,7 +11,7 @@ use ranking::{
     ranking_columns, winner_columns,
 };
 use results::columns::{
-    EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, LOADED_PLACES, SCALES, STEPS,
+    EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, LOAD_POSITIONS, SCALES, STEPS,
     design_columns, flexure_path_columns, path_columns, tip_force_columns, value_columns,
 };
 use results::{
@@ -125,7 +125,7 @@ fn sections_of_single_designs() -> impl Iterator<Item = Section> {
         ("`path.csv`", columns(&path_columns(true, true))),
         ("`path.csv`, of a round tip in addition", columns(&tip_force_columns(&[vec![(0, 0.0)]]))),
         ("`events.csv`", columns(EVENTS)),
-        ("`places.csv`", columns(LOADED_PLACES)),
+        ("`places.csv`", columns(LOAD_POSITIONS)),
         ("`scales.csv`", columns(SCALES)),
         ("`steps.csv`", columns(STEPS)),
         ("`flexure_path.csv`", columns(&flexure_path_columns(true))),

@@ -149,7 +149,7 @@ pub static SCALES: &[Column<ScaleState>] = &columns! { ScaleState:
 };
 
 /// The columns of `places.csv`.
-pub static LOADED_PLACES: &[Column<LoadPosition>] = &columns! { LoadPosition:
+pub static LOAD_POSITIONS: &[Column<LoadPosition>] = &columns! { LoadPosition:
     "place", "-", |p| p.position,
         "load position: 0 the left corner of the top, 1 the right; above 1, a round tip between two scales";
     name::CRITICAL_FORCE, "E_s L t/(1-nu^2)", |p| p.force,

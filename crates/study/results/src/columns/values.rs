@@ -252,7 +252,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     of_puncture("remaining_displacement", BOTH, |p| p.measures.remains.displacement.into())
         .in_unit("t").at(End).needing(&[key::UNLOAD]):
         "displacement of the punctured point that remains after unloading";
-    of_puncture("unload_status", BOTH, |p| p.way_back.map(Outcome::text).into())
+    of_puncture("unload_status", BOTH, |p| p.unloading.map(Outcome::text).into())
         .last().needing(&[key::UNLOAD]):
         "complete, or why the load did not return to zero, so that the values of unloading are unknown";
     of_puncture("unique", BOTH, |p| p.measures.unique.map(yes_or_no).into()).needing(&[key::FRICTION]):
@@ -266,7 +266,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     of_bending("remaining_curvature", COMPLIANCE, |f| f.measures.remains.displacement.into())
         .in_unit("1/t").at(End).needing(&[key::UNBEND]):
         "curvature that remains after unloading";
-    of_bending("unbend_status", COMPLIANCE, |f| f.way_back.map(Outcome::text).into())
+    of_bending("unbend_status", COMPLIANCE, |f| f.unloading.map(Outcome::text).into())
         .last().needing(&[key::UNBEND]):
         "complete, or why the moment did not return to zero, so that the values of unloading are unknown";
     of_bending("locking_curvature", COMPLIANCE, |f| f.measures.locking_curvature.into())

@@ -29,14 +29,14 @@ impl<'f> Claim<'f> {
     ///
     /// If `maker` would overwrite such a file.
     pub fn check(folder: &ResultsFolder, maker: Maker) -> Result<(), OutputError> {
-        let stated = Self::stated(folder, maker);
+        let recorded = Self::recorded(folder, maker);
         // A damaged record lists no files, but proves that the command wrote some.
-        if stated.is_none()
+        if recorded.is_none()
             && folder.holds(&format!("{}/{}.toml", ResultsFolder::DERIVED, maker.key()))
         {
             return Ok(());
         }
-        let known = stated.unwrap_or_default();
+        let known = recorded.unwrap_or_default();
         let mut unknown = FileEntry::products(maker).filter(|file| !known.contains_key(file.name));
         unknown.try_for_each(|file| require_none(folder, file.name))
     }
@@ -44,7 +44,7 @@ impl<'f> Claim<'f> {
     /// Returns the recorded SHA-256 of each file of `maker`, by name.
     ///
     /// `None` if `maker` has no record, or a damaged one.
-    pub fn stated(folder: &ResultsFolder, maker: Maker) -> Option<BTreeMap<String, String>> {
+    pub fn recorded(folder: &ResultsFolder, maker: Maker) -> Option<BTreeMap<String, String>> {
         Derivation::read(folder, maker.key()).map(|record| record.files)
     }
 
@@ -62,7 +62,7 @@ impl<'f> Claim<'f> {
         // Check after locking, because another process may have written since an earlier check.
         Self::check(folder, maker)?;
         Self::release(folder, maker);
-        // Leave the digests empty until `state`, so that the files of a killed command count as
+        // Leave the digests empty until `finish`, so that the files of a killed command count as
         // unfinished.
         let names = FileEntry::products(maker).map(|file| (file.name.to_owned(), String::new()));
         let (product, command) = maker.names();
@@ -95,7 +95,7 @@ impl<'f> Claim<'f> {
     /// # Errors
     ///
     /// If a file cannot be read, or the record cannot be written.
-    pub fn state(mut self, files: &[impl AsRef<str>]) -> Result<File, OutputError> {
+    pub fn finish(mut self, files: &[impl AsRef<str>]) -> Result<File, OutputError> {
         let folder = self.folder;
         self.record.files.retain(|name, _| files.iter().any(|file| file.as_ref() == name));
         for (name, digest) in &mut self.record.files {
@@ -152,7 +152,7 @@ mod tests {
                 let claim = Claim::take(&folder, file.maker).expect(file.name);
                 assert!(!folder.holds(file.name), "the file of the earlier run is removed");
                 write(text);
-                claim.state(&[file.name]).expect("written");
+                claim.finish(&[file.name]).expect("written");
             }
             // A command that is killed between `take` and `state` leaves files that it may remove
             // in the next run.
@@ -173,13 +173,13 @@ mod tests {
         for name in files {
             write(name, "written");
         }
-        claim.state(&files).expect("written");
+        claim.finish(&files).expect("written");
         write("yield.csv", "changed");
         let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");
         assert!(!folder.holds("tolerance.csv") && folder.holds("yield.csv"));
         // The changed file counts as foreign after a run that did not write it.
         write("tolerance.csv", "again");
-        claim.state(&files[..1]).expect("written");
+        claim.finish(&files[..1]).expect("written");
         let refused = Claim::take(&folder, Maker::Tolerance).expect_err("foreign file").to_string();
         assert!(refused.contains("yield.csv"), "{refused}");
     }

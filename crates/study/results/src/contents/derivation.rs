@@ -75,7 +75,7 @@ impl Derivation {
     }
 
     /// Returns true if any file of the product still exists.
-    pub fn is_there(&self, folder: &ResultsFolder) -> bool {
+    pub fn any_file_exists(&self, folder: &ResultsFolder) -> bool {
         self.files.keys().any(|name| folder.file(name).is_file())
     }
 

@@ -139,8 +139,8 @@ impl VerifiedFolder {
         let stated = self.contents.iter().flat_map(|contents| contents.files.keys());
         let ranking = Derivation::read(&self.folder, ResultsFolder::RANKING_RECORD);
         // A ranking that was removed completely does not count as missing.
-        let ranking =
-            ranking.filter(|record| self.contents.is_some() && record.is_there(&self.folder));
+        let ranking = ranking
+            .filter(|record| self.contents.is_some() && record.any_file_exists(&self.folder));
         let ranked = ranking.iter().flat_map(|record| record.files.keys());
         let expected: BTreeSet<&str> = stated.chain(ranked).map(String::as_str).collect();
         let tables =
@@ -348,7 +348,7 @@ impl VerifiedFolder {
         let all = Derivation::all(&self.folder).into_iter();
         // A product of a definition does not become outdated when tables are rewritten.
         let is_older = |record: &Derivation| !record.from.is_empty() && record.from != digest;
-        all.filter(|record| is_older(record) && record.is_there(&self.folder)).collect()
+        all.filter(|record| is_older(record) && record.any_file_exists(&self.folder)).collect()
     }
 }
 
@@ -361,7 +361,7 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     let (Some(name), Some(folder)) = (path.file_name(), path.parent()) else { return Ok(()) };
     // Check only a file with the name of the record: a copy under another name may be edited.
     let is_record = name == ResultsFolder::RUN_INFO && path.is_file();
-    let stated = is_record.then(|| Contents::stated_in(&ResultsFolder::new(folder))).flatten();
+    let stated = is_record.then(|| Contents::read(&ResultsFolder::new(folder))).flatten();
     let expected = stated.and_then(|contents| contents.files.get(ResultsFolder::RUN_INFO).cloned());
     let Some(expected) = expected else { return Ok(()) };
     // Report a file that cannot be read as unreadable, not as edited.

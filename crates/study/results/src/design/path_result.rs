@@ -29,8 +29,8 @@ pub struct PunctureResult {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<Outcome>,
     /// Outcome of unloading, if it was requested.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub way_back: Option<Outcome>,
+    #[serde(rename = "way_back", default, skip_serializing_if = "Option::is_none")]
+    pub unloading: Option<Outcome>,
 }
 
 impl PunctureResult {
@@ -45,7 +45,7 @@ impl PunctureResult {
             weakest: None,
             across: None,
             between: None,
-            way_back: None,
+            unloading: None,
         }
     }
 }
@@ -63,14 +63,14 @@ pub struct FlexureResult {
     /// Number of Newton iterations.
     pub iterations: usize,
     /// Outcome of unloading, if it was requested.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub way_back: Option<Outcome>,
+    #[serde(rename = "way_back", default, skip_serializing_if = "Option::is_none")]
+    pub unloading: Option<Outcome>,
 }
 
 impl FlexureResult {
     /// Creates the result of bending without a path, with `outcome` as the reason.
     pub fn without_path(outcome: Outcome) -> Self {
         let measures = flexure::FlexureMeasures::default();
-        Self { outcome, measures, points: 0, iterations: 0, way_back: None }
+        Self { outcome, measures, points: 0, iterations: 0, unloading: None }
     }
 }

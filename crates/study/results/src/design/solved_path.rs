@@ -42,7 +42,7 @@ impl PunctureResult {
             ),
             across: None,
             between: None,
-            way_back: puncture.unloading.as_ref().map(unloading_outcome),
+            unloading: puncture.unloading.as_ref().map(unloading_outcome),
         }
     }
 }
@@ -53,8 +53,8 @@ impl FlexureResult {
     /// If one number is not finite, all numbers are omitted.
     pub fn new(flexure: &Flexure) -> Self {
         let Flexure { status, measures, path, history, .. } = flexure;
-        let way_back = flexure.unloading.as_ref().map(unloading_outcome);
-        Self { way_back, ..Self::checked(*status, *measures, path.len(), history.len()) }
+        let unloading = flexure.unloading.as_ref().map(unloading_outcome);
+        Self { unloading, ..Self::checked(*status, *measures, path.len(), history.len()) }
     }
 
     /// Creates the result of an imperfect strip, as [`Self::new`] does.
@@ -73,7 +73,7 @@ impl FlexureResult {
             flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_flexure(&mut measures));
         let (outcome, measures) = finite_or(finite_all, status.into(), measures, counts);
-        Self { outcome, measures, points, iterations, way_back: None }
+        Self { outcome, measures, points, iterations, unloading: None }
     }
 }
 

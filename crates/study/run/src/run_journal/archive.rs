@@ -157,7 +157,7 @@ impl Archive {
     /// Returns `None` if the journal still has all lines from which these tables were written.
     pub(crate) fn lost_lines(&self, folder: &ResultsFolder) -> Option<String> {
         // `contents.toml` states the number of complete lines when the tables were written.
-        let stated = Contents::stated_in(folder)?.journal.lines;
+        let stated = Contents::read(folder)?.journal.lines;
         let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
         Some(format!("{lost} of the {stated} lines from which the tables were written are missing"))
     }

@@ -11,7 +11,7 @@ use super::archive::Archive;
 /// Designs are compared only if the part of the journal from which the tables were written has
 /// changed. Removed, duplicated or reordered lines change no design and are no error.
 pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), JournalError> {
-    let Some(contents) = Contents::stated_in(folder) else { return Ok(()) };
+    let Some(contents) = Contents::read(folder) else { return Ok(()) };
     let stated = &contents.journal;
     let found = JournalExtent::read(&folder.journal(), stated.bytes, stated.lines);
     if found.is_ok_and(|found| found == *stated) {

@@ -515,7 +515,7 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
         Measure::Sensitivity => return None,
         Measure::Puncture => {
             let puncture = result.puncture?;
-            match [puncture.weakest, puncture.across, puncture.between, puncture.way_back]
+            match [puncture.weakest, puncture.across, puncture.between, puncture.unloading]
                 .into_iter()
                 .flatten()
                 .find(is_missing)
@@ -528,7 +528,7 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
         }
         Measure::Flexure => {
             let flexure = result.flexure?;
-            match flexure.way_back.filter(is_missing) {
+            match flexure.unloading.filter(is_missing) {
                 Some(back) if flexure.outcome == Outcome::Complete => (back, None),
                 _ => (flexure.outcome, solved.flexure.as_ref().map(PathEnd::of_flexure)),
             }

@@ -117,11 +117,11 @@ fn outcomes(case: &Case) -> Vec<(&'static str, Outcome)> {
     if let Some(puncture) = result.puncture {
         outcomes.push(("puncture", puncture.outcome));
         outcomes.extend(puncture.weakest.map(|outcome| ("weakest", outcome)));
-        outcomes.extend(puncture.way_back.map(|outcome| ("unloading", outcome)));
+        outcomes.extend(puncture.unloading.map(|outcome| ("unloading", outcome)));
     }
     if let Some(flexure) = result.flexure {
         outcomes.push(("flexure", flexure.outcome));
-        outcomes.extend(flexure.way_back.map(|outcome| ("unbending", outcome)));
+        outcomes.extend(flexure.unloading.map(|outcome| ("unbending", outcome)));
     }
     outcomes
 }
