@@ -122,7 +122,7 @@ impl Watched for SearchProgress {
 
     fn text(&self, remaining: &str, _: Duration) -> String {
         let (part, done, tasks) = self.progress();
-        format!("{}: {done}/{tasks}  {} designs{remaining}", part.words(), self.designs())
+        format!("{}: {done}/{tasks}  {} designs{remaining}", part.description(), self.designs())
     }
 
     fn news(&self) -> Vec<String> {

@@ -130,7 +130,7 @@ pub fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Vec<(String, Py<PyAny>)
             }
             let cells = (0..results.len()).map(|row| results.text(row, column).into_owned());
             let cells = match name.as_str() {
-                "design" => Cells::words(cells.collect()),
+                "design" => Cells::text_column(cells.collect()),
                 _ => Cells::of_texts(cells.collect()),
             };
             columns.push((name.clone(), cells));

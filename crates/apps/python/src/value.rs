@@ -146,12 +146,12 @@ impl Cells {
             Some(numbers) => {
                 Self::Numbers(numbers.into_iter().flat_map(f64::to_ne_bytes).collect())
             }
-            None => Self::words(cells),
+            None => Self::text_column(cells),
         }
     }
 
     /// Creates the cells of a text column, such as design numbers with leading zeros.
-    pub fn words(cells: Vec<String>) -> Self {
+    pub fn text_column(cells: Vec<String>) -> Self {
         Self::Texts(
             cells.into_iter().map(|text| PythonCell::from(Cell::Text(text.into()))).collect(),
         )

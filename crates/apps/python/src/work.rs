@@ -55,7 +55,7 @@ impl Watch {
     fn progress(&self) -> (f64, String) {
         let (part, _, tasks) = self.search.progress();
         if tasks > 0 {
-            return (self.search.completed_fraction(), part.words().to_owned());
+            return (self.search.completed_fraction(), part.description().to_owned());
         }
         let (done, all) = (self.done.load(Ordering::Relaxed), self.all.load(Ordering::Relaxed));
         let fraction = if self.run.completed_fraction() > 0.0 {

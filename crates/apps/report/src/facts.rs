@@ -11,10 +11,13 @@ pub fn facts(text: &str) -> Vec<Fact> {
     let table = toml_source::parse(text, "run.toml").unwrap_or_default();
     let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
     let Some(Value::Table(entries)) = run else { return Vec::new() };
-    entries.into_iter().map(|entry| (entry.key.replace('_', " "), words(entry.value))).collect()
+    entries
+        .into_iter()
+        .map(|entry| (entry.key.replace('_', " "), value_text(entry.value)))
+        .collect()
 }
 
-fn words(value: Value) -> String {
+fn value_text(value: Value) -> String {
     match value {
         Value::Table(counts) => counts
             .iter()

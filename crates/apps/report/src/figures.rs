@@ -17,7 +17,7 @@ use ranking::{CRITERIA, Ranking, Weights};
 use results::Quantity::{Force, Length, Moment, Stiffness};
 use results::columns::{is_invalid_after_fold, name, physical_source};
 
-pub(crate) use names::in_words;
+pub(crate) use names::name_with_unit;
 use names::with_value;
 pub use parallel::ParallelFigure;
 pub use search::{EVALUATION, SearchFigure, SearchedDesign};

@@ -4,7 +4,7 @@ use crate::axis::{ChartAxis, ends};
 use crate::chart::{Area, ChartPanel};
 use crate::colors::{INK, RED, map_color};
 use crate::figures::names::axis_label;
-use crate::figures::{in_words, sheet};
+use crate::figures::{name_with_unit, sheet};
 use crate::label::{Anchor, fitting, label, width};
 use crate::svg::{Element, Spot, line, rect};
 
@@ -123,7 +123,7 @@ pub fn share_bars(name: &str, measures: &[Shares]) -> String {
     let top = 62.0 + 18.0 * sources.len().div_ceil(2) as f64;
     for (row, (measure, shares)) in measures.iter().enumerate() {
         let y = top + ROW * row as f64;
-        let name = in_words(measure);
+        let name = name_with_unit(measure);
         let size = fitting(&name, 12.0, NAMES - 20.0);
         let name = label(&name, [NAMES - 8.0, y + 16.0], size, Anchor::End);
         inside.push(name.with("fill", INK));
@@ -137,7 +137,7 @@ pub fn share_bars(name: &str, measures: &[Shares]) -> String {
 fn legend(k: usize, source: &str, sources: &[&str]) -> [Element; 2] {
     let [x, y] = [24.0 + 360.0 * (k % 2) as f64, 50.0 + 18.0 * (k / 2) as f64];
     let (parameter, level) = source.split_once(' ').unwrap_or((source, ""));
-    let name = format!("{} {level}", in_words(parameter));
+    let name = format!("{} {level}", name_with_unit(parameter));
     let name = label(name.trim_end(), [x + 18.0, y + 2.0], 12.0, Anchor::Start);
     [block([x, y - 9.0], [12.0, 12.0], &color(k, sources)), name.with("fill", INK)]
 }

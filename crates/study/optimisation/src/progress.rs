@@ -74,7 +74,7 @@ pub(crate) struct SearchTask<'p> {
 
 impl SearchPart {
     /// Returns the description of the part for the display.
-    pub fn words(self) -> &'static str {
+    pub fn description(self) -> &'static str {
         match self {
             Self::Sample => "space-filling points",
             Self::LocalSearches => "local searches from the best points",

@@ -112,7 +112,7 @@ impl Preferences {
     }
 
     /// Lists the criteria with their weights, for messages.
-    pub fn in_words(&self) -> String {
+    pub fn criteria_text(&self) -> String {
         let parts = self.criteria.iter().zip(self.weights.values());
         let parts = parts.map(|(c, weight)| format!("{} {}", c.name, number::text(*weight)));
         parts.collect::<Vec<_>>().join(", ")

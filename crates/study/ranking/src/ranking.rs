@@ -163,8 +163,10 @@ impl<'r> Ranking<'r> {
         if unmet > 0 && unmet == results.len() {
             return Err(InvalidRanking::Unmet(Unmet::of(results, &preferences.requirements)?));
         }
-        let left_out: Vec<_> =
-            reasons.into_iter().map(|(why, count)| (why.in_words(&preferences), count)).collect();
+        let left_out: Vec<_> = reasons
+            .into_iter()
+            .map(|(why, count)| (why.description(&preferences), count))
+            .collect();
         if contenders.rows.is_empty() {
             return Err(nothing(results, &preferences, &left_out));
         }

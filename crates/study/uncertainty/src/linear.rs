@@ -153,7 +153,7 @@ impl LinearSpread {
     }
 
     /// Lists the main sources, e.g. "`gap_mm` 83 %, `slant_deg` from scale to scale 12 %".
-    pub fn in_words(&self) -> String {
+    pub fn sources_text(&self) -> String {
         // Omit fractions that would be rounded to 0 %.
         let matters = self.sources.iter().filter(|source| source.share >= 0.005);
         matters

@@ -59,7 +59,7 @@ pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &col
     "value", SAME, |(_, m)| m.value, "value of the nominal design";
     "linear_spread", SAME, |(_, m)| m.linear.as_ref().map(|linear| linear.spread),
         "standard deviation that the derivatives predict; empty if a one-sided derivative is missing at a kink";
-    "sources", "-", |(_, m)| m.linear.as_ref().map(LinearSpread::in_words),
+    "sources", "-", |(_, m)| m.linear.as_ref().map(LinearSpread::sources_text),
         "sources of the linear spread, the largest contribution first";
     "samples", "-", |(_, m)| m.sampled.as_ref().map(|sampled| sampled.count),
         "solved samples with a value";

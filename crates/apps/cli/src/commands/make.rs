@@ -361,7 +361,7 @@ fn tolerances(
         let deviation = format!("+- {}", rounded(linear.spread));
         let value = rounded(measure.value?);
         let unit = if measure.unit == "-" { "" } else { measure.unit };
-        Some([measure.name.clone(), value, deviation, unit.to_owned(), linear.in_words()])
+        Some([measure.name.clone(), value, deviation, unit.to_owned(), linear.sources_text()])
     });
     let rows: Vec<_> = varying.collect();
     Ok(format!(

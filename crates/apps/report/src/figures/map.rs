@@ -8,7 +8,7 @@ use results::columns::name;
 use text::number::{self, DistinctNumbers};
 
 use super::contours::{contours, joined};
-use super::names::{axis_label, in_short, in_words, with_value};
+use super::names::{axis_label, in_short, name_with_unit, with_value};
 use super::{Figure, columns, is_affected_by_folds, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, NAME, upright_name};
@@ -139,7 +139,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     let at = at.map(|(axis, value)| (axis.as_str(), value.as_str().into()));
     let at: AxisValues<'_> = at.collect();
     let title = super::title(
-        &format!("{name}: {} over {} and {}", in_words(of), in_short(x), in_short(y)),
+        &format!("{name}: {} over {} and {}", name_with_unit(of), in_short(x), in_short(y)),
         &at,
     );
     let file = format!("map-of-{of}-over-{x}-and-{y}").replace('_', "-");
@@ -161,7 +161,7 @@ pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str, paper: Paper) ->
         COVERAGE => ChartAxis::exact(&format!("{label}; white: none"), 0.0, 1.0),
         _ => ChartAxis::fit(&label, designs.numbers(of)),
     };
-    let title = format!("{name}: {} by gap, aspect ratio and slant", in_words(of));
+    let title = format!("{name}: {} by gap, aspect ratio and slant", name_with_unit(of));
     MapSubject { x: &x, y: &y, of, scale }.figure(&title, &designs.parts_by(&axes), paper)
 }
 

@@ -116,7 +116,7 @@ pub(crate) fn figure(
     inside.push(label(&x.label, [middle, bottom + 38.0], size, Anchor::Middle).with("fill", INK));
     let (center, room) = (0.5 * (first.top + bottom), bottom - first.top);
     inside.push(upright_name(&y.label, [18.0, center], room));
-    let title = format!("{name}: {}", super::in_words(&quantity.column));
+    let title = format!("{name}: {}", super::name_with_unit(&quantity.column));
     sheet(full, bottom + BOTTOM, &title, inside)
 }
 

@@ -58,8 +58,8 @@ fn symbol(column: &str) -> Option<(&'static str, &'static str)> {
     NAMED.iter().find(|(name, ..)| *name == column).map(|(.., symbol, meaning)| (*symbol, *meaning))
 }
 
-/// Returns the words for the name of a column, which is given without its unit.
-fn words(name: &str) -> String {
+/// Returns the readable name of a column, which is given without its unit.
+fn plain_name(name: &str) -> String {
     let mut quantiles = QUANTILES.iter();
     let quantile = quantiles.find_map(|(end, words)| Some((name.strip_suffix(end)?, *words)));
     let (name, quantile) = quantile.unwrap_or((name, ""));
@@ -70,18 +70,18 @@ fn words(name: &str) -> String {
     }
 }
 
-/// Returns the name of a column as words, with the unit in parentheses.
-pub(crate) fn in_words(column: &str) -> String {
+/// Returns the readable name of a column, with the unit in parentheses.
+pub(crate) fn name_with_unit(column: &str) -> String {
     match without_unit(column) {
-        (name, unit) if unit.is_empty() => words(name),
-        (name, unit) => format!("{} ({unit})", words(name)),
+        (name, unit) if unit.is_empty() => plain_name(name),
+        (name, unit) => format!("{} ({unit})", plain_name(name)),
     }
 }
 
 /// Returns the short name of a parameter for titles: its symbol, or else words.
 pub(crate) fn in_short(parameter: &str) -> String {
     let symbol = symbol(parameter).map(|(symbol, _)| symbol.to_owned());
-    symbol.unwrap_or_else(|| words(without_unit(parameter).0))
+    symbol.unwrap_or_else(|| plain_name(without_unit(parameter).0))
 }
 
 /// Formats a parameter with its value, for titles of figures and panels.
@@ -96,24 +96,24 @@ pub(crate) fn with_value((parameter, value): &(&str, impl AsRef<str>)) -> String
 pub(crate) fn axis_label(column: &str) -> String {
     let (name, unit) = without_unit(column);
     let (symbol, meaning) = symbol(column).unwrap_or_default();
-    let words = [&words(name), symbol].join(" ");
+    let text = [&plain_name(name), symbol].join(" ");
     match unit.as_str() {
-        "" => format!("{}{meaning}, dimensionless", words.trim_end()),
-        "°" => format!("{}, degrees", words.trim_end()),
-        unit => format!("{} ({unit})", words.trim_end()),
+        "" => format!("{}{meaning}, dimensionless", text.trim_end()),
+        "°" => format!("{}, degrees", text.trim_end()),
+        unit => format!("{} ({unit})", text.trim_end()),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{axis_label, in_short, in_words, with_value};
+    use super::{axis_label, in_short, name_with_unit, with_value};
 
     #[test]
     fn column_names_are_spelled_out() {
         let words =
             ["critical_force_N", "critical_force_p50_N", "max_moment_N_mm", "peak_tilt_deg"];
         assert_eq!(
-            words.map(in_words),
+            words.map(name_with_unit),
             [
                 "critical force (N)",
                 "median of critical force (N)",

@@ -2,7 +2,7 @@
 //!
 //! The figure has an axis for each variable, objective and requirement.
 
-use super::names::in_words;
+use super::names::name_with_unit;
 use super::sheet;
 use crate::axis::ends;
 use crate::colors::{FAINT, INK, RED};
@@ -83,7 +83,7 @@ impl ParallelFigure<'_> {
     fn axis(&self, k: usize) -> Element {
         let (low, high) = self.ends(k);
         let x = SIDE + k as f64 * self.step();
-        let name = in_words(&self.axes[k]);
+        let name = name_with_unit(&self.axes[k]);
         // Names of neighbouring axes alternate between two heights, so that each may be two steps
         // wide.
         let above = [22.0, 36.0][k % 2];

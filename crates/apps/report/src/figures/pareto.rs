@@ -4,7 +4,7 @@ use ranking::Criterion;
 use results::Quantity;
 use results::columns::{Goal, name, physical_source, plain_goal};
 
-use super::names::{axis_label, in_words};
+use super::names::{axis_label, name_with_unit};
 use super::{of_perfect, sheet, thinned};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, MarkLook, design_mark, mark_legend};
@@ -84,7 +84,7 @@ pub(crate) fn physical_axes(designs: &Designs) -> [CriterionAxis; 4] {
         };
         CriterionAxis {
             column: column.clone(),
-            labels: [axis_label(column), in_words(column)],
+            labels: [axis_label(column), name_with_unit(column)],
             is_inverse: false,
             sign: if goal == Goal::Maximize { 1.0 } else { -1.0 },
         }

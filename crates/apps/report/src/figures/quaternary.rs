@@ -7,7 +7,7 @@ use ranking::{RankedDesign, Ranking, Weights};
 
 use super::names::with_value;
 use super::weight_slices::{RegionLook, WeightSlices};
-use super::{in_words, of_perfect, sheet};
+use super::{name_with_unit, of_perfect, sheet};
 use crate::colors::{FAINT, INK, RED, shaded};
 use crate::designs::Designs;
 use crate::label::{Anchor, fitting, label};
@@ -130,7 +130,7 @@ fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot, right
 /// A long text has a smaller font. `None` if there are no such parameters.
 fn further(designs: &Designs, row: usize, spot: Spot, right: f64) -> Option<Element> {
     let axes = designs.further_axes().into_iter();
-    let values = axes.map(|axis| format!("{} {}", in_words(axis), designs.text(axis, row)));
+    let values = axes.map(|axis| format!("{} {}", name_with_unit(axis), designs.text(axis, row)));
     let text = values.collect::<Vec<_>>().join(",  ");
     let size = fitting(&text, 11.0, right - spot[0]);
     (!text.is_empty()).then(|| label(&text, spot, size, Anchor::Start).with("fill", FAINT))

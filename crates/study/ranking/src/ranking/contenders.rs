@@ -55,7 +55,7 @@ impl Exclusion {
     }
 
     /// Describes the reason, for messages.
-    pub fn in_words(self, preferences: &Preferences) -> String {
+    pub fn description(self, preferences: &Preferences) -> String {
         match self {
             Self::Unmet(index) => format!("not {}", preferences.requirements[index]),
             Self::Exposed => "coverage is 0".to_owned(),

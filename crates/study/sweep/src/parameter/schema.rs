@@ -41,11 +41,11 @@ impl Parameter {
     /// Returns the schema of one number or word.
     fn item_schema(&self) -> Value {
         match &self.kind {
-            ParameterKind::Word { words: names, .. } => words(names),
+            ParameterKind::Word { words: names, .. } => word_list(names),
             ParameterKind::CountOrWord { word, .. }
             | ParameterKind::Numbers { word: Some(word), .. } => {
                 let numbers = self.end_schema().unwrap_or_default();
-                json!({ "anyOf": [numbers, words(&[word])] })
+                json!({ "anyOf": [numbers, word_list(&[word])] })
             }
             _ => self.end_schema().unwrap_or_default(),
         }
@@ -111,8 +111,8 @@ fn number(range: Range) -> Value {
     schema
 }
 
-/// Returns the schema of words; `true` and `false` may also be booleans.
-fn words(words: &[&str]) -> Value {
+/// Returns the schema of a list of accepted words; `true` and `false` may also be booleans.
+fn word_list(words: &[&str]) -> Value {
     let mut all: Vec<Value> = words.iter().map(|word| word_value(word)).collect();
     let booleans = words.iter().filter(|word| word.parse::<bool>().is_ok());
     all.extend(booleans.map(|word| json!(word)));

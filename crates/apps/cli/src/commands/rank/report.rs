@@ -101,7 +101,7 @@ impl RankReport<'_> {
         }
         let mut text = match preferences.criteria.as_slice() {
             [alone] => format!("Best by {}", alone.name),
-            _ => format!("Best by {}", preferences.in_words()),
+            _ => format!("Best by {}", preferences.criteria_text()),
         };
         if preferences.scale != Scale::Paper {
             let _ = write!(text, ", {} scale", preferences.scale);

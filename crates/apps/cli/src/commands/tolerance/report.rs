@@ -120,7 +120,7 @@ fn measure_row(measure: &MeasureTolerance) -> Vec<String> {
         off,
         low,
         high,
-        linear.map_or(String::new(), uncertainty::LinearSpread::in_words),
+        linear.map_or(String::new(), uncertainty::LinearSpread::sources_text),
     ]
 }
 
