@@ -125,7 +125,7 @@ fn intact_from<R: Records>(
 }
 
 /// Creates the error for an unreadable journal at `path`.
-fn unreadable(path: &Path, error: &io::Error) -> JournalError {
+pub(crate) fn unreadable(path: &Path, error: &io::Error) -> JournalError {
     JournalError::Unreadable { path: path.to_owned(), reason: reason(error) }
 }
 

@@ -5,20 +5,22 @@ use std::io::{self, ErrorKind, Seek as _, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use crate::atomic_file::OutputError;
+use crate::error::JournalError;
+use crate::reader::unreadable;
 
 /// Copies all bytes of the journal at `path` after the first `length` to a new file.
 ///
 /// The new file is in the folder of the journal. Returns a message for the user about the copy, or
 /// `None` if the journal is not longer than `length` bytes.
-pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, OutputError> {
-    let unkept = |error: io::Error| OutputError::file(path, &error);
-    let mut journal = File::open(path).map_err(unkept)?;
-    let torn = journal.metadata().map_err(unkept)?.len().saturating_sub(length);
+pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, JournalError> {
+    let unread = |error: io::Error| unreadable(path, &error);
+    let mut journal = File::open(path).map_err(unread)?;
+    let torn = journal.metadata().map_err(unread)?.len().saturating_sub(length);
     if torn == 0 {
         return Ok(None);
     }
-    journal.seek(SeekFrom::Start(length)).map_err(unkept)?;
-    let (mut copy, name) = create(path).map_err(unkept)?;
+    journal.seek(SeekFrom::Start(length)).map_err(unread)?;
+    let (mut copy, name) = create(path).map_err(|error| OutputError::file(path, &error))?;
     let copied = io::copy(&mut journal, &mut copy).and_then(|_| copy.sync_all());
     copied.map_err(|error| OutputError::file(&name, &error))?;
     Ok(Some(format!(
