@@ -24,7 +24,7 @@ impl Bracket {
     /// Creates a bracket with the original Illinois rule, which halves values less often.
     ///
     /// The value at one end is halved only if the other end is replaced twice in succession.
-    pub fn patient(low: (f64, f64), high: (f64, f64)) -> Self {
+    pub fn illinois(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { last: Some(1), ..Self::new(low, high) }
     }
 
@@ -57,7 +57,7 @@ mod tests {
 
     #[test]
     fn both_halving_rules_converge_to_the_root_of_a_cubic() {
-        for bracket in [Bracket::new, Bracket::patient] {
+        for bracket in [Bracket::new, Bracket::illinois] {
             let mut bracket = bracket((0.0, -2.0), (2.0, 6.0));
             let values = (0..60).map(|_| {
                 let x = bracket.secant();

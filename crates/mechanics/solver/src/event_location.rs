@@ -302,7 +302,7 @@ impl<S: System> Continuation<S> {
         let span = condition.measure(&beyond.state.z) - condition.value;
         let start = from.leaving[unknown];
         // Another halving rule would change the last digits of load extrema in stored tables.
-        let mut bracket = Bracket::patient((0.0, start), (span, beyond.direction[unknown]));
+        let mut bracket = Bracket::illinois((0.0, start), (span, beyond.direction[unknown]));
         for _ in 0..MAX_ROUNDS {
             let distance = bracket.secant();
             let candidate = self.step_to(from, distance)?;

@@ -179,7 +179,7 @@ pub(super) fn bent_within(
 
 /// Computes the largest utilisation (value divided by limit) of any scale, minus 1.
 fn excess(path: &Continuation<Chain>, point: &SkinPoint, limit: usize) -> f64 {
-    path.system().fractions(&point.state)[limit] - 1.0
+    path.system().utilisations(&point.state)[limit] - 1.0
 }
 
 /// Solves for the equilibrium between two points at which a scale reaches a limit.
@@ -195,7 +195,7 @@ fn limit_within(
     if start >= 0.0 {
         return None;
     }
-    let mut bracket = Bracket::patient((0.0, start), (1.0, end));
+    let mut bracket = Bracket::illinois((0.0, start), (1.0, end));
     let mut point = from.clone();
     for _ in 0..EVALUATIONS {
         let fraction = bracket.secant();
@@ -217,7 +217,7 @@ pub(super) struct ScaleValues {
     /// Bending stress, deflection, bond stress and tissue pressure, in the order of [`MAXIMA`].
     pub(super) tracked: [f64; 4],
     /// Value divided by its limit, in the order of [`LIMITS`]; failure at 1.
-    fractions: [f64; LIMITS.len()],
+    utilisations: [f64; LIMITS.len()],
 }
 
 /// Locates the first failure while a path is followed, and tracks the maxima.
@@ -226,7 +226,7 @@ pub(super) struct FailureObserver {
     judged: Vec<usize>,
     maxima: [Peak<SkinMode>; MAXIMA.len()],
     /// Largest value divided by its limit at the last point, in the order of [`LIMITS`].
-    fractions: [f64; LIMITS.len()],
+    utilisations: [f64; LIMITS.len()],
     /// First failure before the end of the path, with its point.
     pub(super) first: Option<(FailureMode, SkinPoint)>,
 }
@@ -240,7 +240,7 @@ impl FailureObserver {
                 .filter(|&limit| LIMITS[limit].not_judged(parameters, false).is_none())
                 .collect(),
             maxima: Default::default(),
-            fractions: [0.0; LIMITS.len()],
+            utilisations: [0.0; LIMITS.len()],
             first: None,
         };
         observer.visit(path, None);
@@ -256,7 +256,7 @@ impl FailureObserver {
         Segment { from, to, unextended }: &Segment,
         fold: Option<&SkinPoint>,
     ) {
-        let before = self.fractions;
+        let before = self.utilisations;
         self.visit(path, Some(unextended));
         if self.first.is_some() {
             return;
@@ -264,10 +264,10 @@ impl FailureObserver {
         let fold = fold.map(|fold| (FailureMode::Fold, fold.clone()));
         let mut failures: Vec<_> = fold.into_iter().collect();
         for &limit in &self.judged {
-            if before[limit] < 1.0 && self.fractions[limit] >= 1.0 {
+            if before[limit] < 1.0 && self.utilisations[limit] >= 1.0 {
                 // If the segment ends at the limit, as at the limit of linear bending, use the end
                 // of the segment.
-                let point = if self.fractions[limit] <= 1.0 + BEND_TOLERANCE {
+                let point = if self.utilisations[limit] <= 1.0 + BEND_TOLERANCE {
                     Some(SkinPoint::clone(to))
                 } else {
                     limit_within(path, [from, to], limit, LIMIT_TOLERANCE)
@@ -284,7 +284,7 @@ impl FailureObserver {
     /// Evaluates the current point of the path; `from` is the point before it.
     fn visit(&mut self, path: &Continuation<Chain>, from: Option<&Arc<SkinPoint>>) {
         let values = path.system().row_values(&path.point().state);
-        self.fractions = values.fractions;
+        self.utilisations = values.utilisations;
         if path.system().is_critical_only() {
             return;
         }
@@ -345,7 +345,7 @@ impl FailureObserver {
 }
 
 /// Computes a stress divided by its strength; 0 if the strength is `None`.
-fn fraction(stress: f64, strength: Option<f64>) -> f64 {
+fn utilisation(stress: f64, strength: Option<f64>) -> f64 {
     strength.map_or(0.0, |strength| stress / strength)
 }
 
@@ -410,14 +410,14 @@ impl Chain {
         let Strengths { scale: strength, bond } = self.strengths;
         let perforated = self.needle_radius.map_or(0.0, |radius| {
             let punch = std::f64::consts::PI * radius.powi(2) * PERFORATION;
-            fraction(self.plane_modulus * self.needle_push_on(state, scale) / punch, strength)
+            utilisation(self.plane_modulus * self.needle_push_on(state, scale) / punch, strength)
         });
         ScaleValues {
             tracked: [stress, deflection.abs(), bond_stress, pressure],
-            fractions: [
-                fraction(stress, strength),
+            utilisations: [
+                utilisation(stress, strength),
                 rotation.abs().to_degrees() / LARGEST_BEND_DEG,
-                fraction(bond_stress, bond),
+                utilisation(bond_stress, bond),
                 perforated,
             ],
         }
@@ -434,16 +434,16 @@ impl Chain {
     }
 
     /// Computes the largest utilisation of each limit by any scale, in the order of [`LIMITS`].
-    pub(super) fn fractions(&self, state: &SkinState) -> [f64; LIMITS.len()] {
-        self.row_values(state).fractions
+    pub(super) fn utilisations(&self, state: &SkinState) -> [f64; LIMITS.len()] {
+        self.row_values(state).utilisations
     }
 
     /// Computes the largest utilisation of the limit of a failure mode by any scale.
     ///
     /// 0 if the mode is not one of [`LIMITS`].
-    pub(super) fn fraction(&self, state: &SkinState, mode: FailureMode) -> f64 {
+    pub(super) fn utilisation(&self, state: &SkinState, mode: FailureMode) -> f64 {
         let limit = LIMITS.iter().position(|limit| *limit == mode);
-        limit.map_or(0.0, |limit| self.fractions(state)[limit])
+        limit.map_or(0.0, |limit| self.utilisations(state)[limit])
     }
 
     /// Computes the largest stresses, deflection and utilisations of any scale.
@@ -456,11 +456,11 @@ impl Chain {
             if loads.is_empty() {
                 continue;
             }
-            let ScaleValues { tracked, fractions } = self.values_under(state, scale, &loads);
+            let ScaleValues { tracked, utilisations } = self.values_under(state, scale, &loads);
             for (most, value) in largest.tracked.iter_mut().zip(tracked) {
                 *most = most.max(value);
             }
-            for (most, value) in largest.fractions.iter_mut().zip(fractions) {
+            for (most, value) in largest.utilisations.iter_mut().zip(utilisations) {
                 *most = most.max(value);
             }
         }
@@ -488,7 +488,7 @@ impl Chain {
     /// `number` counts the limits scale by scale.
     pub(super) fn limit_marker(&self, state: &SkinState, number: usize) -> f64 {
         let (scale, limit) = (number / LIMITS.len(), number % LIMITS.len());
-        self.scale_values(state, scale).fractions[limit] - 1.0
+        self.scale_values(state, scale).utilisations[limit] - 1.0
     }
 
     /// Returns the number of the marker that is zero where a scale reaches the limit of a mode.
@@ -497,9 +497,9 @@ impl Chain {
     /// one of [`LIMITS`].
     pub(super) fn limit_mark(&self, state: &SkinState, mode: FailureMode) -> Option<usize> {
         let limit = LIMITS.iter().position(|other| *other == mode)?;
-        let fractions = (0..self.layout.scales())
-            .map(|scale| (scale, self.scale_values(state, scale).fractions[limit]));
-        let (scale, _) = fractions.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let utilisations = (0..self.layout.scales())
+            .map(|scale| (scale, self.scale_values(state, scale).utilisations[limit]));
+        let (scale, _) = utilisations.max_by(|a, b| a.1.total_cmp(&b.1))?;
         Some(FIRST_LIMIT_MARK + LIMITS.len() * scale + limit)
     }
 }

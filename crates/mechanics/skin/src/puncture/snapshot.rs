@@ -53,16 +53,16 @@ impl At {
             Self::Force(_) => |chain, state| chain.force(state),
             Self::Tilt(_) => |chain, state| chain.angle_deg(state).abs(),
             Self::Limit(FailureMode::Break) => {
-                |chain, state| chain.fraction(state, FailureMode::Break)
+                |chain, state| chain.utilisation(state, FailureMode::Break)
             }
             Self::Limit(FailureMode::Bend) => {
-                |chain, state| chain.fraction(state, FailureMode::Bend)
+                |chain, state| chain.utilisation(state, FailureMode::Bend)
             }
             Self::Limit(FailureMode::Debond) => {
-                |chain, state| chain.fraction(state, FailureMode::Debond)
+                |chain, state| chain.utilisation(state, FailureMode::Debond)
             }
             Self::Limit(FailureMode::Perforate) => {
-                |chain, state| chain.fraction(state, FailureMode::Perforate)
+                |chain, state| chain.utilisation(state, FailureMode::Perforate)
             }
             Self::Limit(_) => |_, _| 0.0,
         };
