@@ -18,7 +18,7 @@ use nalgebra::{DMatrix, DVector};
 /// Moment per unit length for a unit rotation of an isolated strip.
 ///
 /// The half-width of the strip is 1, and `E* = 1`.
-pub const ALONE: f64 = 0.25 * PI;
+pub const ISOLATED_STIFFNESS: f64 = 0.25 * PI;
 
 /// Moments per unit length for a unit rotation of the middle one of three strips.
 ///
@@ -78,7 +78,7 @@ fn log_potential(n: usize, t: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALONE, three_strips};
+    use super::{ISOLATED_STIFFNESS, three_strips};
 
     #[test]
     fn twenty_and_forty_terms_give_the_same_stiffnesses() {
@@ -90,6 +90,6 @@ mod tests {
     #[test]
     fn strips_far_apart_respond_like_an_isolated_strip() {
         let far = three_strips(1e4, 8).unwrap();
-        assert!((far.direct - ALONE).abs() < 1e-6 && far.coupling.abs() < 1e-6);
+        assert!((far.direct - ISOLATED_STIFFNESS).abs() < 1e-6 && far.coupling.abs() < 1e-6);
     }
 }

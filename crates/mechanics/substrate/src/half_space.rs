@@ -29,22 +29,22 @@ use std::ops::{Add, Sub};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Influence {
     /// `∬ z²/r³` over the cell, or `A` of a corner.
-    pub across: f64,
+    pub z_part: f64,
     /// `∬ x²/r³` over the cell, or `B` of a corner.
-    pub along: f64,
+    pub x_part: f64,
 }
 
 impl Influence {
     /// Returns `E* u_y` for a unit normal traction: `(A + B)/π` (S1).
     pub fn normal(self) -> f64 {
-        (self.across + self.along) / PI
+        (self.z_part + self.x_part) / PI
     }
 
     /// Returns `E* u_x` for a unit tangential traction along `x` (S2).
     ///
     /// It is `(A + B/(1 − ν))/π`.
     pub fn tangential(self, poisson_ratio: f64) -> f64 {
-        (self.across + self.along / (1.0 - poisson_ratio)) / PI
+        (self.z_part + self.x_part / (1.0 - poisson_ratio)) / PI
     }
 }
 
@@ -52,7 +52,7 @@ impl Add for Influence {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        Self { across: self.across + other.across, along: self.along + other.along }
+        Self { z_part: self.z_part + other.z_part, x_part: self.x_part + other.x_part }
     }
 }
 
@@ -60,7 +60,7 @@ impl Sub for Influence {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        Self { across: self.across - other.across, along: self.along - other.along }
+        Self { z_part: self.z_part - other.z_part, x_part: self.x_part - other.x_part }
     }
 }
 
@@ -101,8 +101,8 @@ impl CornerLine {
         let ln_x = ln_or_zero(x);
         for (corner, &[z, ln_z]) in corners.iter_mut().zip(&self.corners) {
             let r = (x * x + z * z).sqrt();
-            corner.across = x * ((z.abs() + r).ln() - ln_x).copysign(z);
-            corner.along = z * ((x.abs() + r).ln() - ln_z).copysign(x);
+            corner.z_part = x * ((z.abs() + r).ln() - ln_x).copysign(z);
+            corner.x_part = z * ((x.abs() + r).ln() - ln_z).copysign(x);
         }
     }
 }

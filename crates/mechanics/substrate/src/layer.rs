@@ -55,7 +55,7 @@ const GAUSS: [[f64; 2]; 4] = [
 ];
 
 /// Returns the differences of `N`, `½(S + T)`, `½(S − T)` and `C` of (S19) from the half-space.
-pub fn beside_half_space(poisson_ratio: f64, x: f64) -> Integrals {
+pub fn deviation_from_half_space(poisson_ratio: f64, x: f64) -> Integrals {
     let (deep, kappa) = (1.0 - poisson_ratio, 3.0 - 4.0 * poisson_ratio);
     // All terms are divided by e^(2x), so that differences from the half-space keep their digits.
     let decay = (-2.0 * x).exp();
@@ -148,7 +148,7 @@ impl Layer {
         for k in 0..INTERVALS {
             for [point, weight] in GAUSS {
                 let x = INTERVAL * (f64::from(k) + 0.5 * (1.0 + point));
-                let parts = beside_half_space(poisson_ratio, x);
+                let parts = deviation_from_half_space(poisson_ratio, x);
                 points.push((x, parts.map(|part| 0.5 * INTERVAL * weight * part)));
             }
         }
@@ -173,7 +173,7 @@ impl Layer {
     ///
     /// Unit loads act at a point; the displacements are taken at the offset `(x, z)` from it, with
     /// `x` along the row. The layer has the given `thickness`, in the unit of `x` and `z`.
-    pub fn beside_half_space(&self, thickness: f64, x: f64, z: f64) -> Displacements {
+    pub fn deviation_from_half_space(&self, thickness: f64, x: f64, z: f64) -> Displacements {
         let square = x * x + z * z;
         let r = square.sqrt();
         let [normal, mean, difference, cross] = self.integrals(r / thickness);

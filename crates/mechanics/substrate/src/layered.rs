@@ -273,7 +273,7 @@ impl Quadrature {
                     for &[at_z, depth] in row {
                         for (sum, x) in sums.iter_mut().zip([x - at_x, x + at_x]) {
                             let [one, image] = [z - at_z, z + at_z]
-                                .map(|z| layer.beside_half_space(thickness, x, z));
+                                .map(|z| layer.deviation_from_half_space(thickness, x, z));
                             *sum = *sum + (one + image) * (width * depth);
                         }
                     }

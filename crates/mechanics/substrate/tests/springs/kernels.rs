@@ -6,9 +6,9 @@ use substrate::half_space::{CornerLine, Influence};
 
 /// Returns the corner functions `A` and `B` of (S3) at the offset `(x, z)`.
 fn corner(x: f64, z: f64) -> Influence {
-    let [across, along] = [(x, z), (z, x)]
+    let [z_part, x_part] = [(x, z), (z, x)]
         .map(|(s, t): (f64, f64)| if s == 0.0 { 0.0 } else { s * (t / s.abs()).asinh() });
-    Influence { across, along }
+    Influence { z_part, x_part }
 }
 
 /// Returns the integrals (S3) over the cell `x[0]..x[1]`, `z[0]..z[1]`, seen from the origin.
@@ -28,9 +28,9 @@ fn simpson(ends: [f64; 2], half: u32, f: impl Fn(f64) -> f64) -> f64 {
     sum * step / 3.0
 }
 
-fn assert_close(found: Influence, across: f64, along: f64) {
-    assert!((found.across - across).abs() < 1e-9, "{found:?}, expected across {across}");
-    assert!((found.along - along).abs() < 1e-9, "{found:?}, expected along {along}");
+fn assert_close(found: Influence, z_part: f64, x_part: f64) {
+    assert!((found.z_part - z_part).abs() < 1e-9, "{found:?}, expected z_part {z_part}");
+    assert!((found.x_part - x_part).abs() < 1e-9, "{found:?}, expected x_part {x_part}");
 }
 
 #[test]
@@ -38,9 +38,9 @@ fn cells_away_from_the_field_point_agree_with_quadrature() {
     for (x, z) in [([0.3, 0.8], [-0.4, 0.5]), ([-2.0, -1.5], [1.0, 1.5]), ([-0.2, 0.3], [0.5, 0.9])]
     {
         let integrands: [fn(f64, f64) -> f64; 2] = [|_, z| z * z, |x, _| x * x];
-        let [across, along] = integrands
+        let [z_part, x_part] = integrands
             .map(|f| simpson(x, 100, |x| simpson(z, 100, |z| f(x, z) / x.hypot(z).powi(3))));
-        assert_close(cell(x, z), across, along);
+        assert_close(cell(x, z), z_part, x_part);
     }
 }
 
@@ -55,7 +55,7 @@ fn cells_around_the_field_point_agree_with_quadrature() {
             .to_vec();
         corners.sort_by(f64::total_cmp);
         corners.push(corners[0] + TAU);
-        let [across, along] = [f64::sin, f64::cos].map(|f| {
+        let [z_part, x_part] = [f64::sin, f64::cos].map(|f| {
             let sides = corners.windows(2).map(|ends| {
                 simpson([ends[0], ends[1]], 4000, |angle| {
                     let reach = [(angle.cos(), x), (angle.sin(), z)]
@@ -65,7 +65,7 @@ fn cells_around_the_field_point_agree_with_quadrature() {
             });
             sides.sum()
         });
-        assert_close(cell(x, z), across, along);
+        assert_close(cell(x, z), z_part, x_part);
     }
 }
 
@@ -97,8 +97,8 @@ fn a_line_of_corners_agrees_with_single_corners() {
             line.evaluate(x, &mut corners);
             for (found, depth) in corners.into_iter().zip(depths) {
                 let exact = corner(x, depth - field);
-                assert!((found.across - exact.across).abs() < 1e-13, "{found:?}, {exact:?}");
-                assert!((found.along - exact.along).abs() < 1e-13, "{found:?}, {exact:?}");
+                assert!((found.z_part - exact.z_part).abs() < 1e-13, "{found:?}, {exact:?}");
+                assert!((found.x_part - exact.x_part).abs() < 1e-13, "{found:?}, {exact:?}");
             }
         }
     }

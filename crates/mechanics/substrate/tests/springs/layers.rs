@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Matrix4, Vector4};
 use substrate::FootprintParameter::{Gap, PoissonRatio, Size, Thickness, Width};
-use substrate::layer::{Layer, beside_half_space};
+use substrate::layer::{Layer, deviation_from_half_space};
 use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, StiffnessSlopes};
 
 /// Returns the stiffness of a row of square bases at the gap `0.2 a` on a layer.
@@ -64,7 +64,7 @@ fn compliances_agree_with_a_directly_solved_layer() {
     for ratio in [0.5, 0.3, 0.0] {
         for x in [0.05, 0.3, 1.0, 2.5, 4.0] {
             let [[crossed, normal], [shear, back]] = wave(ratio, x);
-            let [n, mean, difference, cross] = beside_half_space(ratio, x);
+            let [n, mean, difference, cross] = deviation_from_half_space(ratio, x);
             let (deep, incompressible) = (1.0 - ratio, 1.0 - 2.0 * ratio);
             assert_relative_eq!(deep + n, normal, epsilon = 1e-9);
             assert_relative_eq!(deep + mean + difference, shear, epsilon = 1e-9);
@@ -86,7 +86,7 @@ fn hankel_transform(ratio: f64, part: usize, order: f64, rho: f64) -> f64 {
     let step = 0.01;
     let mut values = (0..1600).map(|k| step * f64::from(k)).map(|x| {
         let weight = if x == 0.0 { 0.5 } else { 1.0 };
-        weight * beside_half_space(ratio, x)[part] * bessel(order, x * rho)
+        weight * deviation_from_half_space(ratio, x)[part] * bessel(order, x * rho)
     });
     let (first, second) = (values.next().unwrap(), values.next().unwrap());
     // The integrand vanishes at the upper limit. At x = 0 the Euler–Maclaurin correction with the
@@ -105,7 +105,7 @@ fn point_loads_are_hankel_transforms() {
                 .map(|(part, order)| hankel_transform(ratio, part, order, r / thickness));
             let cos = if r > 0.0 { x / r } else { 0.0 };
             let unit = 1.0 / (PI * (1.0 - ratio) * thickness);
-            let found = Layer::with_poisson_ratio(ratio).beside_half_space(thickness, x, z);
+            let found = Layer::with_poisson_ratio(ratio).deviation_from_half_space(thickness, x, z);
             let shear = mean - (2.0 * cos * cos - 1.0) * difference;
             assert_relative_eq!(found.normal, unit * normal, epsilon = 1e-6);
             assert_relative_eq!(found.shear, unit * shear, epsilon = 1e-6);

@@ -19,7 +19,7 @@ fn slope(gap: f64) -> [f64; 2] {
 #[test]
 fn an_isolated_long_rectangle_agrees_with_a_strip() {
     let found = slope(1e4)[0];
-    assert!((found - strips::ALONE).abs() < 2e-4 * found, "{found}");
+    assert!((found - strips::ISOLATED_STIFFNESS).abs() < 2e-4 * found, "{found}");
 }
 
 #[test]
