@@ -22,9 +22,9 @@ const AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 
 /// Gap in units of `t` that distinguishes a corner passing an edge end from a closing contact.
 ///
-/// If a corner passes the end of an edge, its gap jumps below `−BEHIND` within one of the steps
+/// If a corner passes the end of an edge, its gap jumps below `−GAP_JUMP` within one of the steps
 /// [`AHEAD`].
-const BEHIND: f64 = 1e-3;
+const GAP_JUMP: f64 = 1e-3;
 
 impl Contacts {
     /// Computes the two forces of a contact on its left scale, including friction.
@@ -102,7 +102,7 @@ impl Contacts {
             here.iter().zip(&ahead).any(|(here, ahead)| {
                 // If a small gap becomes negative, the contact closes. If a wide or undefined gap
                 // is strongly negative one step later, the corner has passed the end of an edge.
-                ahead.is_some_and(|gap| gap < -BEHIND && here.is_none_or(|here| here > BEHIND))
+                ahead.is_some_and(|gap| gap < -GAP_JUMP && here.is_none_or(|here| here > GAP_JUMP))
             })
         })
     }

@@ -50,9 +50,14 @@ impl Chain {
 
     /// Computes the displacements of the end scale and of the checked scales beyond it.
     ///
-    /// Displacements at the left end (`number` 0) are mirrored to the signs of a right end.
-    fn displacements_beyond(&self, z: &[f64], number: usize, side: &ExteriorSide) -> Vec<[f64; 3]> {
-        let end = self.displacement_from_end(z, number);
+    /// Displacements at the left end (`side_index` 0) are mirrored to the signs of a right end.
+    fn displacements_beyond(
+        &self,
+        z: &[f64],
+        side_index: usize,
+        side: &ExteriorSide,
+    ) -> Vec<[f64; 3]> {
+        let end = self.displacement_from_end(z, side_index);
         let mut displacements = vec![end(0)];
         displacements.extend(side.beyond.far.displacements(end, side.gaps.len()));
         displacements
@@ -64,12 +69,12 @@ impl Chain {
     pub(crate) fn displacement_anywhere(&self, z: &[f64], scale: isize) -> [f64; 3] {
         let last = self.layout.scales().cast_signed() - 1;
         let nearest = scale.clamp(0, last);
-        let number = usize::from(scale > 0);
-        match (&self.exterior.sides[number], scale.abs_diff(nearest)) {
+        let side_index = usize::from(scale > 0);
+        match (&self.exterior.sides[side_index], scale.abs_diff(nearest)) {
             (_, 0) => self.displacement(z, nearest.cast_unsigned()),
             (Some(side), distance) => mirrored(
-                side.beyond.far.displacement(self.displacement_from_end(z, number), distance),
-                number,
+                side.beyond.far.displacement(self.displacement_from_end(z, side_index), distance),
+                side_index,
             ),
             // A row that is solved as a whole has no scales beyond its ends.
             (None, _) => [0.0; 3],
@@ -104,13 +109,13 @@ impl Chain {
     /// Returns the extent of contact towards the left and the right end of the solved part.
     pub(crate) fn reach(&self, state: &SkinState) -> [Reach; 2] {
         let touching = self.contacts.touching_at_ends(state);
-        [0, 1].map(|number| {
-            let Some(side) = &self.exterior.sides[number] else { return Reach::Short };
-            match self.part_closed(&state.z, number, side) {
+        [0, 1].map(|side_index| {
+            let Some(side) = &self.exterior.sides[side_index] else { return Reach::Short };
+            match self.part_closed(&state.z, side_index, side) {
                 1.0.. => Reach::Beyond,
                 EARLY.. => Reach::Near,
                 // A contact of the end scale may load the next scale, so extend the row.
-                _ if touching[number] => Reach::Near,
+                _ if touching[side_index] => Reach::Near,
                 _ => Reach::Short,
             }
         })
@@ -119,8 +124,8 @@ impl Chain {
     /// Computes an upper bound on the closed fraction of the clearances beyond an end.
     ///
     /// With neo-Hookean bars, the result is at least their excess force over [`AS_SPRINGS`].
-    fn part_closed(&self, z: &[f64], number: usize, side: &ExteriorSide) -> f64 {
-        let displacements = self.displacements_beyond(z, number, side);
+    fn part_closed(&self, z: &[f64], side_index: usize, side: &ExteriorSide) -> f64 {
+        let displacements = self.displacements_beyond(z, side_index, side);
         let size =
             |[x, y, rotation]: [f64; 3]| x.abs() + y.abs() + self.exterior.arm * rotation.abs();
         let pairs = displacements.windows(2).zip(&side.clearances);
@@ -140,9 +145,9 @@ impl Chain {
     /// every scale is solved.
     pub(super) fn stretches_beyond(&self, z: &[f64]) -> Vec<f64> {
         let mut stretches = Vec::new();
-        for (number, side) in self.exterior.sides.iter().enumerate() {
+        for (side_index, side) in self.exterior.sides.iter().enumerate() {
             let Some(side) = side else { continue };
-            let displacements = self.displacements_beyond(z, number, side);
+            let displacements = self.displacements_beyond(z, side_index, side);
             for (pair, &width) in displacements.windows(2).zip(&side.gaps) {
                 let strip = SurfaceStrip { width, half_base: self.half_base };
                 stretches.push(strip.stretch(pair[0], pair[1]));
@@ -155,7 +160,7 @@ impl Chain {
                     _ => side
                         .beyond
                         .far
-                        .displacement(self.displacement_from_end(z, number), distance),
+                        .displacement(self.displacement_from_end(z, side_index), distance),
                 });
                 SurfaceStrip { width, half_base: self.half_base }.stretch(near, far)
             }));
