@@ -54,7 +54,7 @@ pub struct Puncture {
 #[error(
     "{0} scales along the row: too many for a finite-element deck, expected at most {MOST_SCALES}"
 )]
-pub struct NoDeck(usize);
+pub struct DeckError(usize);
 
 /// Block of a node, and its indices along, across and upwards in the grid of half elements.
 ///
@@ -246,10 +246,10 @@ impl Mesh {
 /// # Errors
 ///
 /// If the row is too long.
-pub fn deck(patch: &Patch, puncture: &Puncture, title: &str) -> Result<String, NoDeck> {
+pub fn deck(patch: &Patch, puncture: &Puncture, title: &str) -> Result<String, DeckError> {
     let count = patch.scales()[0];
     if count > MOST_SCALES {
-        return Err(NoDeck(count));
+        return Err(DeckError(count));
     }
     let grid = Grid::new(patch, puncture.load_position, puncture.tissue);
     let mut mesh = Mesh::default();

@@ -18,9 +18,9 @@ mod stl;
 mod svg;
 mod three_mf;
 
-pub use deck::{NoDeck, Puncture, deck};
-pub use patch::{NoPatch, Patch, Prism, Solids};
-pub use sheet::{NoSheet, Outline, Sheet};
+pub use deck::{DeckError, Puncture, deck};
+pub use patch::{Patch, PatchError, Prism, Solids};
+pub use sheet::{Outline, Sheet, SheetError};
 
 /// A file format for a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

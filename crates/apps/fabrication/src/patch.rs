@@ -38,7 +38,7 @@ pub struct Patch {
 
 /// Error of a patch that cannot be created.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum NoPatch {
+pub enum PatchError {
     /// A length is out of range.
     #[error("{0} is {1} mm, expected a length from {low:e} to {high:e}", low = LENGTHS[0], high = LENGTHS[1])]
     Length(&'static str, f64),
@@ -94,12 +94,12 @@ impl Patch {
         thickness: f64,
         [width, membrane, gap_across]: [f64; 3],
         scales: [usize; 2],
-    ) -> Result<Self, NoPatch> {
+    ) -> Result<Self, PatchError> {
         let [along, across] = scales;
         // `checked_mul` refuses large counts that would otherwise overflow to a small product.
         match along.checked_mul(across) {
             Some(1..=MOST_SCALES) => {}
-            _ => return Err(NoPatch::Scales(along, across)),
+            _ => return Err(PatchError::Scales(along, across)),
         }
         let [low, high] = LENGTHS;
         let (is_brick, body) = (false, Body::default());
@@ -119,7 +119,7 @@ impl Patch {
         ];
         // The condition is negated so that it also refuses NaN.
         if let Some(&(name, length)) = lengths.iter().find(|(_, l)| !(low..=high).contains(l)) {
-            return Err(NoPatch::Length(name, length));
+            return Err(PatchError::Length(name, length));
         }
         Ok(patch)
     }
@@ -135,20 +135,20 @@ impl Patch {
     /// # Errors
     /// If the rows are longer than the circumference, neighbours overlap, or the membrane is
     /// thicker than the radius.
-    pub fn on_body(self, body: Body) -> Result<Self, NoPatch> {
+    pub fn on_body(self, body: Body) -> Result<Self, PatchError> {
         let patch = Self { body, ..self };
         let Some(radius) = patch.radius() else { return Ok(patch) };
         let ([length, ..], around) = (patch.membrane_size(), TAU * radius.abs());
         if length >= around {
-            return Err(NoPatch::Circumference(length, around));
+            return Err(PatchError::Circumference(length, around));
         }
         // Only a convex body limits the thickness of the membrane.
         if (0.0..=patch.membrane).contains(&radius) {
-            return Err(NoPatch::Membrane(patch.membrane, radius));
+            return Err(PatchError::Membrane(patch.membrane, radius));
         }
         let [left, right] = patch.neighbours();
         if !are_apart(&left, &right) {
-            return Err(NoPatch::Overlap(radius));
+            return Err(PatchError::Overlap(radius));
         }
         Ok(patch)
     }
@@ -524,12 +524,12 @@ pub(crate) mod tests {
             .map(|radius| patch().on_body(Body { curvature: 2.0 / radius }).unwrap_err());
         // The length is five pitches of 2.2 mm and a gap of 0.6 mm.
         assert!(
-            matches!(convex, NoPatch::Circumference(length, _) if (length - 11.6).abs() < 1e-9)
+            matches!(convex, PatchError::Circumference(length, _) if (length - 11.6).abs() < 1e-9)
         );
-        assert!(matches!(concave, NoPatch::Overlap(_)));
+        assert!(matches!(concave, PatchError::Overlap(_)));
         let thick = Patch { membrane: 3.0, ..patch() };
         let refused = thick.on_body(Body { curvature: 2.0 / 2.5 }).unwrap_err();
-        assert_eq!(refused, NoPatch::Membrane(3.0, 2.5));
+        assert_eq!(refused, PatchError::Membrane(3.0, 2.5));
     }
 
     #[test]
@@ -538,9 +538,9 @@ pub(crate) mod tests {
         let refused = |lengths, scales| Patch::new(row, 2.0, lengths, scales).unwrap_err();
         assert_eq!(
             refused([3.0, 0.0, 0.6], [5, 4]),
-            NoPatch::Length("the thickness of the membrane", 0.0)
+            PatchError::Length("the thickness of the membrane", 0.0)
         );
-        assert_eq!(refused([3.0, 0.2, 0.6], [0, 4]), NoPatch::Scales(0, 4));
-        assert_eq!(refused([3.0, 0.2, 0.6], [usize::MAX, 2]), NoPatch::Scales(usize::MAX, 2));
+        assert_eq!(refused([3.0, 0.2, 0.6], [0, 4]), PatchError::Scales(0, 4));
+        assert_eq!(refused([3.0, 0.2, 0.6], [usize::MAX, 2]), PatchError::Scales(usize::MAX, 2));
     }
 }

@@ -33,7 +33,7 @@ pub struct Sheet {
 
 /// Errors of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum NoSheet {
+pub enum SheetError {
     /// A length is out of range.
     #[error("{0} is {1} mm, expected a length from 0 to {high:e}", high = LENGTHS[1])]
     Length(&'static str, f64),
@@ -53,10 +53,10 @@ impl Sheet {
     ///
     /// # Errors
     /// If a length is out of range, or the kerf is as wide as a hole.
-    pub fn new(patch: &Patch, kerf: f64, template: f64) -> Result<Self, NoSheet> {
+    pub fn new(patch: &Patch, kerf: f64, template: f64) -> Result<Self, SheetError> {
         for (name, length) in [("the kerf", kerf), ("the thickness of the template", template)] {
             if !(0.0..=LENGTHS[1]).contains(&length) {
-                return Err(NoSheet::Length(name, length));
+                return Err(SheetError::Length(name, length));
             }
         }
         // A slanted scale shifts along the row within the thickness of the template. A hole is
@@ -65,7 +65,7 @@ impl Sheet {
         let hole = [patch.base() + lean, patch.width()];
         let smallest = hole[0].min(hole[1]);
         if kerf >= smallest {
-            return Err(NoSheet::Kerf(kerf, smallest));
+            return Err(SheetError::Kerf(kerf, smallest));
         }
         let [along, across] = patch.gaps();
         // Longer holes leave narrower webs along the row.
@@ -222,8 +222,8 @@ mod tests {
     #[test]
     fn negative_kerfs_and_kerfs_as_wide_as_a_hole_are_rejected() {
         let refused = |kerf| Sheet::new(&patch(), kerf, 0.0).unwrap_err();
-        assert_eq!(refused(1.6), NoSheet::Kerf(1.6, 1.6));
-        assert_eq!(refused(-0.1), NoSheet::Length("the kerf", -0.1));
+        assert_eq!(refused(1.6), SheetError::Kerf(1.6, 1.6));
+        assert_eq!(refused(-0.1), SheetError::Length("the kerf", -0.1));
         let row = Row::new(Parallelogram::new(0.4, 0.0).expect("a valid scale"), 0.3)
             .expect("a valid row");
         let upright = Patch::new(row, 2.0, [3.0, 0.25, 0.6], [1, 1]).expect("a valid patch");

@@ -140,7 +140,7 @@ pub fn figures(
     }
     if let Some((designs, ranking)) = ranking {
         // Both figures need the four criteria of the paper, and user-defined criteria may differ.
-        let is_drawn = are_the_papers(ranking);
+        let is_drawn = has_paper_criteria(ranking);
         let ranked = is_drawn.then(|| ranking.by_fitness(Weights::BALANCED));
         let mut rows: Vec<usize> = ranked.into_iter().flatten().map(|d| d.row()).collect();
         // Sort the designs in the order of the table, as on the page.
@@ -157,7 +157,7 @@ pub fn figures(
 }
 
 /// Returns true if the criteria are the four of the paper, in any unit.
-fn are_the_papers(ranking: &Ranking<'_>) -> bool {
+fn has_paper_criteria(ranking: &Ranking<'_>) -> bool {
     let criteria = &ranking.preferences().criteria;
     criteria.len() == CRITERIA.len()
         && criteria.iter().zip(&CRITERIA).all(|(own, papers)| {

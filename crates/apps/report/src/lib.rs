@@ -78,7 +78,7 @@ pub use page::{Fact, GapFactors, Page, PageDesign, PageFront};
 pub use palette::{Mark, SlantPalette};
 pub use paper::Paper;
 #[cfg(feature = "png")]
-pub use png::{NoImage, png};
+pub use png::{ImageError, png};
 pub use search_page::SearchPage;
 pub use spreads::{Histogram, Shares, share_bars};
 pub use svg::{resized, smallest_letters, untitled};

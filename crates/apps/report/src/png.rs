@@ -23,26 +23,26 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 /// A drawing that cannot be converted to an image.
 #[derive(Debug, thiserror::Error)]
 #[error("drawing: cannot be converted to PNG ({0}), expected a drawing that fits in memory")]
-pub struct NoImage(String);
+pub struct ImageError(String);
 
 /// Renders `svg` as a PNG with `dpi` dots per inch; a drawing has 96 px per inch.
 ///
 /// # Errors
 /// If the text is not SVG or the image does not fit in memory.
-pub fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, NoImage> {
+pub fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, ImageError> {
     let options = Options {
         fontdb: FONTS.clone(),
         font_family: "Liberation Sans".into(),
         ..Options::default()
     };
-    let tree = Tree::from_str(svg, &options).map_err(|error| NoImage(error.to_string()))?;
+    let tree = Tree::from_str(svg, &options).map_err(|error| ImageError(error.to_string()))?;
     // The precision of `f32` suffices for pixels.
     let factor = (dpi / PX_PER_INCH) as f32;
     let size = tree.size().to_int_size().scale_by(factor);
-    let size = size.ok_or_else(|| NoImage("the drawing has no size".to_owned()))?;
+    let size = size.ok_or_else(|| ImageError("the drawing has no size".to_owned()))?;
     let pixels = Pixmap::new(size.width(), size.height());
-    let mut pixels = pixels.ok_or_else(|| NoImage("the image is too large".to_owned()))?;
+    let mut pixels = pixels.ok_or_else(|| ImageError("the image is too large".to_owned()))?;
     let transform = Transform::from_scale(factor, factor);
     resvg::render(&tree, transform, &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| NoImage(error.to_string()))
+    pixels.encode_png().map_err(|error| ImageError(error.to_string()))
 }

@@ -24,7 +24,7 @@ pub struct Histogram<'a> {
     /// The samples, at least one.
     pub values: &'a [f64],
     /// Value of the measure for the nominal design, without deviations.
-    pub drawn: Option<f64>,
+    pub nominal: Option<f64>,
     /// Text, such as `≥ 2`, and value of each bound.
     pub bounds: &'a [(String, f64)],
 }
@@ -32,7 +32,7 @@ pub struct Histogram<'a> {
 impl Histogram<'_> {
     /// Draws the histogram, with red lines at the bounds and a dark line at the nominal value.
     pub fn svg(&self) -> String {
-        let shown = self.values.iter().copied().chain(self.drawn);
+        let shown = self.values.iter().copied().chain(self.nominal);
         // The axis includes bounds beyond all samples, to show their distance from the samples.
         let (low, high) = ends(shown.chain(self.bounds.iter().map(|(_, at)| *at)));
         let x = ChartAxis::linear(&axis_label(self.measure), low, high);
@@ -43,7 +43,7 @@ impl Histogram<'_> {
         let panel = ChartPanel::new(area, &x, &y);
         let mut inside = panel.axes(52.0).to_vec();
         inside.extend(bars.iter().filter_map(|bar| Self::bar(&panel, *bar)));
-        inside.extend(self.drawn.and_then(|at| marked(&panel, "nominal", at, INK, 0.0)));
+        inside.extend(self.nominal.and_then(|at| marked(&panel, "nominal", at, INK, 0.0)));
         let bounds = self.bounds.iter().enumerate();
         inside.extend(
             // The text of each bound has its own line, because bounds may be close together.
@@ -181,7 +181,8 @@ mod tests {
     fn every_sample_is_counted_in_one_bar() {
         let values: Vec<f64> = (0..100).map(|k| f64::from(k).sqrt()).collect();
         let [bars, equal] = [&values[..], &[2.0; 3]].map(|values| {
-            let histogram = Histogram { name: "x", measure: "y", values, drawn: None, bounds: &[] };
+            let histogram =
+                Histogram { name: "x", measure: "y", values, nominal: None, bounds: &[] };
             histogram.bars()
         });
         assert_eq!((bars.len(), bars.iter().map(|(.., count)| count).sum::<f64>()), (10, 100.0));

@@ -82,7 +82,7 @@ impl Criterion {
     /// Creates the criterion to maximise or minimise a column.
     pub fn new(column: &str, goal: Goal) -> Self {
         // A criterion of the paper must have its name in `CRITERIA`, because
-        // `Preferences::are_the_papers` also compares names.
+        // `Preferences::has_paper_criteria` also compares names.
         let known = CRITERIA.iter().find(|known| known.column == column && known.goal == goal);
         known.cloned().unwrap_or_else(|| Self {
             name: format!("{} {column}", ["largest", "least"][usize::from(goal == Goal::Minimize)])

@@ -107,7 +107,7 @@ impl Preferences {
     }
 
     /// Returns true if the criteria are the four criteria of the paper.
-    pub fn are_the_papers(&self) -> bool {
+    pub fn has_paper_criteria(&self) -> bool {
         self.criteria == CRITERIA
     }
 

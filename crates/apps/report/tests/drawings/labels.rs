@@ -218,7 +218,7 @@ fn histograms_name_the_measure_and_its_unit_once() {
         let values: Vec<f64> = (0..50).map(|k| f64::from(k).sqrt()).collect();
         let bounds = [("required ≥ 4".to_owned(), 4.0), ("required ≤ 5".to_owned(), 5.0)];
         let histogram =
-            Histogram { name: "x", measure, values: &values, drawn: Some(4.1), bounds: &bounds };
+            Histogram { name: "x", measure, values: &values, nominal: Some(4.1), bounds: &bounds };
         let svg = histogram.svg();
         assert_clear(measure, &svg);
         assert!(texts(&svg).iter().any(|(words, _)| words == label), "{measure}");

@@ -141,7 +141,7 @@ impl RankReport<'_> {
         }
         // Omit the knee for the paper's four criteria: most designs are on the front of these
         // criteria, so the knee means little.
-        let knee = self.ranking.knee().filter(|_| !self.preferences().are_the_papers());
+        let knee = self.ranking.knee().filter(|_| !self.preferences().has_paper_criteria());
         notes.extend(knee.map(|knee| (knee.row(), "knee of the front".to_owned())));
         notes
     }

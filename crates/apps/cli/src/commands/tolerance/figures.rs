@@ -58,7 +58,7 @@ fn histogram(
         name,
         measure: &measure.name,
         values: &values,
-        drawn: measure.value,
+        nominal: measure.value,
         bounds: &bounds,
     };
     (!values.is_empty()).then(|| histogram.svg())
