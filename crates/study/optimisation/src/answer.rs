@@ -45,7 +45,7 @@ pub(crate) fn answer(
     points: usize,
 ) -> Result<Answer, Halt> {
     let targets =
-        (0..search.judge.objectives()).map(|k| Target { objective: k, floors: Vec::new() });
+        (0..search.judge.objectives()).map(|k| Target { objective: k, lower_bounds: Vec::new() });
     let mut targets: Vec<Target> = targets.collect();
     let mut agreement = Agreement::of(&[]);
     for target in &targets {

@@ -49,8 +49,8 @@ impl<'a> BindingText<'a> {
             Limit::Requirement(k) => {
                 self.requirement(k).map(ToString::to_string).unwrap_or_default()
             }
-            Limit::Floor(k) => {
-                let value = floor_of(target, k) * self.judge.sign(k);
+            Limit::ObjectiveBound(k) => {
+                let value = bound_of(target, k) * self.judge.sign(k);
                 let sign = if self.judge.sign(k) > 0.0 { ">=" } else { "<=" };
                 format!("{} {sign} {}", self.goal.objectives[k].column, rounded(value))
             }
@@ -62,7 +62,7 @@ impl<'a> BindingText<'a> {
                 let Interval { parameter, to, .. } = self.goal.space.intervals()[j];
                 format!("{} at its upper end {}", parameter.key, number::text(to))
             }
-            Limit::Touch => "scales about to touch at the end of bending".to_owned(),
+            Limit::FirstContact => "scales about to touch at the end of bending".to_owned(),
         }
     }
 
@@ -84,13 +84,13 @@ impl<'a> BindingText<'a> {
                 let column = &requirement.column;
                 stricter(requirement.limit, requirement.direction(), column, price, objective)
             }
-            Limit::Floor(k) => {
+            Limit::ObjectiveBound(k) => {
                 let column = &self.goal.objectives[k].column;
-                stricter(floor_of(target, k), self.judge.sign(k), column, price, objective)
+                stricter(bound_of(target, k), self.judge.sign(k), column, price, objective)
             }
             Limit::Lower(j) => self.wider(j, "less", price, objective),
             Limit::Upper(j) => self.wider(j, "more", price, objective),
-            Limit::Touch => {
+            Limit::FirstContact => {
                 // The limit is a logarithm (O2), so a change of 0.01 is 1 % of the end rotation.
                 let costs = amount_of(0.01 * price, objective);
                 format!("bending 1 % further without contact {} {costs}", verb(objective))
@@ -149,9 +149,9 @@ fn stricter(limit: f64, direction: f64, column: &str, price: f64, objective: &Cr
 }
 
 /// Returns the lower bound that `target` sets on an objective, after the change of sign.
-fn floor_of(target: &Target, objective: usize) -> f64 {
-    let floor = target.floors.iter().find(|(of, _)| *of == objective);
-    floor.map_or(f64::NAN, |(_, floor)| *floor)
+fn bound_of(target: &Target, objective: usize) -> f64 {
+    let bound = target.lower_bounds.iter().find(|(of, _)| *of == objective);
+    bound.map_or(f64::NAN, |(_, bound)| *bound)
 }
 
 /// Returns the verb that describes the effect of a tighter limit on `objective`.
@@ -202,7 +202,7 @@ mod tests {
                     [goal]\nminimize = 'areal_mass_kg_m2'\nrequire = ['critical_force_N >= 2', 'penetration <= 0.4']";
         let goal = DesignGoal::parse(text, "x.toml", &[]).expect("a goal");
         let binding_text = BindingText::new(&goal);
-        let target = Target { objective: 0, floors: Vec::new() };
+        let target = Target { objective: 0, lower_bounds: Vec::new() };
         let say = |limit: Limit, price| {
             let binding = Binding { limit, price: Some(price) };
             let limit = binding_text.limit(&binding.limit, &target);

@@ -64,7 +64,7 @@ pub struct Target {
     /// Index of the objective to maximise.
     pub objective: usize,
     /// Index and lower bound of each bounded objective, after the change of sign.
-    pub floors: Vec<(usize, f64)>,
+    pub lower_bounds: Vec<(usize, f64)>,
 }
 
 /// Merit of a design for a target; larger is better.

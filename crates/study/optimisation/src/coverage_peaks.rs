@@ -41,7 +41,7 @@ pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> 
     // A `BTreeMap` has the same order in every session, a `HashMap` has not.
     let mut on_peaks: BTreeMap<u32, Vec<(f64, SpacePoint)>> = BTreeMap::new();
     for point in space_filling::points(space, POINTS, seed) {
-        for interval in 0..point.shares.len() {
+        for interval in 0..point.fractions.len() {
             for (peak, found) in peaks_along(space, &point, interval) {
                 let shortfall = known_shortfall(judge, &space.case(&found), number);
                 on_peaks.entry(peak).or_default().push((shortfall, found));
@@ -55,8 +55,9 @@ pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> 
 ///
 /// Only the continuous variable with index `interval` varies along this line.
 fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<(u32, SpacePoint)> {
-    let at =
-        |share| coverage_piece::reach_over_pitch(&space.case(&point.with_share(interval, share)));
+    let at = |fraction| {
+        coverage_piece::reach_over_pitch(&space.case(&point.with_fraction(interval, fraction)))
+    };
     let Some((first, last)) = at(0.0).zip(at(1.0)) else { return Vec::new() };
     let (low, high) = (first.min(last), first.max(last));
     // `S/p` is monotonic along the interval of a length or the slant, so each integer between its
@@ -70,7 +71,7 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
                 let is_below = at(middle)? < f64::from(peak);
                 *(if is_below { &mut below } else { &mut above }) = middle;
             }
-            Some((peak, point.with_share(interval, above)))
+            Some((peak, point.with_fraction(interval, above)))
         })
         .collect()
 }

@@ -112,7 +112,7 @@ impl<'a> Evaluations<'a> {
         let mut unscaled = point.clone();
         for j in self.scaling_intervals() {
             // Any constant is suitable, because the result does not depend on this variable.
-            unscaled.shares[j] = 0.0;
+            unscaled.fractions[j] = 0.0;
         }
         unscaled
     }
@@ -213,15 +213,16 @@ impl<'a> Evaluations<'a> {
             evaluator.row_near(self.number(0), &case, &changed, &end)
         });
         let row = row.ok_or(Halt::Interrupted)?;
-        let SpacePoint { shares, chosen } = point;
+        let SpacePoint { fractions, chosen } = point;
         let mut journal = self.journal();
         let Some(row) = row else {
-            let line = FarLine { shares, near: near.shares, chosen };
+            let line = FarLine { fractions, near: near.fractions, chosen };
             journal.append(JournalLine::Far(line)).map_err(Halt::Output)?;
             return Ok(None);
         };
-        let (near, sample, result) = (Some(near.shares), None, row.result);
-        let line = SolvedLine { differentiated, positions, near, sample, shares, chosen, result };
+        let (near, sample, result) = (Some(near.fractions), None, row.result);
+        let line =
+            SolvedLine { differentiated, positions, near, sample, fractions, chosen, result };
         journal.append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
         Ok(Some(Arc::clone(&journal.records().solved[&key])))
     }
@@ -325,9 +326,10 @@ impl<'a> Evaluations<'a> {
         if sample.is_none() {
             self.ends().insert((PointKey::of(point), positions), end);
         }
-        let SpacePoint { shares, chosen } = point.clone();
+        let SpacePoint { fractions, chosen } = point.clone();
         let near = None;
-        let line = SolvedLine { differentiated, positions, near, sample, shares, chosen, result };
+        let line =
+            SolvedLine { differentiated, positions, near, sample, fractions, chosen, result };
         let mut journal = self.journal();
         journal.append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
         Ok(Arc::clone(&journal.records().solved[&key]))
@@ -373,8 +375,8 @@ impl<'a> Evaluations<'a> {
             Ok(sampled.map_or_else(|| judge.no_values(), |sampled| judge.values(&sampled.row)))
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;
-        let SpacePoint { shares, chosen } = point.clone();
-        let line = SamplesLine { first, shares, chosen, values: Samples(values) };
+        let SpacePoint { fractions, chosen } = point.clone();
+        let line = SamplesLine { first, fractions, chosen, values: Samples(values) };
         let mut journal = self.journal();
         journal.append(JournalLine::Samples(line)).map_err(Halt::Output)?;
         Ok(Arc::clone(&journal.records().sampled[&key]))

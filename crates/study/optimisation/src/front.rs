@@ -115,14 +115,12 @@ fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
         return None;
     }
     // Reduce the lower bounds slightly: at the exact end the bounded objective may be smaller.
-    let floors = [Spacing::between(first[1], last[1]), Spacing::between(last[0], first[0])]
+    let bounds = [Spacing::between(first[1], last[1]), Spacing::between(last[0], first[0])]
         .map(|spacing| spacing.at(-NARROW));
-    Some(
-        [0, 1].map(|objective| Target {
-            objective,
-            floors: vec![(1 - objective, floors[objective])],
-        }),
-    )
+    Some([0, 1].map(|objective| Target {
+        objective,
+        lower_bounds: vec![(1 - objective, bounds[objective])],
+    }))
 }
 
 /// Returns targets for points that are still missing.
@@ -145,9 +143,9 @@ fn more_targets(
     }
     let known: Vec<Vec<f64>> =
         history.iter().filter_map(|candidate| signed_objectives(search, candidate)).collect();
-    let floors = spread(&known, &front, more).into_iter().map(target);
+    let new_targets = spread(&known, &front, more).into_iter().map(target);
     // A lower bound that was searched before would give the same design.
-    floors.filter(|target| !targets.contains(target)).collect()
+    new_targets.filter(|target| !targets.contains(target)).collect()
 }
 
 /// Returns at most `count` targets in the widest gaps of a front of two objectives.
@@ -161,10 +159,12 @@ fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> 
     let mut gaps: Vec<(f64, f64)> = front
         .windows(2)
         .map(|pair| {
-            let parts = [0, 1].map(|k| scales[k].share(pair[0][k]) - scales[k].share(pair[1][k]));
+            let parts =
+                [0, 1].map(|k| scales[k].fraction(pair[0][k]) - scales[k].fraction(pair[1][k]));
             let spacing = Spacing::between(pair[0][1], pair[1][1]);
-            let floors = targets.iter().flat_map(|target| &target.floors).filter(|(k, _)| *k == 1);
-            let bounds = floors.map(|(_, floor)| spacing.share(*floor));
+            let searched =
+                targets.iter().flat_map(|target| &target.lower_bounds).filter(|(k, _)| *k == 1);
+            let bounds = searched.map(|(_, bound)| spacing.fraction(*bound));
             let untried = bounds.filter(|bound| *bound > INSIDE).fold(1.0, f64::min);
             (untried * parts[0].hypot(parts[1]), spacing.at(0.5 * untried))
         })
@@ -172,7 +172,7 @@ fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> 
     gaps.retain(|(width, _)| *width > NARROW);
     gaps.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     gaps.truncate(count);
-    gaps.into_iter().map(|(_, floor)| target(vec![floor])).collect()
+    gaps.into_iter().map(|(_, bound)| target(vec![bound])).collect()
 }
 
 /// Scale between two ends, on which points are equally spaced.
@@ -191,14 +191,18 @@ impl Spacing {
         Self { ends: [from, to], logarithmic: ratio.is_finite() && ratio >= DECADE }
     }
 
-    /// Returns the value at the fraction `share` of the scale: 0 is `from`, 1 is `to`.
-    fn at(self, share: f64) -> f64 {
+    /// Returns the value at `fraction` of the scale: 0 is `from`, 1 is `to`.
+    fn at(self, fraction: f64) -> f64 {
         let [from, to] = self.ends;
-        if self.logarithmic { from * (to / from).powf(share) } else { from + (to - from) * share }
+        if self.logarithmic {
+            from * (to / from).powf(fraction)
+        } else {
+            from + (to - from) * fraction
+        }
     }
 
     /// Returns the fraction of the scale at `value`, the inverse of [`Self::at`].
-    fn share(self, value: f64) -> f64 {
+    fn fraction(self, value: f64) -> f64 {
         let [from, to] = self.ends;
         match self.logarithmic {
             true => (value / from).ln() / (to / from).ln(),
@@ -283,19 +287,19 @@ fn between_neighbours(
     front: &[Candidate],
     target: &Target,
 ) -> Option<SpacePoint> {
-    let [(objective, floor)] = target.floors[..] else { return None };
+    let [(objective, bound)] = target.lower_bounds[..] else { return None };
     let beyond = front.iter().filter_map(|candidate| {
-        Some((signed_objectives(search, candidate)?[objective] - floor, candidate))
+        Some((signed_objectives(search, candidate)?[objective] - bound, candidate))
     });
     let above = beyond.clone().filter(|(value, _)| *value >= 0.0);
     let above = above.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
     let below = beyond.filter(|(value, _)| *value < 0.0);
     let below = below.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
     let [from, to] = [below, above].map(|(_, candidate)| &candidate.point);
-    let share = below.0 / (below.0 - above.0);
-    let shares = from.shares.iter().zip(&to.shares).map(|(a, b)| a + share * (b - a));
+    let fraction = below.0 / (below.0 - above.0);
+    let fractions = from.fractions.iter().zip(&to.fractions).map(|(a, b)| a + fraction * (b - a));
     (from.chosen == to.chosen)
-        .then(|| SpacePoint { shares: shares.collect(), chosen: from.chosen.clone() })
+        .then(|| SpacePoint { fractions: fractions.collect(), chosen: from.chosen.clone() })
 }
 
 /// Returns the front after optimising the scaling intervals of each design for each target.
@@ -382,13 +386,13 @@ fn first_targets(search: &Search<'_>, history: &[Candidate], points: usize) -> V
 
 /// Returns the target that maximises the first objective under lower bounds on the others.
 ///
-/// `floors` are the bounds of the second and all following objectives.
-fn target(floors: Vec<f64>) -> Target {
+/// `bounds` are the lower bounds of the second and all following objectives.
+fn target(bounds: Vec<f64>) -> Target {
     // One objective is sufficient: with suitable lower bounds on the other objectives, its maximum
     // can be any point of the front.
     Target {
         objective: 0,
-        floors: floors.into_iter().enumerate().map(|(k, floor)| (k + 1, floor)).collect(),
+        lower_bounds: bounds.into_iter().enumerate().map(|(k, bound)| (k + 1, bound)).collect(),
     }
 }
 
@@ -401,7 +405,7 @@ fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     let spacings = [0, 1].map(|k| Spacing::between(first[k], last[k]));
     // At each end of the front, bound one objective at its optimum and maximise the other
     // objective, because many designs may share the optimum of one objective.
-    let first_end = Target { objective: 1, floors: vec![(0, spacings[0].at(BESIDE))] };
+    let first_end = Target { objective: 1, lower_bounds: vec![(0, spacings[0].at(BESIDE))] };
     let last_end = target(vec![spacings[1].at(1.0 - BESIDE)]);
     let inner =
         (1..points - 1).map(|k| target(vec![spacings[1].at(k as f64 / (points - 1) as f64)]));

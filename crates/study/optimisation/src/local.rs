@@ -250,18 +250,18 @@ impl Search<'_> {
     /// limit.
     pub fn merit_within(&self, candidate: &Candidate, target: &Target, slack: f64) -> Merit {
         let Judgement::Judged(worth) = &candidate.verdict else { return Merit::None };
-        let short = target.floors.iter().map(|&(k, floor)| {
-            (floor - self.judge.sign(k) * worth.objectives[k]) / floor_size(floor)
+        let short = target.lower_bounds.iter().map(|&(k, bound)| {
+            (bound - self.judge.sign(k) * worth.objectives[k]) / bound_size(bound)
         });
-        let floors = short.fold(0.0, f64::max);
+        let bound_shortfall = short.fold(0.0, f64::max);
         let is_met = worth.met || worth.shortfall() < slack;
         // Lower bounds of objectives tolerate round-off, as requirements do.
-        if is_met && floors <= slack.max(1e-9) {
+        if is_met && bound_shortfall <= slack.max(1e-9) {
             return Merit::Met(
                 self.judge.sign(target.objective) * worth.compared[target.objective],
             );
         }
-        Merit::Short(worth.shortfall().max(floors).max(f64::MIN_POSITIVE))
+        Merit::Short(worth.shortfall().max(bound_shortfall).max(f64::MIN_POSITIVE))
     }
 
     /// Optimises the variables of the `scaling` intervals one after the other, from `start`.
@@ -283,14 +283,14 @@ impl Search<'_> {
                 let step = (to - from) / f64::from(STEPS);
                 for k in 0..=STEPS {
                     let mut point = best.point.clone();
-                    point.shares[j] = (from + step * f64::from(k)).min(1.0);
+                    point.fractions[j] = (from + step * f64::from(k)).min(1.0);
                     // This search compares values only, so it needs no derivatives.
                     let evaluated = self.evaluate(SearchStage::Gradient, &point, false)?.0;
                     if self.merit(&evaluated, target).compare(self.merit(&best, target)).is_gt() {
                         best = evaluated;
                     }
                 }
-                (from, to) = (best.point.shares[j] - step, best.point.shares[j] + step);
+                (from, to) = (best.point.fractions[j] - step, best.point.fractions[j] + step);
                 (from, to) = (from.max(0.0), to.min(1.0));
             }
         }
@@ -303,7 +303,7 @@ impl Search<'_> {
     pub fn evaluation_units(&self, target: &Target) -> u64 {
         let units = evaluation_units(self.judge.samples().map_or(0, |judge| judge.count));
         // Searches for neighbouring points of a front share about half of their evaluations.
-        if target.floors.is_empty() { units } else { units / 2 }
+        if target.lower_bounds.is_empty() { units } else { units / 2 }
     }
 
     /// Returns the termination tolerances for the goal.
@@ -346,7 +346,7 @@ impl Search<'_> {
             task: self.progress.task(effort.evaluations * units),
         };
         // Without intervals there is nothing to vary, because the choices are fixed.
-        if start.point.shares.is_empty() {
+        if start.point.fractions.is_empty() {
             return Ok(Vec::new());
         }
         let effort = if self.judge.samples().is_some() { effort.on_samples() } else { effort };
@@ -364,9 +364,9 @@ impl Search<'_> {
     }
 }
 
-/// Returns the size by which a shortfall below the lower bound `floor` is divided.
-pub(crate) fn floor_size(floor: f64) -> f64 {
-    if floor == 0.0 { 1.0 } else { floor.abs() }
+/// Returns the size by which a shortfall below the lower bound `bound` is divided.
+pub(crate) fn bound_size(bound: f64) -> f64 {
+    if bound == 0.0 { 1.0 } else { bound.abs() }
 }
 
 /// Returns true if the merit improved by more than the fraction `gain`.
@@ -491,7 +491,7 @@ impl LocalSearch<'_> {
             share if share > 1.0 - ROUND_OFF => 1.0,
             share => share,
         });
-        SpacePoint { shares: ended.collect(), chosen }
+        SpacePoint { fractions: ended.collect(), chosen }
     }
 
     /// Solves the design at `point`, if possible starting from the path end of a similar design.
@@ -580,6 +580,6 @@ impl LocalSearch<'_> {
 
     /// Returns the continuous variables of the best design, as fractions of their intervals.
     fn best_shares(&self) -> Vec<f64> {
-        self.best.borrow().point.shares.clone()
+        self.best.borrow().point.fractions.clone()
     }
 }

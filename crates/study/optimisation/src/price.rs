@@ -16,7 +16,7 @@ use crate::evaluated_row::{EvaluatedRow, StatisticUse};
 use crate::evaluations::Halt;
 use crate::judge::Judge;
 use crate::judgement::Judgement;
-use crate::local::{CLEAR, Search, floor_size};
+use crate::local::{CLEAR, Search, bound_size};
 use crate::sample::MissedRequirement;
 use crate::slopes::Slopes;
 use crate::space::{Interval, SpacePoint};
@@ -59,7 +59,7 @@ pub enum Limit {
     /// The requirement with this index.
     Requirement(usize),
     /// The lower bound of the objective with this index.
-    Floor(usize),
+    ObjectiveBound(usize),
     /// The lower end of the interval with this index.
     Lower(usize),
     /// The upper end of the interval with this index.
@@ -67,7 +67,7 @@ pub enum Limit {
     /// First contact at the end of bending, where the compliance jumps.
     ///
     /// The distance from this limit is the logarithm (O2).
-    Touch,
+    FirstContact,
 }
 
 impl Limit {
@@ -147,17 +147,17 @@ pub(crate) fn near_limits(
     let required =
         requirements.filter(|(k, margin)| **margin < near(StatisticUse::Requirement(*k)));
     let mut limits: Vec<Limit> = required.map(|(k, _)| Limit::Requirement(k)).collect();
-    for &(k, floor) in &target.floors {
+    for &(k, bound) in &target.lower_bounds {
         let signed = search.judge.sign(k) * worth.objectives[k];
-        if signed - floor < near(StatisticUse::Objective(k)) * floor_size(floor) {
-            limits.push(Limit::Floor(k));
+        if signed - bound < near(StatisticUse::Objective(k)) * bound_size(bound) {
+            limits.push(Limit::ObjectiveBound(k));
         }
     }
     limits.extend(end_limits(&best.point, nearness));
     let case = search.space.case(&best.point);
     let touches =
         search.judge.depends_on(Measure::Flexure) && contact_margin(&case).abs() < nearness;
-    limits.extend(touches.then_some(Limit::Touch));
+    limits.extend(touches.then_some(Limit::FirstContact));
     limits
 }
 
@@ -166,10 +166,10 @@ pub(crate) fn near_limits(
 /// The distance is at most the fraction `nearness` of the interval.
 fn end_limits(point: &SpacePoint, nearness: f64) -> Vec<Limit> {
     let mut limits = Vec::new();
-    for (j, share) in point.shares.iter().enumerate() {
-        if *share <= nearness {
+    for (j, fraction) in point.fractions.iter().enumerate() {
+        if *fraction <= nearness {
             limits.push(Limit::Lower(j));
-        } else if *share >= 1.0 - nearness {
+        } else if *fraction >= 1.0 - nearness {
             limits.push(Limit::Upper(j));
         }
     }
@@ -193,7 +193,7 @@ fn prices(
     let requirements: Vec<_> = search.judge.requirements().collect();
     let per_unit = limits.iter().zip(multipliers).map(|(limit, multiplier)| match *limit {
         Limit::Requirement(k) => multiplier / requirements[k].size(),
-        Limit::Floor(_) | Limit::Touch => multiplier,
+        Limit::ObjectiveBound(_) | Limit::FirstContact => multiplier,
         Limit::Lower(j) | Limit::Upper(j) => multiplier / intervals[j].length(),
     });
     Some(per_unit.collect())
@@ -218,21 +218,21 @@ pub(crate) fn first_order_gain(
     for (limit, price) in limits.iter().zip(&multipliers) {
         let margin = match *limit {
             Limit::Requirement(k) => worth.margins[k],
-            Limit::Floor(k) => {
-                let floor = target.floors.iter().find(|(other, _)| *other == k);
+            Limit::ObjectiveBound(k) => {
+                let bound = target.lower_bounds.iter().find(|(other, _)| *other == k);
                 let signed = search.judge.sign(k) * worth.objectives[k];
-                floor.map_or(0.0, |(_, floor)| signed - floor)
+                bound.map_or(0.0, |(_, bound)| signed - bound)
             }
-            Limit::Lower(j) => best.point.shares[j],
-            Limit::Upper(j) => 1.0 - best.point.shares[j],
+            Limit::Lower(j) => best.point.fractions[j],
+            Limit::Upper(j) => 1.0 - best.point.fractions[j],
             // The search keeps this distance from contact.
-            Limit::Touch => contact_margin(&search.space.case(&best.point)) - CLEAR,
+            Limit::FirstContact => contact_margin(&search.space.case(&best.point)) - CLEAR,
         };
         gain += price * margin.max(0.0);
     }
     let mut needed = limits.iter().zip(&multipliers).filter(|(_, price)| **price > 0.0);
     let objective = worth.objectives[target.objective].abs();
-    Some((gain / objective, needed.any(|(limit, _)| *limit == Limit::Touch)))
+    Some((gain / objective, needed.any(|(limit, _)| *limit == Limit::FirstContact)))
 }
 
 /// Gradients of an objective and of limits, with respect to the fractions of the intervals.
@@ -260,10 +260,12 @@ impl Gradients {
         for limit in limits {
             columns.push(match *limit {
                 Limit::Requirement(k) => gradient(intervals, |p| judge.margin_slopes(k, row, p))?,
-                Limit::Floor(k) => gradient(intervals, |p| judge.objective_slopes(k, row, p))?,
+                Limit::ObjectiveBound(k) => {
+                    gradient(intervals, |p| judge.objective_slopes(k, row, p))?
+                }
                 Limit::Lower(j) => unit(intervals.len(), j, 1.0),
                 Limit::Upper(j) => unit(intervals.len(), j, -1.0),
-                Limit::Touch => {
+                Limit::FirstContact => {
                     gradient(intervals, |p| contact_margin_slopes(&row.nominal.case, p))?
                 }
             });

@@ -112,8 +112,8 @@ fn effect(
             let relaxed = format!("{percent} % more {}", interval.parameter.key);
             (binding_text.limit(&binding.limit, &best.target), Some(relaxed), interval.to.abs())
         }
-        Limit::Touch => ("contact in bending".to_owned(), None, 1.0),
-        Limit::Floor(_) => (binding_text.limit(&binding.limit, &best.target), None, 1.0),
+        Limit::FirstContact => ("contact in bending".to_owned(), None, 1.0),
+        Limit::ObjectiveBound(_) => (binding_text.limit(&binding.limit, &best.target), None, 1.0),
     };
     let gain = binding.price.map(|price| price * CHANGE * size / objective);
     Effect {

@@ -122,7 +122,7 @@ pub(crate) fn restarted(
     let mut evaluated: Vec<Candidate> = Vec::new();
     let best = search.best(history.iter(), target);
     let Some(best) =
-        best.filter(|best| met(search, best, target).is_some() && !best.point.shares.is_empty())
+        best.filter(|best| met(search, best, target).is_some() && !best.point.fractions.is_empty())
     else {
         return Ok(evaluated);
     };
@@ -130,7 +130,8 @@ pub(crate) fn restarted(
         if Agreement::of(ends).is_settled() {
             break;
         }
-        let units = restart_evaluations(best.point.shares.len()) * search.evaluation_units(target);
+        let units =
+            restart_evaluations(best.point.fractions.len()) * search.evaluation_units(target);
         // A restart has two tasks: points in boxes, and a full local search.
         search.progress.begin(SearchPart::Restart, 2, units);
         let designs = Restart { search, target, best, number: restart as u64 }.run()?;
@@ -159,7 +160,7 @@ impl Restart<'_> {
     fn run(&self) -> Result<Vec<Candidate>, Halt> {
         let Self { search, target, .. } = *self;
         search.progress.start();
-        let variables = self.best.point.shares.len();
+        let variables = self.best.point.fractions.len();
         let units = search.evaluation_units(target);
         let task = search.progress.task(EVALUATIONS * variables as u64 * units);
         let sequence = Sequence::new(variables, self.number);
@@ -169,9 +170,10 @@ impl Restart<'_> {
             let surface = BindingSurface::at(search, &centre, target)?;
             let count = EACH * variables;
             let points = (drawn + 1..=drawn + count).map(|k| {
-                let shares = centre.point.shares.iter().zip(sequence.point(k));
-                let shares = shares.map(|(x, u)| (x + width * (2.0 * u - 1.0)).clamp(0.0, 1.0));
-                SpacePoint { shares: shares.collect(), chosen: centre.point.chosen.clone() }
+                let fractions = centre.point.fractions.iter().zip(sequence.point(k));
+                let fractions =
+                    fractions.map(|(x, u)| (x + width * (2.0 * u - 1.0)).clamp(0.0, 1.0));
+                SpacePoint { fractions: fractions.collect(), chosen: centre.point.chosen.clone() }
             });
             let points: Vec<SpacePoint> = points.collect();
             drawn += count;
@@ -218,7 +220,7 @@ impl BindingSurface {
     fn at(search: &Search<'_>, centre: &Candidate, target: &Target) -> Result<Self, Halt> {
         let mut limits = near_limits(search, centre, target, NEAR);
         // Ends of intervals need no step, because points are clamped to the intervals.
-        limits.retain(|limit| matches!(limit, Limit::Requirement(_) | Limit::Touch));
+        limits.retain(|limit| matches!(limit, Limit::Requirement(_) | Limit::FirstContact));
         if limits.is_empty() {
             return Ok(Self { limits, step: None });
         }
@@ -266,8 +268,8 @@ impl BindingSurface {
             if missing.amax() < 0.9 * INSIDE {
                 break;
             }
-            for (share, by) in point.shares.iter_mut().zip((step * missing).iter()) {
-                *share = (*share + by).clamp(0.0, 1.0);
+            for (fraction, by) in point.fractions.iter_mut().zip((step * missing).iter()) {
+                *fraction = (*fraction + by).clamp(0.0, 1.0);
             }
         }
         Ok(search.compared(stage, &point, false)?.0)

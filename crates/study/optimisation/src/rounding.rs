@@ -162,7 +162,8 @@ fn add(
         let _task = search.progress.task(units);
         let mut point = start.clone();
         for (j, interval) in search.space.intervals().iter().enumerate() {
-            point.shares[j] = interval.share_of_multiple(factors[j]).unwrap_or(point.shares[j]);
+            point.fractions[j] =
+                interval.fraction_of_multiple(factors[j]).unwrap_or(point.fractions[j]);
         }
         Ok((factors, search.evaluate(SearchStage::Rounded, &point, false)?.0))
     });
@@ -177,9 +178,9 @@ fn add(
 fn corners(search: &Search<'_>, start: &SpacePoint) -> Vec<Vec<i64>> {
     let mut corners: Vec<Vec<i64>> = vec![Vec::new()];
     let mut both_ways = 0;
-    for (interval, share) in search.space.intervals().iter().zip(&start.shares) {
+    for (interval, fraction) in search.space.intervals().iter().zip(&start.fractions) {
         // The factor of a variable without a step is not used.
-        let [below, above] = interval.multiples_around(*share).unwrap_or([0, 0]);
+        let [below, above] = interval.multiples_around(*fraction).unwrap_or([0, 0]);
         let mut factors = vec![below];
         if above != below && both_ways < BOTH_WAYS {
             both_ways += 1;

@@ -37,16 +37,16 @@ pub struct Choice {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpacePoint {
     /// Fraction of each interval, from 0 (lower end) to 1 (upper end).
-    pub shares: Vec<f64>,
+    pub fractions: Vec<f64>,
     /// For each choice, the index of its value.
     pub chosen: Vec<usize>,
 }
 
 impl SpacePoint {
-    /// Returns a copy of the point with the fraction `share` of the interval with index `interval`.
-    pub(crate) fn with_share(&self, interval: usize, share: f64) -> Self {
+    /// Returns a copy of the point at `fraction` of the interval with index `interval`.
+    pub(crate) fn with_fraction(&self, interval: usize, fraction: f64) -> Self {
         let mut moved = self.clone();
-        moved.shares[interval] = share;
+        moved.fractions[interval] = fraction;
         moved
     }
 }
@@ -60,13 +60,13 @@ pub struct DesignSpace {
 }
 
 impl Interval {
-    /// Returns the value at the fraction `share` of the interval.
+    /// Returns the value at `fraction` of the interval.
     ///
     /// The value is exactly an end of the interval at 0 and 1.
-    pub fn value(&self, share: f64) -> f64 {
-        let value = self.from + share * (self.to - self.from);
+    pub fn value(&self, fraction: f64) -> f64 {
+        let value = self.from + fraction * (self.to - self.from);
         // Avoid round-off: tables should not show 59.99999999999999 instead of 60.
-        let value = if share >= 1.0 { self.to } else { value.clamp(self.from, self.to) };
+        let value = if fraction >= 1.0 { self.to } else { value.clamp(self.from, self.to) };
         // A rounded design should not show 0.35000000000000003 instead of 0.35.
         let multiple = self.step.map(|step| multiple((value / step).round(), step));
         let size = self.from.abs().max(self.to.abs());
@@ -74,7 +74,7 @@ impl Interval {
     }
 
     /// Returns the fraction of the interval at `value`, limited to 0 to 1.
-    pub(crate) fn share(&self, value: f64) -> f64 {
+    pub(crate) fn fraction(&self, value: f64) -> f64 {
         ((value - self.from) / self.length()).clamp(0.0, 1.0)
     }
 
@@ -89,18 +89,18 @@ impl Interval {
 
     /// Returns the multiples of the step below and above a value, as factors of the step.
     ///
-    /// The value is at the fraction `share` of the interval. Both factors are equal if the value is
+    /// The value is at `fraction` of the interval. Both factors are equal if the value is
     /// a multiple, or is not between two multiples. `None` if the interval contains no multiple.
-    pub(crate) fn multiples_around(&self, share: f64) -> Option<[i64; 2]> {
+    pub(crate) fn multiples_around(&self, fraction: f64) -> Option<[i64; 2]> {
         let (first, last) = self.multiples()?.into_inner();
-        let quotient = self.value(share) / self.step?;
+        let quotient = self.value(fraction) / self.step?;
         let around = [(quotient + ROUND_OFF).floor(), (quotient - ROUND_OFF).ceil()];
         (first <= last).then(|| around.map(|k| (k as i64).clamp(first, last)))
     }
 
     /// Returns the fraction of the interval at `factor` times the step; `None` without a step.
-    pub(crate) fn share_of_multiple(&self, factor: i64) -> Option<f64> {
-        Some(self.share(multiple(factor as f64, self.step?)))
+    pub(crate) fn fraction_of_multiple(&self, factor: i64) -> Option<f64> {
+        Some(self.fraction(multiple(factor as f64, self.step?)))
     }
 
     /// Returns the length of the interval.
@@ -134,7 +134,7 @@ impl SpacePoint {
         if self.chosen != other.chosen {
             return f64::INFINITY;
         }
-        let pairs = self.shares.iter().zip(&other.shares);
+        let pairs = self.fractions.iter().zip(&other.fractions);
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
 }
@@ -219,8 +219,8 @@ impl DesignSpace {
     pub fn case(&self, point: &SpacePoint) -> Case {
         // The first design of the grid contains the values of all parameters that do not vary.
         let mut case = self.sweep.grid().case(0);
-        for (interval, share) in self.intervals.iter().zip(&point.shares) {
-            case = interval.parameter.put(&case, Scalar::Number(interval.value(*share)));
+        for (interval, fraction) in self.intervals.iter().zip(&point.fractions) {
+            case = interval.parameter.put(&case, Scalar::Number(interval.value(*fraction)));
         }
         for (choice, index) in self.choices.iter().zip(&point.chosen) {
             case = choice.parameter.put(&case, choice.values[*index]);

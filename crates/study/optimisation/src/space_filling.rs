@@ -18,7 +18,7 @@ pub(crate) fn points(space: &DesignSpace, count: usize, seed: u64) -> Vec<SpaceP
     let combinations = space.combinations();
     if space.intervals().is_empty() && combinations <= count {
         return (0..combinations)
-            .map(|index| SpacePoint { shares: Vec::new(), chosen: space.combination(index) })
+            .map(|index| SpacePoint { fractions: Vec::new(), chosen: space.combination(index) })
             .collect();
     }
     let mut points = corners(space, count / 2);
@@ -40,7 +40,9 @@ fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
     (0..combinations)
         .flat_map(|combination| {
             (0..1 << intervals).map(move |corner| SpacePoint {
-                shares: (0..intervals).map(|j| f64::from(u8::from(corner >> j & 1 == 1))).collect(),
+                fractions: (0..intervals)
+                    .map(|j| f64::from(u8::from(corner >> j & 1 == 1)))
+                    .collect(),
                 chosen: space.combination(combination),
             })
         })
@@ -49,14 +51,14 @@ fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
 
 /// Converts a point of the unit cube to a point of the space.
 fn split(space: &DesignSpace, unit: &[f64]) -> SpacePoint {
-    let (shares, rest) = unit.split_at(space.intervals().len());
+    let (fractions, rest) = unit.split_at(space.intervals().len());
     let counts = space.choices().iter().map(|choice| choice.values.len());
     // The product may be rounded up to the count if the coordinate is just below 1.
     let chosen = rest
         .iter()
         .zip(counts)
-        .map(|(share, count)| ((share * count as f64) as usize).min(count - 1));
-    SpacePoint { shares: shares.to_vec(), chosen: chosen.collect() }
+        .map(|(fraction, count)| ((fraction * count as f64) as usize).min(count - 1));
+    SpacePoint { fractions: fractions.to_vec(), chosen: chosen.collect() }
 }
 
 /// Roberts's low-discrepancy sequence in the unit cube.

@@ -69,7 +69,8 @@ pub(crate) struct SolvedLine {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample: Option<u64>,
     /// Values of the continuous variables, as fractions of their intervals.
-    pub shares: Vec<f64>,
+    #[serde(rename = "shares")]
+    pub fractions: Vec<f64>,
     /// Index of the value of each discrete variable.
     pub chosen: Vec<usize>,
     /// Result of the design or sample.
@@ -81,7 +82,8 @@ pub(crate) struct SolvedLine {
 #[serde(deny_unknown_fields)]
 pub(crate) struct FarLine {
     /// Continuous variables at the first point, as fractions of their intervals.
-    pub shares: Vec<f64>,
+    #[serde(rename = "shares")]
+    pub fractions: Vec<f64>,
     /// Continuous variables at the second point, as fractions of their intervals.
     pub near: Vec<f64>,
     /// Index of the value of each discrete variable, equal at both points.
@@ -95,7 +97,8 @@ pub(crate) struct SamplesLine {
     /// Number of the first sample.
     pub first: u64,
     /// Values of the continuous variables, as fractions of their intervals.
-    pub shares: Vec<f64>,
+    #[serde(rename = "shares")]
+    pub fractions: Vec<f64>,
     /// Index of the value of each discrete variable.
     pub chosen: Vec<usize>,
     /// Values of each sample in the columns that the goal needs.
@@ -120,7 +123,7 @@ pub(crate) struct EvaluationKey {
 /// Key that identifies a point: the bits of its fractions, and the indices of its choices.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct PointKey {
-    shares: Vec<u64>,
+    fractions: Vec<u64>,
     chosen: Vec<usize>,
 }
 
@@ -130,13 +133,13 @@ type SamplesKey = (PointKey, u64, usize);
 impl PointKey {
     /// Returns the key of `point`.
     pub fn of(point: &SpacePoint) -> Self {
-        Self::new(&point.shares, &point.chosen)
+        Self::new(&point.fractions, &point.chosen)
     }
 
-    fn new(shares: &[f64], chosen: &[usize]) -> Self {
+    fn new(fractions: &[f64], chosen: &[usize]) -> Self {
         // No tolerance is needed: a resumed search requests exactly the same points.
-        let shares = shares.iter().map(|share| share.to_bits()).collect();
-        Self { shares, chosen: chosen.to_vec() }
+        let fractions = fractions.iter().map(|fraction| fraction.to_bits()).collect();
+        Self { fractions, chosen: chosen.to_vec() }
     }
 }
 
@@ -177,11 +180,18 @@ impl Records for JournalContent {
     fn take(&mut self, line: JournalLine, _bytes: Range<u64>) -> Result<(), String> {
         match line {
             JournalLine::Solved(line) => {
-                let SolvedLine { differentiated, positions, near, sample, shares, chosen, result } =
-                    *line;
-                let point = SpacePoint { shares, chosen };
+                let SolvedLine {
+                    differentiated,
+                    positions,
+                    near,
+                    sample,
+                    fractions,
+                    chosen,
+                    result,
+                } = *line;
+                let point = SpacePoint { fractions, chosen };
                 let of_point = PointKey::of(&point);
-                let near = near.map(|shares| PointKey::new(&shares, &point.chosen));
+                let near = near.map(|fractions| PointKey::new(&fractions, &point.chosen));
                 let result = Arc::new(result);
                 let key = EvaluationKey {
                     differentiated,
@@ -197,11 +207,12 @@ impl Records for JournalContent {
                     self.order.push((point, result));
                 }
             }
-            JournalLine::Far(FarLine { shares, near, chosen }) => {
-                self.far.insert([shares, near].map(|shares| PointKey::new(&shares, &chosen)));
+            JournalLine::Far(FarLine { fractions, near, chosen }) => {
+                self.far
+                    .insert([fractions, near].map(|fractions| PointKey::new(&fractions, &chosen)));
             }
-            JournalLine::Samples(SamplesLine { first, shares, chosen, values }) => {
-                let point = PointKey::of(&SpacePoint { shares, chosen });
+            JournalLine::Samples(SamplesLine { first, fractions, chosen, values }) => {
+                let point = PointKey::of(&SpacePoint { fractions, chosen });
                 self.sampled.insert((point, first, values.0.len()), Arc::new(values));
             }
         }

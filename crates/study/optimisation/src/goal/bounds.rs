@@ -74,9 +74,11 @@ fn open_shares(space: &DesignSpace) -> Option<(f64, f64)> {
     }
     let shares = (0..space.combinations()).flat_map(|combination| {
         (0..1_usize << intervals).filter_map(move |corner| {
-            let shares =
+            let fractions =
                 (0..intervals).map(|j| if corner >> j & 1 == 1 { 1.0 } else { 0.0 }).collect();
-            open_share(&space.case(&SpacePoint { shares, chosen: space.combination(combination) }))
+            open_share(
+                &space.case(&SpacePoint { fractions, chosen: space.combination(combination) }),
+            )
         })
     });
     shares.map(|share| (share, share)).reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))

@@ -64,9 +64,9 @@ impl LocalSearch<'_> {
         let slopes: Vec<f64> = slopes.collect::<Option<_>>()?;
         let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
         let fall = (contact_margin(&case) + BEHIND) / square;
-        let moved = best.point.shares.iter().zip(&slopes);
+        let moved = best.point.fractions.iter().zip(&slopes);
         let shares = moved.map(|(share, slope)| (share - fall * slope).clamp(0.0, 1.0)).collect();
-        let behind = SpacePoint { shares, chosen: best.point.chosen.clone() };
+        let behind = SpacePoint { fractions: shares, chosen: best.point.chosen.clone() };
         let is_behind = contact_margin(&self.search.space.case(&behind)) < 0.0;
         is_behind.then_some(behind)
     }

@@ -10,7 +10,7 @@ use ranking::Worth;
 use results::DesignResult;
 use sweep::{Measure, Parameter};
 
-use super::{LocalSearch, floor_size};
+use super::{LocalSearch, bound_size};
 use crate::candidate::{Merit, SearchStage};
 use crate::contact_margin::{contact_margin, contact_margin_slopes};
 use crate::coverage_piece::{CoveragePiece, continue_compliance};
@@ -109,7 +109,7 @@ impl<'a> LocalProblem<'a> {
         let best = local.best.borrow();
         let Judgement::Judged(worth) = &best.verdict else { return None };
         let value = worth.objectives[local.target.objective];
-        let count = best.point.shares.len();
+        let count = best.point.fractions.len();
         Some(Self {
             local,
             stage,
@@ -206,7 +206,7 @@ impl<'a> LocalProblem<'a> {
     ///
     /// In the list of all limits, these limits are the first.
     pub fn asked_count(&self) -> usize {
-        self.local.search.judge.requirements().count() + self.local.target.floors.len()
+        self.local.search.judge.requirements().count() + self.local.target.lower_bounds.len()
     }
 
     /// Returns the number of limits.
@@ -225,15 +225,15 @@ impl<'a> LocalProblem<'a> {
         let contact = self.stays_open.then(|| CLEAR - contact_margin(&row.nominal.case));
         let borders = self.borders();
         let borders = borders.filter_map(|(piece, border)| piece.beyond(border, &row.nominal.case));
-        let floors = self.local.target.floors.iter().map(|&(k, floor)| {
+        let bounds = self.local.target.lower_bounds.iter().map(|&(k, bound)| {
             let signed = self.local.search.judge.sign(k) * worth.objectives[k];
-            (floor - signed) / floor_size(floor)
+            (bound - signed) / bound_size(bound)
         });
         worth
             .margins
             .iter()
             .map(|margin| -margin)
-            .chain(floors)
+            .chain(bounds)
             .chain(borders)
             .chain(contact)
             .collect()
@@ -277,9 +277,9 @@ impl<'a> LocalProblem<'a> {
         if k < required {
             return self.falling(shares, |p| judge.margin_slopes(k, row, p), pick);
         }
-        let floors = &self.local.target.floors;
+        let bounds = &self.local.target.lower_bounds;
         if let Some((piece, border)) =
-            (k - required).checked_sub(floors.len()).and_then(|k| self.borders().nth(k))
+            (k - required).checked_sub(bounds.len()).and_then(|k| self.borders().nth(k))
         {
             return self.falling(
                 shares,
@@ -287,9 +287,9 @@ impl<'a> LocalProblem<'a> {
                 pick,
             );
         }
-        match floors.get(k - required) {
-            Some(&(objective, floor)) => {
-                let size = floor_size(floor).recip();
+        match bounds.get(k - required) {
+            Some(&(objective, bound)) => {
+                let size = bound_size(bound).recip();
                 self.falling(
                     shares,
                     |p| judge.objective_slopes(objective, row, p).scaled(size),

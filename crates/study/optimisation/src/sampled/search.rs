@@ -195,10 +195,10 @@ fn safer(
     });
     let Some((k, q, missing)) = missed else { return Ok(None) };
     let gradients = search.margin_gradients(point, (k, q), judge.count / NEAR)?;
-    let step = least_step(&gradients, OVERSHOOT * missing, point.shares.len());
+    let step = least_step(&gradients, OVERSHOOT * missing, point.fractions.len());
     let mut next = point.clone();
-    for (share, step) in next.shares.iter_mut().zip(&step) {
-        *share = (*share + step).clamp(0.0, 1.0);
+    for (fraction, step) in next.fractions.iter_mut().zip(&step) {
+        *fraction = (*fraction + step).clamp(0.0, 1.0);
     }
     Ok((next != *point && step.iter().all(|x| x.is_finite())).then_some(next))
 }
@@ -244,7 +244,7 @@ fn seeds(nominal: &Search<'_>, history: &[Candidate], answer: &Answer) -> Vec<Sp
     };
     let best = best.iter().map(|best| best.candidate.point.clone());
     let others = (0..nominal.judge.objectives()).flat_map(|objective| {
-        let target = Target { objective, floors: Vec::new() };
+        let target = Target { objective, lower_bounds: Vec::new() };
         starts(nominal, history, &target, SEEDS).into_iter().map(|candidate| candidate.point)
     });
     let mut seeds: Vec<SpacePoint> = Vec::new();

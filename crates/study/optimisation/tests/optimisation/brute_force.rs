@@ -29,13 +29,13 @@ struct GridBest {
     /// Objective of the best point, to be maximised.
     objective: f64,
     /// Best point, as fractions of the intervals.
-    shares: Vec<f64>,
+    fractions: Vec<f64>,
     /// Number of feasible points.
     met: usize,
 }
 
 impl GridBest {
-    const NONE: Self = Self { objective: f64::NEG_INFINITY, shares: Vec::new(), met: 0 };
+    const NONE: Self = Self { objective: f64::NEG_INFINITY, fractions: Vec::new(), met: 0 };
 
     /// Returns the better of two points, and the sum of the numbers of feasible points.
     fn or(self, other: Self) -> Self {
@@ -81,10 +81,10 @@ fn best_of_sequence(goal: &DesignGoal, ranges: &[[f64; 2]], count: usize) -> Gri
     (0..count)
         .into_par_iter()
         .map(|k| {
-            let shares = ranges.iter().enumerate().map(|(j, [from, to])| {
+            let fractions = ranges.iter().enumerate().map(|(j, [from, to])| {
                 from + (to - from) * (0.137 + k as f64 * RATIO.powi(-(j as i32 + 1))).fract()
             });
-            solver.best(shares.collect())
+            solver.best(fractions.collect())
         })
         .reduce(|| GridBest::NONE, GridBest::or)
 }
@@ -131,8 +131,8 @@ impl<'g> GoalSolver<'g> {
     }
 
     /// Evaluates one point; returns `GridBest::NONE` if it is not feasible.
-    fn best(&self, shares: Vec<f64>) -> GridBest {
-        let point = SpacePoint { shares, chosen: Vec::new() };
+    fn best(&self, fractions: Vec<f64>) -> GridBest {
+        let point = SpacePoint { fractions, chosen: Vec::new() };
         let case = self.goal.space.case(&point);
         let number = self.goal.space.sweep().grid().number(0);
         for Stage { evaluator, bounds } in &self.stages {
@@ -148,7 +148,7 @@ impl<'g> GoalSolver<'g> {
             return GridBest::NONE;
         };
         let objective = self.judge.sign(0) * worth.objectives[0];
-        let best = GridBest { objective, shares: point.shares, met: 1 };
+        let best = GridBest { objective, fractions: point.fractions, met: 1 };
         if worth.met { best } else { GridBest::NONE }
     }
 }
@@ -164,17 +164,17 @@ fn no_grid_has_a_better_design_than_the_optimum() {
     let goal = goal.expect("a goal");
     let folder = tempfile::tempdir().expect("a folder");
     let found = found_in(folder.path(), &goal, 2, Start::New);
-    let (best, shares) = (optimum(&found), &optimum(&found).candidate.point.shares);
+    let (best, fractions) = (optimum(&found), &optimum(&found).candidate.point.fractions);
     let optimum = objectives(best)[0];
     let near: Vec<[f64; 2]> =
-        shares.iter().map(|x| [(x - NEAR).max(0.0), (x + NEAR).min(1.0)]).collect();
+        fractions.iter().map(|x| [(x - NEAR).max(0.0), (x + NEAR).min(1.0)]).collect();
     for (name, ranges) in [("round the optimum", near), ("everywhere", vec![[0.0, 1.0]; 3])] {
         let points = if name == "everywhere" { points.unwrap_or(POINTS) } else { POINTS };
         let best = best_of_grid(&goal, &ranges, points);
         let off = best.objective / optimum - 1.0;
         println!(
-            "{name}: optimum {optimum} at {shares:?}; {} feasible points, the best {} at {:?}, {off:+.2e}",
-            best.met, best.objective, best.shares
+            "{name}: optimum {optimum} at {fractions:?}; {} feasible points, the best {} at {:?}, {off:+.2e}",
+            best.met, best.objective, best.fractions
         );
         assert!(best.met > 0 && off <= 1e-6, "{name}: {off:+.2e}");
         assert!(name == "everywhere" || off > -1e-3, "{name}: {off:+.2e}");
@@ -229,18 +229,18 @@ fn no_design_beats_the_optima_of_twelve_goals() {
             let folder = tempfile::tempdir().expect("a folder");
             let found = found_in(folder.path(), goal, 2, Start::New);
             let best = optimum(&found);
-            (sign * objectives(best)[0], best.candidate.point.shares.clone(), found.evaluations)
+            (sign * objectives(best)[0], best.candidate.point.fractions.clone(), found.evaluations)
         });
-        let [(one, shares, evaluations), (other, ..)] = &found;
+        let [(one, fractions, evaluations), (other, ..)] = &found;
         let space = &goals[0].space;
         // The range of each variable extends by 5 % of its optimal value to both sides.
         let near: Vec<[f64; 2]> = space
             .intervals()
             .iter()
-            .zip(shares)
-            .map(|(interval, share)| {
-                let by = 0.05 * interval.value(*share) / interval.length();
-                [(share - by).max(0.0), (share + by).min(1.0)]
+            .zip(fractions)
+            .map(|(interval, fraction)| {
+                let by = 0.05 * interval.value(*fraction) / interval.length();
+                [(fraction - by).max(0.0), (fraction + by).min(1.0)]
             })
             .collect();
         let everywhere = best_of_sequence(&goals[0], &[[0.0, 1.0]; 3], in_box);
@@ -248,8 +248,8 @@ fn no_design_beats_the_optima_of_twelve_goals() {
         let [everywhere_off, near_off, other_off] =
             [everywhere.objective, near.objective, *other].map(|value| (value - one) / one.abs());
         println!(
-            "{k}: {objective} {required}: {one} at {shares:?} after {evaluations}, seed 1 {other_off:+.1e}; {} of {in_box} feasible, best {everywhere_off:+.2e} at {:?}; {} of {near_optimum} near the optimum, best {near_off:+.2e}",
-            everywhere.met, everywhere.shares, near.met,
+            "{k}: {objective} {required}: {one} at {fractions:?} after {evaluations}, seed 1 {other_off:+.1e}; {} of {in_box} feasible, best {everywhere_off:+.2e} at {:?}; {} of {near_optimum} near the optimum, best {near_off:+.2e}",
+            everywhere.met, everywhere.fractions, near.met,
         );
         if everywhere_off > 1e-6 || near_off > 1e-6 || other_off.abs() > 1e-6 {
             beaten.push(k);

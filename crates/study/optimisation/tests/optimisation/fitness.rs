@@ -55,13 +55,13 @@ fn derivatives_of_the_fitness_match_finite_differences() {
     let judge = Judge::new(&goal);
     let number = goal.space.sweep().grid().number(0);
     let (all, plain) = (Evaluator::new(&Measure::ALL), Evaluator::new(&Measure::USUAL));
-    let point = SpacePoint { shares: vec![0.31, 0.57, 0.43], chosen: Vec::new() };
+    let point = SpacePoint { fractions: vec![0.31, 0.57, 0.43], chosen: Vec::new() };
     let row = all.solve(number, &goal.space.case(&point)).row;
     for (j, interval) in goal.space.intervals().iter().enumerate() {
         let step = 1e-4;
         let [below, above] = [-step, step].map(|by| {
             let mut moved = point.clone();
-            moved.shares[j] += by;
+            moved.fractions[j] += by;
             let row = plain.solve(number, &goal.space.case(&moved)).row;
             let Judgement::Judged(worth) = judge.verdict(&row) else { panic!("a valid judgement") };
             worth.objectives[0]

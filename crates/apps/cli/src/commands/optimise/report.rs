@@ -305,12 +305,12 @@ impl SearchReport<'_> {
         rows.extend(designs.iter().map(|best| {
             let row = self.named_values(best).into_iter();
             let mut row: Vec<String> = row.map(|[_, value]| value).collect();
-            // `Limit::Floor` is a lower bound on another objective (ε-constraint). Its price is the
+            // `Limit::ObjectiveBound` is a lower bound on another objective (ε-constraint). Its price is the
             // trade-off between both objectives.
             let bounds = best
                 .bindings
                 .iter()
-                .filter(|binding| matches!(binding.limit, optimisation::Limit::Floor(_)));
+                .filter(|binding| matches!(binding.limit, optimisation::Limit::ObjectiveBound(_)));
             let prices: Vec<_> = bounds.filter_map(|b| texts.price(b, &best.target)).collect();
             row.push(prices.join("; "));
             if fold_force(self.goal, best).is_some() {
