@@ -38,7 +38,7 @@ pub enum Check {
     /// The values are the weakest load position (0: left corner of the top, 1: right corner) and
     /// the outcome of the path at this position. If the path at another position ended so early
     /// that the smallest force is uncertain, the values belong to that position.
-    Places(f64, Outcome),
+    LoadPositions(f64, Outcome),
     /// Solution of new samples. The value is the number of samples.
     Samples(usize),
 }
@@ -67,8 +67,8 @@ impl fmt::Display for Check {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Coupling => write!(f, "With full substrate coupling"),
-            Self::Places(place, _) => {
-                write!(f, "At {}, with full substrate coupling", described(place))
+            Self::LoadPositions(position, _) => {
+                write!(f, "At {}, with full substrate coupling", described(position))
             }
             Self::Samples(count) => write!(f, "Over {} new samples", number::text(count as f64)),
         }

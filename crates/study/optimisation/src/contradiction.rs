@@ -93,7 +93,7 @@ impl BestDesign {
         let check = if weakest.load_position == self.row.case.punctured().load_position {
             Check::Coupling
         } else {
-            Check::Places(weakest.load_position, weakest.outcome)
+            Check::LoadPositions(weakest.load_position, weakest.outcome)
         };
         is_lower_limit.then_some((check, weakest.weakest))
     }
@@ -105,7 +105,7 @@ impl fmt::Display for Contradiction {
         let column = &requirement.column;
         match (value, check) {
             (Some(value), _) => write!(f, "{check}, {column} is {}", number::rounded(*value, 5))?,
-            (None, Check::Places(_, outcome)) if *outcome != Outcome::Complete => {
+            (None, Check::LoadPositions(_, outcome)) if *outcome != Outcome::Complete => {
                 write!(f, "{check}, {column} has no valid value ({outcome})")?;
             }
             (None, _) => write!(f, "{check}, {column} has no valid value")?,
