@@ -135,7 +135,7 @@ pub struct FittedCurve {
     /// True if the columns have physical units, false for units of the model.
     pub is_physical: bool,
     /// Numbers of the lines that were left out: remarks, footers, and gaps in the recording.
-    pub left_out: Vec<u64>,
+    pub skipped_lines: Vec<u64>,
     /// True for each axis on which the signs of the file were reversed.
     pub reversed: [bool; 2],
     /// Events of the measured curve, e.g. first contact, reversals, holds and drops.
@@ -397,7 +397,7 @@ impl Residuals<'_> {
                     file: measured.file.clone(),
                     axes,
                     is_physical: measured.is_physical,
-                    left_out: measured.left_out.clone(),
+                    skipped_lines: measured.skipped_lines.clone(),
                     reversed: measured.reversed,
                     events: self.events((number, curve), model, scaled),
                     has_suspect_signs: model.before == points.len()

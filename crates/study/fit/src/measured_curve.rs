@@ -78,7 +78,7 @@ pub struct MeasuredCurve {
     /// Numbers of the lines that were left out: remarks, footers, and gaps in the recording.
     ///
     /// If a table has several specimens, only the first one lists the lines outside of the table.
-    pub left_out: Vec<u64>,
+    pub skipped_lines: Vec<u64>,
     /// Displacement or curvature, then force or moment, in the order of the file.
     pub points: Vec<[f64; 2]>,
     /// Line number of each point.
@@ -162,11 +162,11 @@ impl MeasuredCurve {
                 let name = header.specimen(&rows, from..end);
                 from = end;
                 let name_row = header.named(&rows).filter(|_| is_named);
-                let left_out = match index {
-                    0 => header.left_out(&rows, table, name_row),
+                let skipped_lines = match index {
+                    0 => header.skipped_lines(&rows, table, name_row),
                     _ => Vec::new(),
                 };
-                let curve = Self::in_table(&rows, (table, left_out), &header, columns);
+                let curve = Self::in_table(&rows, (table, skipped_lines), &header, columns);
                 curves.push(curve.map_err(|(line, problem)| wrong(Some(line), problem))?);
                 specimens.push(name);
             }
@@ -192,7 +192,7 @@ impl MeasuredCurve {
     /// Reads one curve from a table; an error has its line number and a description.
     fn in_table(
         rows: &Rows,
-        (table, mut left_out): (&NumberTable, Vec<u64>),
+        (table, mut skipped_lines): (&NumberTable, Vec<u64>),
         header: &Header,
         columns: CurveColumns,
     ) -> Result<Self, (u64, String)> {
@@ -210,7 +210,7 @@ impl MeasuredCurve {
                 // Empty cells after the last point belong to a specimen that is shorter than its
                 // neighbours in the table. Empty cells before the last point are gaps.
                 if last.is_some_and(|last| row < last) {
-                    left_out.push(*line);
+                    skipped_lines.push(*line);
                 }
                 continue;
             }
@@ -218,7 +218,7 @@ impl MeasuredCurve {
             // column that has a number in the first row of the table.
             let is_result = last.is_some_and(|last| row > last) && rows.number(pair[0]).is_none();
             if is_result || (rows.are_numbers(row, indices) && !rows.is_like(row, table.rows[0])) {
-                left_out.push(*line);
+                skipped_lines.push(*line);
                 continue;
             }
             let mut point = [0.0; 2];
@@ -233,7 +233,7 @@ impl MeasuredCurve {
             points.push(point);
             lines.push(*line);
         }
-        left_out.sort_unstable();
+        skipped_lines.sort_unstable();
         let reversed = loading::reversed_signs(&points);
         for point in &mut points {
             for axis in (0..2).filter(|axis| reversed[*axis]) {
@@ -246,7 +246,7 @@ impl MeasuredCurve {
             test,
             is_physical: units.is_some(),
             x_unit: units.map_or(1.0, |units| units[0]),
-            left_out,
+            skipped_lines,
             points,
             lines,
             reversed,
@@ -389,7 +389,7 @@ mod tests {
             "Specimen;3\nSpeed;5;mm/min\nTime;Weg;Displacement;Force\n(s);;(mm);(N)\n0;9;0;0\n;;;\n1;9;0,5;2\n",
         );
         assert_eq!(
-            (curve.is_physical, curve.left_out.clone(), &*curve.points),
+            (curve.is_physical, curve.skipped_lines.clone(), &*curve.points),
             (true, vec![1, 2, 6], &[[0.0, 0.0], [0.5, 2.0]][..])
         );
         let curve = parsed("Displacement [µm],Force (mN),\n500,20,\n");
@@ -440,7 +440,7 @@ mod tests {
             "Rate,2.0,mm/min\nDiameter,2.0,mm\nTime,Extension,Load\n(sec),(mm),(N)\n0,1,2\n1,3,4\n";
         let curve = parsed(text);
         assert_eq!(
-            (&*curve.left_out, &*curve.points),
+            (&*curve.skipped_lines, &*curve.points),
             (&[1, 2][..], &[[1.0, 2.0], [3.0, 4.0]][..])
         );
         let unknown = text.replace("Extension", "Gauge");
@@ -467,9 +467,9 @@ mod tests {
         assert_eq!(files, ["a.csv, specimen A", "a.csv, specimen B 7"]);
         assert_eq!(curves[0].points, [[1.0, 2.0], [5.0, 6.0]]);
         // Empty cells after the last point of the shorter second specimen are not left-out lines.
-        assert_eq!((&*curves[1].points, &*curves[1].left_out), (&[[3.0, 4.0]][..], &[][..]));
+        assert_eq!((&*curves[1].points, &*curves[1].skipped_lines), (&[[3.0, 4.0]][..], &[][..]));
         // A header with a single row of numbers below it is not a specimen.
-        assert_eq!(parsed(below).left_out, [5, 6, 7]);
+        assert_eq!(parsed(below).skipped_lines, [5, 6, 7]);
         let below = format!("{below}7;8\n");
         let curves = MeasuredCurve::parse(&below, "a.csv", None).expect("curves");
         assert_eq!(curves[1].file, "a.csv, specimen End");
@@ -482,7 +482,7 @@ mod tests {
     #[test]
     fn footers_and_single_rows_of_numbers_are_left_out() {
         let curve = parsed("x,y\n25,100\n\nDisplacement (mm),Force (N)\n1,2\n3,4\n\nEnd of test\n");
-        assert_eq!((&*curve.left_out, curve.points.len()), (&[1, 2, 8][..], 2));
+        assert_eq!((&*curve.skipped_lines, curve.points.len()), (&[1, 2, 8][..], 2));
     }
 
     #[test]
@@ -494,7 +494,7 @@ mod tests {
         assert_eq!(parsed(&format!("{data}\n{results}")).points, points);
         for footer in ["Mean,3,4\nSD,1,1\n", "Maximum,5,6\n", "Maximum,x,6\n", ",Maximum,6\n"] {
             let curve = parsed(&format!("{data}{footer}"));
-            assert_eq!((&*curve.points, curve.left_out[0]), (&points[..], 6), "{footer}");
+            assert_eq!((&*curve.points, curve.skipped_lines[0]), (&points[..], 6), "{footer}");
             assert_eq!(parsed(&format!("{data}\n{footer}")).points, points);
         }
     }
@@ -507,7 +507,7 @@ mod tests {
         let names: Vec<_> = curves.iter().map(|c| (c.specimen.as_deref(), &*c.file)).collect();
         assert_eq!(names[1], (Some("Probe 9"), "a.csv, specimen Probe 9"));
         assert_eq!((names[0].0, curves[1].points[1]), (Some("Probe 7"), [7.0, 8.0]));
-        assert!(curves[0].left_out.is_empty());
+        assert!(curves[0].skipped_lines.is_empty());
     }
 
     #[test]

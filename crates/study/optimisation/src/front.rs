@@ -60,7 +60,7 @@ impl Front {
     /// Returns how many of the `points` requested points were not searched.
     ///
     /// No gap was wide enough for them, or no known design was far enough from the other points.
-    pub fn left_out(&self, points: usize) -> usize {
+    pub fn unsearched(&self, points: usize) -> usize {
         points.saturating_sub(self.designs.len() + self.same + self.beaten + self.empty)
     }
 }

@@ -32,7 +32,7 @@
 //! | [`SearchProgress`], [`SearchPart`] | progress of a search |
 //! | [`SearchStatus`] | status of a search, from its journal |
 //! | [`Found`], [`Answer`], [`BestDesign`], [`Front`] | results of a search |
-//! | [`LeftOutDesigns`] | counts of designs without a valid judgement |
+//! | [`UnjudgedDesigns`] | counts of designs without a valid judgement |
 //! | [`Candidate`], [`SearchStage`], [`Target`] | evaluated design, stage and target of a search |
 //! | [`write_found`] | writes the tables of a search |
 //! | [`BindingText`] | describes binding limits and their cost in words |
@@ -115,7 +115,7 @@ pub use restarts::Agreement;
 pub use rounding::Rounding;
 pub use sample::MissedRequirement;
 pub use sampled::confirmation::{Confirmation, Estimate};
-pub use search::{Found, LeftOutDesigns, SearchOptions, optimise};
+pub use search::{Found, SearchOptions, UnjudgedDesigns, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};
 pub use statistic::Statistic;
 pub use status::{EvaluatedDesign, SearchStatus};

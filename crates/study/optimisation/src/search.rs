@@ -63,7 +63,7 @@ pub struct Found {
     /// Answer to the goal: best design, front, or nearest infeasible design.
     pub answer: Answer,
     /// Counts of designs without a valid judgement.
-    pub left_out: LeftOutDesigns,
+    pub unjudged: UnjudgedDesigns,
     /// Number of local searches.
     pub starts: usize,
     /// Number of regions with at least one evaluated design.
@@ -86,7 +86,7 @@ pub struct Found {
 
 /// Counts of designs without a valid judgement, by reason.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct LeftOutDesigns {
+pub struct UnjudgedDesigns {
     /// Number of designs with a failed measure, by outcome.
     pub failed: BTreeMap<Outcome, usize>,
     /// Number of designs with a folded surface.
@@ -166,12 +166,12 @@ fn find(
     })?;
     let judge = Judge::rescaling(&limits.tightened, &rescaled);
     let search = Search { judge: &judge, ..nominal };
-    let left_out = LeftOutDesigns::of(&search, &history);
+    let unjudged = UnjudgedDesigns::of(&search, &history);
     Ok(Found {
         regions: region_count(&search, &history),
         history,
         answer,
-        left_out,
+        unjudged,
         starts: progress.starts(),
         evaluations: evaluations.count(),
         searched: limits.tightened.requirements,
@@ -465,42 +465,42 @@ fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     ends_over(fitness, goal.space.sweep(), &rows)
 }
 
-impl LeftOutDesigns {
+impl UnjudgedDesigns {
     /// Counts the designs of `history` without a valid judgement.
     fn of(search: &Search<'_>, history: &[Candidate]) -> Self {
-        let mut left_out = Self::default();
+        let mut unjudged = Self::default();
         for candidate in history {
             match &candidate.verdict {
-                Judgement::Failed(outcome) => *left_out.failed.entry(*outcome).or_default() += 1,
+                Judgement::Failed(outcome) => *unjudged.failed.entry(*outcome).or_default() += 1,
                 Judgement::Missing(column) => {
-                    *left_out.missing.entry(column.clone()).or_default() += 1;
+                    *unjudged.missing.entry(column.clone()).or_default() += 1;
                 }
-                Judgement::Folded => left_out.folded += 1,
+                Judgement::Folded => unjudged.folded += 1,
                 // A design that is folded at the end of its path is judged as infeasible. Count it
                 // as folded, too.
                 Judgement::Judged(_) | Judgement::Nominal(_)
                     if search.judge.requires_unfolded() =>
                 {
                     let row = search.evaluations.row(0, &candidate.point, &candidate.result);
-                    left_out.folded += usize::from(has_folded(&row));
+                    unjudged.folded += usize::from(has_folded(&row));
                 }
                 Judgement::Judged(_) | Judgement::Nominal(_) => {}
             }
         }
-        left_out
+        unjudged
     }
 }
 
 /// Returns an error if a column of the goal is empty for all designs.
 fn check_columns(found: &Found) -> Result<(), OptimisationError> {
-    // A column that is empty for some designs is no error. `left_out` counts these designs.
-    let is_left_out =
+    // A column that is empty for some designs is no error. `unjudged` counts these designs.
+    let is_unjudged =
         |c: &Candidate| matches!(c.verdict, Judgement::Failed(_) | Judgement::Missing(_));
-    if !found.history.iter().all(is_left_out) {
+    if !found.history.iter().all(is_unjudged) {
         return Ok(());
     }
     let designs = found.history.len();
-    found.left_out.missing.keys().next().map_or(Ok(()), |column| {
+    found.unjudged.missing.keys().next().map_or(Ok(()), |column| {
         Err(OptimisationError::NoValue { column: column.clone(), designs })
     })
 }

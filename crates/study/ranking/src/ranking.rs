@@ -37,7 +37,7 @@ pub struct Ranking<'r> {
     /// Nodes and volume of each contender that is the best at any node.
     wins: BTreeMap<usize, Wins>,
     /// Reasons to exclude designs, with the number of excluded designs.
-    left_out: Vec<(String, usize)>,
+    exclusions: Vec<(String, usize)>,
 }
 
 /// Extent of the weights for which a design is the best.
@@ -163,12 +163,12 @@ impl<'r> Ranking<'r> {
         if unmet > 0 && unmet == results.len() {
             return Err(InvalidRanking::Unmet(Unmet::of(results, &preferences.requirements)?));
         }
-        let left_out: Vec<_> = reasons
+        let exclusions: Vec<_> = reasons
             .into_iter()
             .map(|(why, count)| (why.description(&preferences), count))
             .collect();
         if contenders.rows.is_empty() {
-            return Err(nothing(results, &preferences, &left_out));
+            return Err(nothing(results, &preferences, &exclusions));
         }
         let winners = winners(&contenders, grid);
         let mut wins: BTreeMap<usize, Wins> = BTreeMap::new();
@@ -177,7 +177,7 @@ impl<'r> Ranking<'r> {
             extent.nodes += 1;
             extent.cells += TetrahedralGrid::cell(steps);
         }
-        Ok(Self { results, preferences, grid, contenders, winners, wins, left_out })
+        Ok(Self { results, preferences, grid, contenders, winners, wins, exclusions })
     }
 
     /// Reads the results in `folder`, with only the columns that a ranking by `preferences` needs.
@@ -218,8 +218,8 @@ impl<'r> Ranking<'r> {
     }
 
     /// Returns the number of excluded designs for each reason.
-    pub fn left_out(&self) -> &[(String, usize)] {
-        &self.left_out
+    pub fn exclusions(&self) -> &[(String, usize)] {
+        &self.exclusions
     }
 
     /// Returns the indices of criteria that are equal in all designs up to round-off.
@@ -341,9 +341,9 @@ impl<'r> Ranking<'r> {
 fn nothing(
     results: &Results,
     preferences: &Preferences,
-    left_out: &[(String, usize)],
+    exclusions: &[(String, usize)],
 ) -> InvalidRanking {
-    let reasons: Vec<_> = left_out.iter().map(|(why, n)| format!("{n}: {why}")).collect();
+    let reasons: Vec<_> = exclusions.iter().map(|(why, n)| format!("{n}: {why}")).collect();
     let columns: Vec<&str> =
         preferences.criteria.iter().map(|c: &Criterion| c.column.as_ref()).collect();
     let (reasons, columns) = (reasons.join("; "), columns.join(", "));

@@ -341,7 +341,9 @@ fn remarks(curve: &FittedCurve, estimates: &[Estimate]) -> String {
         }),
     ];
     let (is_physical, reversed) = (curve.is_physical, curve.reversed);
-    let notes = Reading { axes: [x, y], is_physical, left_out: &curve.left_out, reversed }.notes();
+    let notes =
+        Reading { axes: [x, y], is_physical, skipped_lines: &curve.skipped_lines, reversed }
+            .notes();
     let offset = format!("{x} offset of {file}");
     let has_offset = estimates.iter().any(|estimate| estimate.unknown.name == offset);
     let (as_notes, as_warnings): (Vec<_>, Vec<_>) =
@@ -358,7 +360,7 @@ fn remarks(curve: &FittedCurve, estimates: &[Estimate]) -> String {
 fn is_note(event: &CurveEvent, has_offset: bool) -> bool {
     match event.kind {
         CurveEventKind::Touches => has_offset,
-        CurveEventKind::TurnsBack => event.left_out == 0,
+        CurveEventKind::TurnsBack => event.excluded_points == 0,
         _ => false,
     }
 }
@@ -367,9 +369,9 @@ fn is_note(event: &CurveEvent, has_offset: bool) -> bool {
 ///
 /// `has_offset` is true if the fit determines an offset of `x` for this curve.
 fn event_text(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String {
-    let CurveEvent { kind, line, left_out, at } = *event;
-    let points = counted(left_out as u64, "point");
-    let is_or_are = if left_out == 1 { "is" } else { "are" };
+    let CurveEvent { kind, line, excluded_points, at } = *event;
+    let points = counted(excluded_points as u64, "point");
+    let is_or_are = if excluded_points == 1 { "is" } else { "are" };
     match kind {
         CurveEventKind::Touches => {
             let advice = if has_offset {
@@ -382,7 +384,7 @@ fn event_text(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String
                 digits(at)
             )
         }
-        CurveEventKind::TurnsBack if left_out == 0 => {
+        CurveEventKind::TurnsBack if excluded_points == 0 => {
             format!("the {x} turns back after line {line}; both branches are fitted")
         }
         CurveEventKind::TurnsBack => format!(
@@ -445,9 +447,9 @@ fn record(fitted: &Fitted) -> Value {
         "correlations": fitted.correlations,
         "not_told_apart": fitted.undetermined.iter().map(|group| names(fitted, group)).collect::<Vec<_>>(),
         "curves": fitted.curves.iter().map(|c| json!({
-            "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed,
+            "file": c.file, "points": c.points.len(), "left_out": c.skipped_lines, "reversed": c.reversed,
             "events": c.events.iter().map(|e| json!({
-                "kind": kind_name(e.kind), "line": e.line, "left_out": e.left_out,
+                "kind": kind_name(e.kind), "line": e.line, "left_out": e.excluded_points,
             })).collect::<Vec<_>>(),
             "noise": c.noise, "trend": c.trend, "widening": c.widening, "beyond": c.beyond,
             "differenced": c.differenced,

@@ -12,7 +12,7 @@ pub struct Reading<'a> {
     /// True if the columns have physical units.
     pub is_physical: bool,
     /// Numbers of the lines of the file that were omitted.
-    pub left_out: &'a [u64],
+    pub skipped_lines: &'a [u64],
     /// For each axis, true if the signs of its values were reversed.
     pub reversed: [bool; 2],
 }
@@ -20,14 +20,14 @@ pub struct Reading<'a> {
 impl Reading<'_> {
     /// Returns notes on missing units, omitted lines and reversed signs, if there are any.
     pub fn notes(&self) -> Vec<String> {
-        let Self { axes: [x, y], is_physical, left_out, reversed } = *self;
+        let Self { axes: [x, y], is_physical, skipped_lines, reversed } = *self;
         let mut notes = Vec::new();
         if !is_physical {
             notes.push(format!("{x} and {y} have no units in the file; they are read as dimensionless, as in the tables of squama design"));
         }
-        if !left_out.is_empty() {
-            let lines = counted(left_out.len() as u64, "line");
-            let ranges = ranges(left_out);
+        if !skipped_lines.is_empty() {
+            let lines = counted(skipped_lines.len() as u64, "line");
+            let ranges = ranges(skipped_lines);
             let more = if ranges.len() > SHOWN_RANGES { ", …" } else { "" };
             let first = &ranges[..ranges.len().min(SHOWN_RANGES)];
             notes.push(format!(

@@ -301,8 +301,8 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
     let (bending, is_physical) = (first.test == Test::Bending, first.is_physical);
     let axes = first.test.axes().map(|(name, _)| name);
     for curve in &read {
-        let (left_out, reversed) = (&curve.left_out, curve.reversed);
-        for text in (Reading { axes, is_physical, left_out, reversed }).notes() {
+        let (skipped_lines, reversed) = (&curve.skipped_lines, curve.reversed);
+        for text in (Reading { axes, is_physical, skipped_lines, reversed }).notes() {
             note(&format!("{}: {text}", curve.file));
         }
     }

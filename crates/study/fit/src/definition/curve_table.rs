@@ -233,13 +233,13 @@ impl CurveTable<'_> {
         if is_unloading && unloading.is_empty() && self.entry("branch").is_some() {
             return Err(self.wrong("branch", "\"loading\": the curve does not turn back"));
         }
-        let left_out = [(&mut loading, is_loading), (&mut unloading, is_unloading)]
+        let excluded_points = [(&mut loading, is_loading), (&mut unloading, is_unloading)]
             .into_iter()
             .filter(|(_, is_fitted)| !is_fitted)
             .map(|(branch, _)| std::mem::take(branch).len());
-        let left_out: usize = left_out.sum();
+        let excluded_points: usize = excluded_points.sum();
         for event in events.iter_mut().filter(|e| e.kind == CurveEventKind::TurnsBack) {
-            event.left_out = left_out;
+            event.excluded_points = excluded_points;
         }
         let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
         let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;

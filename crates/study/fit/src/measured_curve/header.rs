@@ -139,9 +139,9 @@ impl Header {
     /// Lists the lines around a table that belong neither to the table nor to its header.
     ///
     /// `name` is the row that names the specimens; it belongs to the header.
-    pub fn left_out(&self, rows: &Rows, table: &NumberTable, name: Option<usize>) -> Vec<u64> {
+    pub fn skipped_lines(&self, rows: &Rows, table: &NumberTable, name: Option<usize>) -> Vec<u64> {
         let above = table.above.clone();
         let above = above.filter(|row| !self.rows.contains(row) && Some(*row) != name);
-        above.map(|row| rows.all[row].line).chain(table.left_out.iter().copied()).collect()
+        above.map(|row| rows.all[row].line).chain(table.skipped_lines.iter().copied()).collect()
     }
 }

@@ -61,7 +61,7 @@ pub struct CurveEvent {
     /// Displacement or curvature at the event.
     pub at: f64,
     /// Number of points that the fit leaves out because of the event.
-    pub left_out: usize,
+    pub excluded_points: usize,
 }
 
 /// Branches of a measured curve.
@@ -133,11 +133,11 @@ pub(super) fn branches(points: &[[f64; 2]], lines: &[u64]) -> Branches {
     let drops = drops(&along[..loaded]).into_iter();
     events.extend(drops.map(|last| (CurveEventKind::Drops, kept[last], 0)));
     events.sort_by_key(|(_, index, _)| lines[*index]);
-    let events = events.into_iter().map(|(kind, index, left_out)| CurveEvent {
+    let events = events.into_iter().map(|(kind, index, excluded_points)| CurveEvent {
         kind,
         line: lines[index],
         at: points[index][0],
-        left_out,
+        excluded_points,
     });
     let events = events.collect();
     kept.truncate(loaded);
@@ -287,7 +287,11 @@ mod tests {
     }
 
     fn events(points: &[[f64; 2]]) -> Vec<(CurveEventKind, u64, usize)> {
-        found(points).events.iter().map(|event| (event.kind, event.line, event.left_out)).collect()
+        found(points)
+            .events
+            .iter()
+            .map(|event| (event.kind, event.line, event.excluded_points))
+            .collect()
     }
 
     /// Returns points of a line with slope 1 through the origin.

@@ -184,7 +184,7 @@ impl Rows {
             let is_apart = between.clone().any(|row| self.begins_another_table(row, width));
             match tables.last_mut() {
                 Some(table) if !has_header && !is_apart => {
-                    table.left_out.extend(between.map(|row| self.all[row].line));
+                    table.skipped_lines.extend(between.map(|row| self.all[row].line));
                     table.rows.extend(run);
                     table.is_longest |= is_longest;
                 }
@@ -193,14 +193,14 @@ impl Rows {
                     rows: run.collect(),
                     has_header,
                     is_longest,
-                    left_out: Vec::new(),
+                    skipped_lines: Vec::new(),
                 }),
             }
         }
         let mut tables = readings(tables);
         if let Some(table) = tables.last_mut() {
             let last = table.rows.last().map_or(0, |row| row + 1);
-            table.left_out.extend(self.all[last..].iter().map(|row| row.line));
+            table.skipped_lines.extend(self.all[last..].iter().map(|row| row.line));
         }
         tables
     }
@@ -248,7 +248,7 @@ pub(super) struct NumberTable {
     /// True if the table contains the longest run of numbers.
     pub(super) is_longest: bool,
     /// Lines between and below the rows that do not belong to the table.
-    pub(super) left_out: Vec<u64>,
+    pub(super) skipped_lines: Vec<u64>,
 }
 
 fn split_at(text: &str, separator: char) -> Result<Vec<Row>, csv::Error> {
@@ -354,7 +354,7 @@ mod tests {
         tables
             .into_iter()
             .map(|table| {
-                (table.rows.iter().map(|row| rows.all[*row].line).collect(), table.left_out)
+                (table.rows.iter().map(|row| rows.all[*row].line).collect(), table.skipped_lines)
             })
             .collect()
     }

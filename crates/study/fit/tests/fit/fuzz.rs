@@ -44,7 +44,7 @@ fn read(bytes: &[u8]) {
     match MeasuredCurve::read(&path, None) {
         Ok(curves) => {
             let points: usize = curves.iter().map(|curve| curve.points.len()).sum();
-            let lines: usize = curves.iter().map(|curve| curve.left_out.len()).sum();
+            let lines: usize = curves.iter().map(|curve| curve.skipped_lines.len()).sum();
             assert!(points <= bytes.len() && lines <= bytes.len(), "{points} {lines}");
             assert!(curves.iter().all(|curve| curve.loading().len() <= curve.points.len()));
         }

@@ -71,8 +71,8 @@ fn designs_without_coverage_or_without_a_value_are_excluded() {
         results(&["0,,,", "0.5,,1,1", "0.5,1,,1", "0.5,1,0,1", "0.5,1,1,", ",1,1,1", "1,1,1,1"]);
     let ranking = Ranking::new(&results, grid("1")).expect("a ranking");
     assert_eq!(order(&ranking, "0.25,0.25,0.25,0.25"), "0007");
-    let left_out = ranking.left_out().iter().map(|(why, count)| format!("{count}: {why}\n"));
-    insta::assert_snapshot!(left_out.collect::<String>(), @r"
+    let exclusions = ranking.exclusions().iter().map(|(why, count)| format!("{count}: {why}\n"));
+    insta::assert_snapshot!(exclusions.collect::<String>(), @r"
     1: coverage is 0
     1: no coverage
     1: no critical_force
@@ -169,9 +169,10 @@ fn only_designs_that_meet_every_requirement_are_ranked() {
     let ranking = by(&results, text).expect("a ranking");
     let order = ranking.by_fitness(Weights::BALANCED);
     assert_eq!(order.map(|design| design.design()).collect::<Vec<_>>(), ["0003"]);
-    let left_out: Vec<_> = ranking.left_out().iter().map(|(why, n)| format!("{n} {why}")).collect();
+    let exclusions: Vec<_> =
+        ranking.exclusions().iter().map(|(why, n)| format!("{n} {why}")).collect();
     // A missing value meets no requirement.
-    assert_eq!(left_out, ["1 not coverage >= 0.6", "2 not critical_force < 4"]);
+    assert_eq!(exclusions, ["1 not coverage >= 0.6", "2 not critical_force < 4"]);
 }
 
 #[test]

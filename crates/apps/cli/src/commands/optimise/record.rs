@@ -14,13 +14,13 @@ use crate::json;
 pub fn record(report: &SearchReport<'_>) -> Value {
     let SearchReport { goal, found } = *report;
     let texts = BindingText::new(goal);
-    let left_out = &found.left_out;
-    let failed = left_out.failed.iter().map(|(why, count)| (why.to_string(), json!(count)));
+    let unjudged = &found.unjudged;
+    let failed = unjudged.failed.iter().map(|(why, count)| (why.to_string(), json!(count)));
     let mut record = json!({
         "goal": goal.name(),
         "designs": found.history.len(),
         "failed": failed.collect::<Map<_, _>>(),
-        "folded": left_out.folded,
+        "folded": unjudged.folded,
         "starts": found.starts,
         "regions": found.regions,
     });

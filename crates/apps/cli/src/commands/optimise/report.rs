@@ -34,7 +34,7 @@ impl SearchReport<'_> {
             counted(self.found.history.len() as u64, "design"),
             time(duration),
             counted(threads as u64, "thread"),
-            self.left_out()
+            self.unjudged()
         );
         let answer = match &self.found.answer {
             Answer::Optimum(best) => self.optimum(best),
@@ -61,14 +61,14 @@ impl SearchReport<'_> {
     }
 
     /// Lists the numbers of designs that the search left out, each with its reason.
-    fn left_out(&self) -> String {
-        let left_out = &self.found.left_out;
+    fn unjudged(&self) -> String {
+        let unjudged = &self.found.unjudged;
         let failed =
-            left_out.failed.iter().map(|(why, n)| (*n, format!("{why}: {}", why.meaning())));
-        let missing = left_out.missing.iter();
+            unjudged.failed.iter().map(|(why, n)| (*n, format!("{why}: {}", why.meaning())));
+        let missing = unjudged.missing.iter();
         let missing = missing.map(|(column, n)| (*n, format!("no value of {column}")));
         let folded =
-            (left_out.folded > 0).then(|| (left_out.folded, "the surface folds".to_owned()));
+            (unjudged.folded > 0).then(|| (unjudged.folded, "the surface folds".to_owned()));
         let all = failed.chain(missing).chain(folded);
         let rows: Vec<_> = all.map(|(n, why)| [format!("{n} left out"), why]).collect();
         aligned(&rows)
@@ -275,7 +275,7 @@ impl SearchReport<'_> {
                 (front.same, "gave the same design as another point: the front has a step there"),
                 (front.beaten, "gave a dominated design"),
                 (front.empty, "gave no design"),
-                (front.left_out(requested), "left out: the front has no wide gap"),
+                (front.unsearched(requested), "left out: the front has no wide gap"),
             ];
             let reasons: Vec<String> = reasons
                 .iter()

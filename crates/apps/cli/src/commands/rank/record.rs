@@ -31,8 +31,8 @@ pub fn report_record(report: &RankReport<'_>, change: Option<&GapChange>) -> Val
 fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> Value {
     let preferences = ranking.preferences();
     let criteria = &preferences.criteria;
-    let left_out = ranking.left_out().iter();
-    let left_out = left_out.map(|(why, count)| json!({ "why": why, "designs": count }));
+    let exclusions = ranking.exclusions().iter();
+    let exclusions = exclusions.map(|(why, count)| json!({ "why": why, "designs": count }));
     let best: Vec<_> = ranking.by_fitness(preferences.weights).take(top).collect();
     let alone = criteria.iter().zip(Weights::alone_among(criteria.len()));
     let alone = alone.map(|(criterion, weights)| {
@@ -45,7 +45,7 @@ fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> Value
         "folder": results.folder().to_string_lossy(),
         "designs": results.len(),
         "ranked": ranking.len(),
-        "left_out": left_out.collect::<Vec<_>>(),
+        "left_out": exclusions.collect::<Vec<_>>(),
         "requirements": preferences.requirements,
         "criteria": criteria,
         "weights": preferences.weights.values(),

@@ -68,9 +68,9 @@ impl RankReport<'_> {
         let folder = self.results.folder().display();
         let mut text = format!("{folder}: {ranked} of {} ranked\n", designs(all));
         text.push_str(&shortfall(self.results.verified_folder()));
-        let left_out = self.ranking.left_out().iter();
+        let exclusions = self.ranking.exclusions().iter();
         let rows: Vec<_> =
-            left_out.map(|(why, count)| [format!("{count} left out"), why.clone()]).collect();
+            exclusions.map(|(why, count)| [format!("{count} left out"), why.clone()]).collect();
         text.push_str(&aligned(&rows));
         // With a single ranked design, all criteria are trivially equal; do not report this.
         if ranked > 1 {
