@@ -139,7 +139,7 @@ struct Shown {
     label: &'static str,
     /// Column in physical units, shown instead of this measure if the column has a value.
     physical: &'static str,
-    /// A short explanation.
+    /// Short explanation of the measure.
     words: &'static str,
     /// True if the column is a curvature, which the page shows as a radius.
     is_curvature: bool,

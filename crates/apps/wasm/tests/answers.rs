@@ -108,7 +108,7 @@ fn curves_of_guided_needles_end_at_the_critical_point() {
 ///
 /// A round tip also touches the next scale, so it stays in place without a warning.
 #[test]
-fn passing_needles_are_reported_if_they_are_sharp() {
+fn a_warning_reports_a_sharp_tip_at_the_end_of_its_face() {
     let set = json!({ "gap_over_t": 0.1, "length_over_t": 1, "slant_deg": 75 });
     let warned = |more: &str| {
         let guided = "[puncture]\nneedle = 'guided'\n";

@@ -140,7 +140,7 @@ pub struct Curvature {
 impl Curvature {
     /// Returns the symmetric Hessian `∇²g` in the coordinates of the pair.
     pub fn hessian(&self) -> [[f64; 6]; 6] {
-        // First coordinates of the scale with the corner (A) and of the scale with the edge (B).
+        // Index of the first coordinate of the scale with the corner (A) and with the edge (B).
         let (a, b) = if self.corner_is_left { (0, 3) } else { (3, 0) };
         let mut hessian = [[0.0; 6]; 6];
         for axis in 0..2 {

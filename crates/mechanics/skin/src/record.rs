@@ -226,7 +226,7 @@ impl<S: Skin> Record<S> {
     ) {
         let residuals = path.take_history();
         let (mut here, step) = (path.system().path_point(point), self.path.len());
-        // Add the dissipation of the segment before storing it in the recorded point.
+        // Add the dissipation of this segment first: the recorded point stores the sum since rest.
         self.work.add(path, from, point);
         let skin = path.system();
         self.work.note(skin, &mut here);

@@ -29,7 +29,7 @@ impl RowStiffness {
         Ok(row)
     }
 
-    /// Solves for the stiffness of a row on the half-space with the neighbours of `coupling`.
+    /// Solves for the stiffness of a row on the half-space; `coupling` sets the number of neighbours.
     pub(crate) fn solved(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         match coupling {
             Coupling::Nearest => Ok((&Springs::from(&Self::solve(footprint, 1)?)).into()),

@@ -183,7 +183,7 @@ fn not_accepted(location: &Location, key: &str, found: impl Display, expected: &
 
 /// Returns the sweep of a definition, without the curves.
 ///
-/// The sweep must have a single design, apart from `[variables]`.
+/// Each parameter must have a single value; parameters to be fitted belong in `[variables]`.
 fn one_design(entries: &KeyValues, name: &str) -> Result<Sweep, InvalidFit> {
     let shared = entries.iter().filter(|e| !["curve", PER_SPECIMEN].contains(&e.key.as_str()));
     let entries = shared.cloned().collect();

@@ -11,7 +11,7 @@ pub enum Scale {
     /// Scale of the paper: the criterion is the value, or its inverse if it is minimised (R1).
     ///
     /// The fitness is the weighted geometric mean (R3), so a design that is the worst in any
-    /// criterion has the fitness 0.
+    /// criterion with a positive weight has the fitness 0.
     #[default]
     Paper,
     /// Linear in the value; the fitness is the weighted mean (R8).

@@ -135,7 +135,7 @@ impl Audit {
             let design = rows[0].number;
             match rows.map(|row| column.cell(row)) {
                 [Cell::Number(first), Cell::Number(second)] => {
-                    // Numbers have a magnitude, so their relative difference is recorded.
+                    // For numbers, record the relative difference; texts have none, see the next arm.
                     let relative = relative(first, second);
                     let (column, values) = (column.name.to_string(), [first, second]);
                     self.note(LargestDifference { column, method, relative, design, values });

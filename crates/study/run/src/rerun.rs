@@ -38,7 +38,7 @@ pub enum InvalidRerun {
     Definition(#[from] sweep::InvalidDefinition),
     /// The keys of the settings are axes of the sweep, or not parameters of a design.
     #[error(
-        "{0}: cannot be set for single designs, because they keep their numbers in the grid; set another key, e.g. solver.max_step=0.01"
+        "{0}: cannot be set in a rerun, expected a parameter of a design that is not an axis of the grid, or a key such as solver.max_step"
     )]
     Axis(String),
     /// The settings would turn imperfections on or off, which changes the columns of the tables.

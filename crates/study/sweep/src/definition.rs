@@ -82,7 +82,7 @@ impl Sweep {
         &self.measures
     }
 
-    /// Returns the measures without sensitivity.
+    /// Returns all measures except [`Measure::Sensitivity`].
     pub fn plain_measures(&self) -> Vec<Measure> {
         let mut measures = self.measures.clone();
         measures.retain(|measure| *measure != Measure::Sensitivity);

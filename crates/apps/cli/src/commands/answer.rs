@@ -54,7 +54,10 @@ impl<'a> DesignAnswer<'a> {
     /// pressure on the tissue, one row is the pressure of a needle on bare tissue.
     pub fn further_rows(&self) -> Vec<Vec<String>> {
         let bare = self.bare_needle().map(|bare| {
-            let unit = format!("kPa; the skin lowers it by a factor of {}", digits(bare.reduction));
+            let unit = format!(
+                "kPa; the skin lowers this pressure by a factor of {}",
+                digits(bare.reduction)
+            );
             vec!["bare needle".to_owned(), digits(bare.pressure_kpa), unit]
         });
         self.depth().into_iter().chain(bare).collect()

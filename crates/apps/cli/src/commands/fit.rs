@@ -312,8 +312,9 @@ fn scatter_text(scatter: &Scatter) -> String {
     let Scatter { parameter, specimens, mean, mean_interval, .. } = scatter;
     let [mean_low, mean_high] = mean_interval.map(digits);
     let [low, high] = scatter.deviation_interval.map(digits);
-    let tolerance = deviation(scatter)
-        .map_or_else(String::new, |entry| format!("; for squama tolerance: tolerance.{entry}"));
+    let tolerance = deviation(scatter).map_or_else(String::new, |entry| {
+        format!("; to use it in squama tolerance, set tolerance.{entry}")
+    });
     format!(
         "{} of {} specimens: mean {} (95 %: {mean_low} to {mean_high}), standard deviation {} (95 %: {low} to {high}){tolerance}",
         parameter.key,

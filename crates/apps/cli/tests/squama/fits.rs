@@ -197,7 +197,10 @@ fn the_scatter_of_specimens_becomes_a_tolerance() {
     fs::write(place.path("a.csv"), file).expect("writable");
     let text = place.prints("fit x.toml --out f");
     assert!(text.contains("substrate_modulus_MPa of 3 specimens: mean 0.6"), "{text}");
-    assert!(text.contains("for squama tolerance: tolerance.substrate_modulus_MPa"), "{text}");
+    assert!(
+        text.contains("to use it in squama tolerance, set tolerance.substrate_modulus_MPa"),
+        "{text}"
+    );
     assert!(text.contains("mean of a.csv, specimen A, a.csv, specimen B"), "{text}");
     assert_eq!(place.read("f/mean_curves.csv").lines().count(), 61);
     place.prints("tolerance f/fitted.toml --design 1 --samples 4 --out t");

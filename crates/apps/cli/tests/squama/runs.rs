@@ -1,4 +1,4 @@
-//! `squama run`: its files and exit codes, and tables that do not depend on the threads.
+//! Tests of `squama run`: files, exit codes, and equal tables for any number of threads.
 
 use crate::table::cell;
 use crate::{FEW, Place};

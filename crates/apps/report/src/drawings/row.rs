@@ -18,7 +18,7 @@ use crate::svg::{Element, Spot, arrow, circle, line, polygon, polyline, px, rect
 
 /// Maximum length of `t` on paper, px.
 const LARGEST: f64 = 130.0;
-/// Maximum width of the drawn row, in units of `t`.
+/// Width in units of `t` above which outer scales are omitted; the middle seven are always drawn.
 const WIDEST: f64 = 44.0;
 /// Fraction of the largest displacement below which the drawing may omit a scale.
 const STILL: f64 = 0.01;

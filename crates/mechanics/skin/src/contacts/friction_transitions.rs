@@ -64,7 +64,7 @@ impl Contacts {
         };
         let here = self.slip_coordinate(state, edge, contact);
         match before.mode.contacts[contact] {
-            // A corner that leaves along the next edge with the ratio of sliding continues to slip.
+            // A corner that leaves along the next edge with |T/Λ| = μ continues to slip.
             CornerContact::Corner(_) if self.is_sliding(ratio) && !is_back => {
                 Some(FrictionState::Slip { sign: -ratio.signum(), start: here })
             }

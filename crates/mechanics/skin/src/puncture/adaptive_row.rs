@@ -127,7 +127,7 @@ const FIRST_SCALES: usize = 4;
 /// Constant part of the number of scales that an extension adds to a side.
 const GROWTH: usize = 4;
 
-/// Divisor of the row length in the variable part of the number of scales that an extension adds.
+/// Divisor: an extension adds [`GROWTH`] + (scales of the row)/`GROWTH_PART` scales to a side.
 const GROWTH_PART: usize = 8;
 
 /// Fraction to which displacements decay over the additional scales of an initial row.

@@ -265,8 +265,8 @@ impl FailureObserver {
         let mut failures: Vec<_> = fold.into_iter().collect();
         for &limit in &self.judged {
             if before[limit] < 1.0 && self.utilisations[limit] >= 1.0 {
-                // If the segment ends at the limit, as at the limit of linear bending, use the end
-                // of the segment.
+                // `bent_within` cuts a segment at the limit of linear bending. If the segment ends
+                // at the limit, use its end point.
                 let point = if self.utilisations[limit] <= 1.0 + BEND_TOLERANCE {
                     Some(SkinPoint::clone(to))
                 } else {

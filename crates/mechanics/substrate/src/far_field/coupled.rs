@@ -1,4 +1,4 @@
-//! Far field of free scales that couple with several neighbours, or forces with rotations.
+//! Far field of free scales with several coupled neighbours, or with forces coupled to rotations.
 
 use nalgebra::DMatrix;
 

@@ -24,7 +24,7 @@ use crate::space::SpacePoint;
 pub(crate) enum JournalLine {
     /// A solved point.
     Solved(Box<SolvedLine>),
-    /// Samples of a point.
+    /// Values of consecutive samples of the design at a point of the design space.
     Samples(SamplesLine),
     /// A pair of points: the first point cannot be solved from the path end at the second point.
     Far(FarLine),

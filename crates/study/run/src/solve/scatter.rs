@@ -48,7 +48,7 @@ pub(super) fn puncture(
     Ok(derivatives)
 }
 
-/// Returns the variation of the gap or slant of a single scale.
+/// Returns the puncture inputs with the gap or slant of a single scale varied by ± one step.
 ///
 /// `offset` is the number of scales from the punctured scale to the right, negative to the left.
 fn one_scale(

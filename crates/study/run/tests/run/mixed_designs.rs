@@ -126,9 +126,9 @@ fn outcomes(case: &Case) -> Vec<(&'static str, Outcome)> {
     outcomes
 }
 
-/// Each of these designs has a path with a rare event; the solver must continue beyond the event.
+/// Each of these designs has a rare event; the solver must continue, or end for the right reason.
 #[test]
-fn paths_pass_rare_events() {
+fn paths_with_rare_events_have_the_expected_outcome() {
     let expected = [
         // A sharp tip, which rests in the notch between two scales, leaves the notch while sticking.
         (180, "unloading", Outcome::Complete),

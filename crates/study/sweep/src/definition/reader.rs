@@ -99,7 +99,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Sets the values of the named materials and body, except values that the definition gives.
+    /// Sets the parameters that named materials and bodies define, unless the definition gives them.
     fn supply_named(&mut self) {
         for (named, location) in std::mem::take(&mut self.named) {
             for (key, value) in named.values {

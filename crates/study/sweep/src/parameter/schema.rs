@@ -73,7 +73,7 @@ impl Parameter {
         let unit = if self.unit == "-" { String::new() } else { format!(" ({})", self.unit) };
         schema["description"] = format!("{}{unit}", self.meaning).into();
         let default = self.default();
-        // A missing number has no default.
+        // An optional number that is not given by default has no default value.
         if default != Scalar::Word(super::NOT_GIVEN) {
             schema["default"] = match default {
                 Scalar::Word(word) => word_value(word),

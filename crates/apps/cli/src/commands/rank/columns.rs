@@ -10,7 +10,7 @@ pub fn preferred_columns(preferences: &Preferences) -> impl Iterator<Item = &str
     criteria.chain(preferences.requirements.iter().map(|requirement| &*requirement.column))
 }
 
-/// Returns the measured columns among the criteria and requirements.
+/// Returns the columns of criteria and requirements that are not parameters, without duplicates.
 pub fn measured_columns(preferences: &Preferences) -> Vec<&str> {
     measures_among(preferred_columns(preferences))
 }

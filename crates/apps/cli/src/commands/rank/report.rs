@@ -72,7 +72,7 @@ impl RankReport<'_> {
         let rows: Vec<_> =
             exclusions.map(|(why, count)| [format!("{count} left out"), why.clone()]).collect();
         text.push_str(&aligned(&rows));
-        // With a single ranked design, all criteria are trivially equal; do not report this.
+        // A single ranked design ties with itself in every criterion; do not report these ties.
         if ranked > 1 {
             for criterion in self.ranking.ties() {
                 let name = &self.preferences().criteria[criterion].name;
