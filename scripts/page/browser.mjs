@@ -67,6 +67,8 @@ export const ready = (page) => page.waitForFunction(() => document.getElementByI
 
 /** Scrolls to the chart with this `id`, and waits until it is drawn. */
 export const shown = async (page, id) => {
+  // The browser may stop drawing a page behind another one, and scrolling waits for drawn frames.
+  await page.bringToFront();
   await page.locator(`#chart-${id}`).scrollIntoViewIfNeeded();
   await page.waitForFunction((own) => { const chart = squama.charts.find((one) => one.id === own); return !chart.stale && chart.svg; }, id);
 };
