@@ -26,7 +26,8 @@ pub struct Interrupt {
 impl Interrupt {
     /// Installs the signal handlers.
     ///
-    /// After this call, exceeding the file size limit is a write error and does not end the process.
+    /// After this call, exceeding the file size limit is a write error and does not end the
+    /// process.
     pub fn listen() -> io::Result<Self> {
         let interrupt = Self::default();
         system::listen(interrupt.clone())?;

@@ -29,7 +29,8 @@ impl RowStiffness {
         Ok(row)
     }
 
-    /// Solves for the stiffness of a row on the half-space; `coupling` sets the number of neighbours.
+    /// Solves for the stiffness of a row on the half-space; `coupling` sets the number of
+    /// neighbours.
     pub(crate) fn solved(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         match coupling {
             Coupling::Nearest => Ok((&Springs::from(&Self::solve(footprint, 1)?)).into()),

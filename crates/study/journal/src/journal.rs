@@ -70,8 +70,9 @@ impl<R: Records> Journal<R> {
     ///
     /// # Errors
     ///
-    /// If the journal is in use or cannot be written. Unless `start` is `Fresh`, also if the journal
-    /// is damaged. With `New`, if it contains results; with `Resume`, if it has another header.
+    /// If the journal is in use or cannot be written. Unless `start` is `Fresh`, also if the
+    /// journal is damaged. With `New`, if it contains results; with `Resume`, if it has another
+    /// header.
     pub fn begin(
         path: &Path,
         header: JournalHeader<R::Designs>,

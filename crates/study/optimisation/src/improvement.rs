@@ -113,8 +113,9 @@ pub(crate) fn improved_from(
         let known = history.iter().chain(&evaluated);
         let is_met = |candidate: &Candidate| met(search, candidate, target).is_some();
         let any_met = known.clone().any(is_met);
-        // Full searches converge, so that their agreement can be judged.
-        let best = search.best(known.clone(), target).filter(|_| effort.rounds == 0);
+        // A full search has no merit to beat: it converges even to a worse design, so that the
+        // agreement of the full searches can be judged.
+        let best = if effort.rounds == 0 { search.best(known.clone(), target) } else { None };
         let to_beat = best.map_or(Merit::None, |best| search.merit(best, target));
         // Full searches start only from feasible designs, if there are any. Gradient searches also
         // start from infeasible designs, and may become feasible.

@@ -1,8 +1,9 @@
 //! Audit of a run: solves a fraction of its designs again by a second method and compares results.
 //!
-//! Two second methods exist. One solves the paths with steps a tenth as large, which must not change
-//! any result. The other solves bending as a chain of all gaps instead of a unit cell, one gap that
-//! represents all gaps. Chain and unit cell must agree if the number of gaps is a whole number.
+//! Two second methods exist. One solves the paths with steps a tenth as large, which must not
+//! change any result. The other solves bending as a chain of all gaps instead of a unit cell, one
+//! gap that represents all gaps. Chain and unit cell must agree if the number of gaps is a whole
+//! number.
 
 use std::path::Path;
 
@@ -135,7 +136,8 @@ impl Audit {
             let design = rows[0].number;
             match rows.map(|row| column.cell(row)) {
                 [Cell::Number(first), Cell::Number(second)] => {
-                    // For numbers, record the relative difference; texts have none, see the next arm.
+                    // For numbers, record the relative difference; texts have none, see the next
+                    // arm.
                     let relative = relative(first, second);
                     let (column, values) = (column.name.to_string(), [first, second]);
                     self.note(LargestDifference { column, method, relative, design, values });
@@ -194,7 +196,8 @@ fn finer(mut case: Case) -> Case {
     solver.first_step /= SMALLER;
     solver.max_step /= SMALLER;
     solver.min_step /= SMALLER;
-    // Without a larger limit, paths with smaller steps would reach the limit and have another status.
+    // Without a larger limit, paths with smaller steps would reach the limit and have another
+    // status.
     solver.max_points = solver.max_points.saturating_mul(SMALLER as usize);
     case
 }

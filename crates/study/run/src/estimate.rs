@@ -11,8 +11,8 @@ use crate::run_journal::{JournalEntry, Line};
 use crate::solve::evaluator::Evaluator;
 
 /// Number of positions in the grid, and number of neighbouring designs solved at each position.
-// Several positions, because the time varies over the grid. Neighbours, because neighbouring designs
-// share springs in a run.
+// Several positions, because the time varies over the grid. Neighbours, because neighbouring
+// designs share springs in a run.
 const POSITIONS: u64 = 8;
 const NEIGHBOURS: u64 = 6;
 

@@ -2,8 +2,8 @@
 //!
 //! Designs are solved in parallel, each by one thread. A design is appended to a journal as soon as
 //! it is solved. The tables are written from the journal, in the order of the designs, one row at a
-//! time. The tables are therefore identical for any number of threads, shards and interruptions, and
-//! the memory use hardly depends on the number of designs.
+//! time. The tables are therefore identical for any number of threads, shards and interruptions,
+//! and the memory use hardly depends on the number of designs.
 //!
 //! ```text
 //! Sweep ─► Groups ─► workers ─► Evaluator ─► JournalEntry ─► Journal ─► TableWriter ─► tables

@@ -41,7 +41,8 @@ pub(crate) fn yields(
         requirement: None,
         proportion: of(&|n| every.clone().all(|k| meets(k, n))),
         failed: (0..count).filter(|&n| every.clone().any(|k| values[k][n].is_none())).count(),
-        // The columns of a sample are correlated, so their spreads do not determine the joint yield.
+        // The columns of a sample are correlated, so their spreads do not determine the joint
+        // yield.
         linear: None,
     };
     every

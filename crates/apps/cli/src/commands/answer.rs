@@ -63,7 +63,8 @@ impl<'a> DesignAnswer<'a> {
         self.depth().into_iter().chain(bare).collect()
     }
 
-    /// Returns the row of the depth of the load, if a requirement limits a force and none the depth.
+    /// Returns the row of the depth of the load, if a requirement limits a force and none the
+    /// depth.
     fn depth(&self) -> Option<Vec<String>> {
         self.requirements.iter().any(|r| r.column.contains("force")).then_some(())?;
         let in_mm = format!("{}_mm", name::CRITICAL_DISPLACEMENT);
@@ -165,8 +166,8 @@ pub struct SearchedDesign {
 impl SearchedDesign {
     /// Reads the results of a search, and prints a warning for each failed check.
     ///
-    /// `path` is the results folder of the search, or the file `optimum.toml` in this folder. For any
-    /// other path, all fields of the returned value are empty.
+    /// `path` is the results folder of the search, or the file `optimum.toml` in this folder. For
+    /// any other path, all fields of the returned value are empty.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         let folder = if path.ends_with(OPTIMUM_DEFINITION) { path.parent() } else { Some(path) };
         let folder = folder.unwrap_or(path);

@@ -197,8 +197,8 @@ fn as_json(sweep: &Sweep) -> Value {
 
 /// Formats the contact moduli of puncture and bending in `MPa`.
 ///
-/// A contact modulus that is unknown, or that differs between designs, is omitted. Returns `None` if
-/// both contact moduli are omitted.
+/// A contact modulus that is unknown, or that differs between designs, is omitted. Returns `None`
+/// if both contact moduli are omitted.
 fn contact_moduli(sweep: &Sweep) -> Option<String> {
     // Show both contact moduli, in puncture and in bending: they belong to the same scales, so a
     // difference between them reveals a wrong definition.

@@ -22,8 +22,8 @@ pub fn record(
     folder: &Path,
     names: &[impl AsRef<str>],
 ) -> anyhow::Result<()> {
-    // `derive` returns `None` if the folder has no checksums of its tables. Without checksums, later
-    // changes of the tables could not be detected.
+    // `derive` returns `None` if the folder has no checksums of its tables. Without checksums,
+    // later changes of the tables could not be detected.
     let Some(mut derivation) = results.derive(product, command()) else { return Ok(()) };
     let inside = path_within(results.path(), folder);
     for name in names.iter().map(AsRef::as_ref) {

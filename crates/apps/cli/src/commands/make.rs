@@ -306,8 +306,8 @@ fn no_template(sheet: &Sheet, template: f64) -> String {
 
 /// Solves the design again, and formats required values, warnings and the first failure.
 ///
-/// Designs on tissue of finite thickness or with imperfections are slow to solve; for them, only the
-/// coverage is computed.
+/// Designs on tissue of finite thickness or with imperfections are slow to solve; for them, only
+/// the coverage is computed.
 fn answer(design: &SelectedDesign, searched: &SearchedDesign) -> String {
     let (sweep, case) = (&design.sweep, design.case());
     let modes = case.judged_modes();

@@ -10,8 +10,8 @@ use crate::print::note;
 #[derive(Debug, Args)]
 pub struct RequirementArgs {
     /// Requirement: a column compared with a number by >=, <=, >, < or ==, e.g. 'coverage >= 0.6';
-    /// a level of a standard, e.g. 'needle 2'; or the pressure limit of a body part, e.g. 'pain palm'
-    /// (may be repeated: all must hold)
+    /// a level of a standard, e.g. 'needle 2'; or the pressure limit of a body part, e.g. 'pain
+    /// palm' (may be repeated: all must hold)
     #[arg(long = "require", value_name = "REQUIREMENT")]
     pub texts: Vec<String>,
 }

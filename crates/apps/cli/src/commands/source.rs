@@ -1,7 +1,8 @@
 //! Finds and reads definitions and results folders.
 //!
 //! Most commands accept a definition or a results folder. A command that needs a definition reads
-//! the record in the results folder. A command that needs results uses the folder of the definition.
+//! the record in the results folder. A command that needs results uses the folder of the
+//! definition.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -167,8 +167,8 @@ fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element
     let mut front: Vec<&Point> =
         points.iter().zip(&on_front).filter(|(_, on)| **on).map(|(point, _)| point).collect();
     front.sort_by(|a, b| a.criteria[0].total_cmp(&b.criteria[0]));
-    // Every design of the front has a mark. Of the dominated designs of a long table, only some
-    // are drawn.
+    // Every design of the front has a mark. If the table is long, only some of the dominated
+    // designs have one.
     let dominated = thinned(points.len(), PAIRS.len()).filter(|&k| !on_front[k]).map(|k| {
         let (point, dot) = (&points[k], Element::new("use").with("href", "#dot"));
         let dot = dot.at("x", point.spot[0]).at("y", point.spot[1]).with("color", DOMINATED);

@@ -24,13 +24,11 @@
 //! - If the sides of a pair lie on each other, both contacts of the pair slide along one line, and
 //!   only the sum of their friction matters. One contact, the *carrier*, carries the friction of
 //!   both; the other contact is *shared*.
-//! - Coinciding corners are *locked*: they keep the ratio `T/Λ` that the contact had when they came
-//!   together. If the contact was sliding, this ratio is also the ratio of sliding along the next
-//!   edge.
+//! - Coinciding corners are *locked*: they keep the ratio `T/Λ` from before they coincided. A
+//!   contact that was sliding keeps this ratio along the next edge.
 //! - A corner at the position of a needle tip moves with the tip. While the tip slides, the corner
-//!   is locked with the ratio `T/Λ` of sliding in this direction. While the tip sticks, only the
-//!   sum of both friction forces matters, and tip and corner take equal fractions of their limits
-//!   ([`TipFriction`]).
+//!   is locked with `T/Λ = ±μ`. While it sticks, only the sum of both friction forces matters, and
+//!   tip and corner take equal fractions of their limits ([`TipFriction`]).
 
 use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose, quarter};
 use geometry::Vec2;

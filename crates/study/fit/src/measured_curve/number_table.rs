@@ -127,7 +127,7 @@ impl Rows {
         !row.is_after_blank && row.cells.len() == before.cells.len()
     }
 
-    /// Lists the runs of rows with the same number of cells, of which at least `least` are numbers.
+    /// Lists the runs of rows with equal numbers of cells and at least `least` numbers in each row.
     ///
     /// Rows of empty cells are gaps in a recording and do not end a run.
     fn runs(&self, least: usize) -> Vec<Range<usize>> {

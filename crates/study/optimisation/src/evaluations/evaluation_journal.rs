@@ -111,9 +111,9 @@ pub(crate) struct EvaluationKey {
     /// True if the result includes derivatives.
     pub differentiated: bool,
     pub positions: Positions,
-    /// Point of the similar design at the path end of which the path started.
+    /// Point of the similar design. The solution started from the path end of this design.
     ///
-    /// `None` for a path from rest.
+    /// `None` if the path was followed from rest.
     pub near: Option<PointKey>,
     /// Number of the sample; `None` for the nominal design.
     pub sample: Option<u64>,

@@ -124,8 +124,9 @@ struct Bundle<'p, P> {
     misses: usize,
     /// True if the ball was filled since the last accepted step or change of radius.
     filled: bool,
-    /// Space-filling sequence, of which `drawn` points have been used.
+    /// Space-filling sequence of points in the ball.
     sequence: Sequence,
+    /// Number of points of the sequence that have been used.
     drawn: usize,
 }
 

@@ -25,10 +25,14 @@ use crate::slopes::Slopes;
 /// as short.
 const SHORTEST_STEP: f64 = 1e-7;
 
-/// Length of a step below which a search that cannot reach a known design ends.
+/// Length of a step, as a fraction of the ranges, below which a search may end as hopeless.
+///
+/// It ends if such steps cannot reach the best known merit, see [`HOPELESS`].
 const SHORT_STEP: f64 = 1e-4;
 
-/// Ratio of the distance from the known merit to the gain of a step that ends such a search.
+/// Ratio of the distance from the best known merit to the gain of the last step.
+///
+/// A search with a larger ratio and short steps is hopeless.
 const HOPELESS: f64 = 10.0;
 
 /// Slack (O2) that a search among strips without contact keeps before first contact.

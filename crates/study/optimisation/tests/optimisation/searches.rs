@@ -62,13 +62,13 @@ fn search_does_not_continue_at_an_optimum_that_derivatives_prove() {
     let (found, _) = reference_search();
     let best = optimum(found);
     assert!((objectives(best)[0] - 2.141_936_6).abs() < 2e-6, "{:?}", objectives(best));
-    // One of the three full searches starts away from the optimum, and needs one round of ridge
-    // search and polish (47 evaluations). Without the proof by derivatives, each of the other two
-    // full searches would need as many evaluations.
+    // One of the three full searches starts away from the optimum, and reaches it by a ridge search.
+    // With the designs just beyond first contact, this takes 8 evaluations. Without the proof by
+    // derivatives, each full search would need about 45 evaluations of ridge search and polish.
     let stages = found.history.iter().map(|candidate| candidate.stage);
     let confirming =
         stages.filter(|s| matches!(s, SearchStage::Ridge | SearchStage::Polish)).count();
-    assert!(confirming < 60, "{confirming}");
+    assert!(confirming < 20, "{confirming}");
     let searched = found.history.iter().filter_map(|c| c.result.puncture);
     assert!(searched.into_iter().all(|p| p.measures.max_stiffness.is_none()));
     assert!(best.row.result.puncture.is_some_and(|p| p.measures.max_stiffness.is_some()));

@@ -83,8 +83,9 @@ pub fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
 
 /// Returns the column header of a parameter.
 ///
-/// The header is the key, unless a measured value has the same name. For example, the solved row may
-/// have more scales than the parameter `scales` requests; the column `scales` is the solved number.
+/// The header is the key, unless a measured value has the same name. For example, the solved row
+/// may have more scales than the parameter `scales` requests; the column `scales` is the solved
+/// number.
 fn header(parameter: &Parameter) -> &'static str {
     match parameter.key {
         "scales" => "scales_asked",

@@ -108,7 +108,8 @@ impl PathPoint {
 #[derive(Debug)]
 pub(super) struct Physical {
     pub(super) quantity: Quantity,
-    /// Name without the unit, and meaning; `None` if they equal the ones of the dimensionless value.
+    /// Name without the unit, and meaning; `None` if they equal the ones of the dimensionless
+    /// value.
     pub(super) other: Option<(&'static str, &'static str)>,
 }
 

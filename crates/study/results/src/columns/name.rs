@@ -40,7 +40,8 @@ pub const CRITICAL_EVENT: &str = "critical_event";
 pub const FIRST_CONTACT: &str = "first_contact_displacement";
 /// Tilt of the punctured scale where a guided needle first touches a corner or another scale.
 pub const PASSING_TILT: &str = "passing_tilt_deg";
-/// Width of the tightest gap at the critical tilt divided by its width at rest; 0 or less if folded.
+/// Width of the tightest gap at the critical tilt divided by its width at rest; 0 or less if
+/// folded.
 pub const GAP_STRETCH_MIN: &str = "gap_stretch_min";
 /// Width of the widest gap at the critical tilt divided by its width at rest.
 pub const GAP_STRETCH_MAX: &str = "gap_stretch_max";

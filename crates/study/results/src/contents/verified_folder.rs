@@ -302,7 +302,8 @@ impl VerifiedFolder {
         stated.map(Some).ok_or_else(|| self.refusal(file.name, file.maker, problem))
     }
 
-    /// Returns the error for the file `name`: `problem`, and the command that writes the file again.
+    /// Returns the error for the file `name`: `problem`, and the command that writes the file
+    /// again.
     fn refusal(&self, name: &str, maker: Maker, problem: &str) -> InvalidFolder {
         let again = match maker {
             Maker::Run => repair_command(self.path()),

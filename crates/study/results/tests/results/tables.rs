@@ -38,9 +38,9 @@ fn axis_value(parameter: &sweep::Parameter) -> String {
 
 /// Returns true if a parameter cannot be given in a sweep with lengths in one unit.
 ///
-/// The unit is mm (`in_mm`) or the thickness. Returns true for lengths in the other unit and for the
-/// pitch. Returns true also for ratios of moduli, strengths or a force if the unit is mm, and for the
-/// numerators of these ratios if the unit is the thickness.
+/// The unit is mm (`in_mm`) or the thickness. Returns true for lengths in the other unit and for
+/// the pitch. Returns true also for ratios of moduli, strengths or a force if the unit is mm, and
+/// for the numerators of these ratios if the unit is the thickness.
 fn is_in_other_unit(parameter: &sweep::Parameter, in_mm: bool) -> bool {
     let has_other_unit = parameter.is_in_mm() || parameter.in_mm().next().is_some();
     let numerators = ["scale_modulus_MPa", "scale_strength_MPa", "bond_strength_MPa", "force_N"];

@@ -147,7 +147,8 @@ pub(super) fn across(
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
-/// Critical force of another row of a case, with derivatives with respect to parameters of the case.
+/// Critical force of another row of a case, with derivatives with respect to parameters of the
+/// case.
 struct ForceDerivatives {
     puncture: Puncture,
     parameters: Vec<&'static Parameter>,
@@ -303,7 +304,8 @@ fn coverage_difference(case: &Case, index: usize, parameter: &Parameter) -> Deri
     }
 }
 
-/// Computes the derivative of the coverage for a decreasing (`side` = −1) or increasing (1) parameter.
+/// Computes the derivative of the coverage for a decreasing (`side` = −1) or increasing (1)
+/// parameter.
 fn coverage_rate(case: &Case, parameter: &Parameter, side: f64) -> Option<f64> {
     let step = side * STEP * parameter.size(case)?;
     let [here, next, second] =
@@ -368,7 +370,8 @@ impl Varied<'_> {
         Some(punctured(&moved, self.stiffness(&moved)?))
     }
 
-    /// Returns the input of a row on a body between the two radii after adding `by` to the parameter.
+    /// Returns the input of a row on a body between the two radii after adding `by` to the
+    /// parameter.
     fn punctured_between(&self, fraction: f64, by: f64) -> Option<PunctureInput> {
         let moved = self.parameter.moved(self.case, by)?;
         Some(punctured(&moved.on_body_between(fraction)?, self.stiffness(&moved)?))

@@ -81,7 +81,8 @@ struct Queue<G> {
 }
 
 impl<G: Iterator<Item = Vec<u64>>> Queue<G> {
-    /// Returns the next design for `worker`: from its group, a new group, or the largest other group.
+    /// Returns the next design for `worker`: from its group, a new group, or the largest other
+    /// group.
     fn next(&mut self, worker: usize) -> Option<u64> {
         if self.open[worker].is_empty()
             && let Some(group) = self.groups.next()

@@ -6,7 +6,8 @@ use sweep::{Measure, Sweep};
 /// Modulus of the tissue in `MPa`.
 const MODULUS: f64 = 1.5;
 
-/// Solves a design; returns the bare needle, the force in N, and the pressure under the skin in kPa.
+/// Solves a design; returns the bare needle, the force in N, and the pressure under the skin in
+/// kPa.
 fn solved(radius: &str) -> (Option<BareNeedle>, f64, f64) {
     let text = format!(
         "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.8\n\

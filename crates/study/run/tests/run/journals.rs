@@ -11,7 +11,7 @@ use rand_chacha::rand_core::SeedableRng as _;
 use run::{Options, Program, RunError, Start, WorkMeter};
 use sweep::{Subset, Sweep};
 
-/// Definition of 48 designs, of which some punctures stop early.
+/// Definition of 48 designs. The punctures of some designs stop early.
 const DESIGNS: &str = "name = 'x'\nmeasures = ['coverage', 'puncture']\n[designs]\n\
                        gap_over_t = [0.1, 0.3, 0.5]\nlength_over_t = [0.2, 1]\n\
                        slant_deg = { from = 0, to = 70, step = 10 }\n\

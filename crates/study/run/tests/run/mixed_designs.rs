@@ -130,7 +130,8 @@ fn outcomes(case: &Case) -> Vec<(&'static str, Outcome)> {
 #[test]
 fn paths_with_rare_events_have_the_expected_outcome() {
     let expected = [
-        // A sharp tip, which rests in the notch between two scales, leaves the notch while sticking.
+        // A sharp tip, which rests in the notch between two scales, leaves the notch while
+        // sticking.
         (180, "unloading", Outcome::Complete),
         (1118, "unloading", Outcome::Complete),
         // A sticking tip begins to slide again with a rate of almost zero.

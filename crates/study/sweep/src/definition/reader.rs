@@ -99,7 +99,8 @@ impl Reader {
         Ok(())
     }
 
-    /// Sets the parameters that named materials and bodies define, unless the definition gives them.
+    /// Sets the parameters that named materials and bodies define, unless the definition gives
+    /// them.
     fn supply_named(&mut self) {
         for (named, location) in std::mem::take(&mut self.named) {
             for (key, value) in named.values {
@@ -212,7 +213,7 @@ impl Reader {
         Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid, variables, deviations })
     }
 
-    /// Returns errors for invalid combinations of keys, each of which has a valid value.
+    /// Returns errors for keys with values that are valid alone but not in combination.
     fn wrong_together(&self, file: &Location) -> Vec<InvalidDefinition> {
         let mut wrong: Vec<_> = self.contradictions().collect();
         wrong.extend(self.fixed_variables());

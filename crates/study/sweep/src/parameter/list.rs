@@ -240,8 +240,8 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "tilt of the punctured scale at which the puncture ends; for a list the largest, with columns for each";
         key::NEEDLE_FRICTION, "-", [Continuous, EndsPuncture, InsteadOf(key::CRITICAL_TILT)],
             Numbers {
-                // The critical tilt of a free needle is the arctangent of its friction, and must be below 90°:
-                // arctan 1000 is 89.94°, but arctan 1e16 rounds to 90°.
+                // The critical tilt of a free needle is the arctangent of its friction, and must be
+                // below 90°: arctan 1000 is 89.94°, but arctan 1e16 rounds to 90°.
                 range: Range::closed(0.0, 1e3),
                 word: Some("none"),
                 get: |c| c.needle_friction.unwrap_or(Scalar::Word("none")),

@@ -12,7 +12,7 @@ fn parameter() -> impl Strategy<Value = (&'static str, &'static str)> {
     (0..PARAMETERS.len()).prop_map(|i| (PARAMETERS[i].section, PARAMETERS[i].key))
 }
 
-/// Generates a word, number or symbol, most of which occur in definitions.
+/// Generates a word, number or symbol. Most of them occur in definitions.
 fn word() -> impl Strategy<Value = String> {
     let key = parameter().prop_map(|(_, key)| key.to_owned());
     let section = parameter().prop_map(|(section, _)| section.to_owned());

@@ -305,8 +305,8 @@ impl SearchReport<'_> {
         rows.extend(designs.iter().map(|best| {
             let row = self.named_values(best).into_iter();
             let mut row: Vec<String> = row.map(|[_, value]| value).collect();
-            // `Limit::ObjectiveBound` is a lower bound on another objective (ε-constraint). Its price is the
-            // trade-off between both objectives.
+            // `Limit::ObjectiveBound` is a lower bound on another objective (ε-constraint). Its
+            // price is the trade-off between both objectives.
             let bounds = best
                 .bindings
                 .iter()

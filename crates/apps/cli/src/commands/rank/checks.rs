@@ -12,16 +12,16 @@ const MOST: usize = 50;
 
 /// Designs that fail a check, and the best design that passes all checks.
 ///
-/// A design fails if its surface folds, with the coupling of the run or with full coupling, or if it
-/// misses a requirement with full coupling or with a gap 10 % smaller or larger.
+/// A design fails if its surface folds, with the coupling of the run or with full coupling, or if
+/// it misses a requirement with full coupling or with a gap 10 % smaller or larger.
 #[derive(Debug, Default)]
 pub struct Checks<'a> {
     /// Numbers of the designs that fail, in the order of the ranking.
     pub failed: Vec<String>,
     /// The best design that passes all checks, if a better design fails a check.
     ///
-    /// `None` if the first design of the ranking passes, if no checked design passes, or if no design
-    /// is checked.
+    /// `None` if the first design of the ranking passes, if no checked design passes, or if no
+    /// design is checked.
     pub best: Option<RankedDesign<'a>>,
 }
 

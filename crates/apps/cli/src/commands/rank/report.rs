@@ -248,8 +248,8 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
                     format!("{text}{FOLDED}")
                 }
                 Ok(_) if column == "design" => text.into_owned(),
-                // Show parameters with 12 digits, which identify a design, and hide the round-off of
-                // a division by the thickness.
+                // Show parameters with 12 digits, which identify a design, and hide the round-off
+                // of a division by the thickness.
                 Ok(number) if parameter_of(column).is_some() => text::number::rounded(number, 12),
                 Ok(number) => digits(number),
                 _ => text.into_owned(),

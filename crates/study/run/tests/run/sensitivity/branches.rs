@@ -54,7 +54,8 @@ fn ends(
     ends.into_values().collect()
 }
 
-/// Returns a steep design with a large critical tilt; a few of these designs end with rare contacts.
+/// Returns a steep design with a large critical tilt; a few of these designs end with rare
+/// contacts.
 pub fn steep_case(number: u64) -> Case {
     let mut case = random_case(number);
     case.puncture.critical_tilt_deg = 10.0 + 25.0 * (number % 7) as f64 / 7.0;

@@ -56,8 +56,8 @@ impl<'a> Differences<'a> {
 
     /// Returns the error of a directional derivative `ours`, divided by `ours`.
     ///
-    /// The reference is a central difference. Of the errors with different steps, the first one
-    /// below the tolerance is returned, or else the smallest. Returns `None` if the measure has a
+    /// The reference is a central difference, computed with several step lengths. Returns the first
+    /// error below the tolerance, or else the smallest error. Returns `None` if the measure has a
     /// kink or no value near the design.
     pub fn off(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
@@ -85,8 +85,8 @@ impl<'a> Differences<'a> {
 
     /// Returns the error of a directional derivative `ours` compared with a one-sided difference.
     ///
-    /// Of the errors with different steps, the first one below the tolerance is returned, or else
-    /// the smallest.
+    /// The difference is computed with several step lengths. Returns the first error below the
+    /// tolerance, or else the smallest error.
     pub fn off_one_sided(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
         let offs = STEPS.iter().filter_map(|&steps| {

@@ -157,8 +157,8 @@ fn a_change_of_the_mesh_grading_causes_no_kink() {
 
 /// One-sided derivatives of these designs of the paper differ only by rounding.
 ///
-/// In the first list, the tilt is largest at the critical tilt for smaller and larger parameters. In
-/// the second list, scales are upright, and both corners touch an edge at the same curvature.
+/// In the first list, the tilt is largest at the critical tilt for smaller and larger parameters.
+/// In the second list, scales are upright, and both corners touch an edge at the same curvature.
 #[test]
 fn rounding_differences_between_two_sides_are_not_kinks() {
     let paper = Sweep::parse("name = 'paper'", "paper.toml", &[]).unwrap();

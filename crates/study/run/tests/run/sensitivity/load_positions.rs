@@ -36,7 +36,8 @@ fn derivatives_of_the_weakest_force_match_differences() {
 
 /// Both corners of an upright scale are equally weak.
 ///
-/// A slant makes one corner weaker, so there is a kink. Other parameters change both forces equally.
+/// A slant makes one corner weaker, so there is a kink. Other parameters change both forces
+/// equally.
 #[test]
 fn equally_weak_positions_have_one_sided_derivatives() {
     let mut case = random_case(0);
