@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use geometry::{OutOfRange, Vec2};
-use nalgebra::{DMatrix, DVector, DVectorView};
+use nalgebra::{DMatrix, DVector, DVectorView, Matrix2};
 
 use crate::corotational_beam::quarter_turn;
 use crate::gap::check;
@@ -161,11 +161,12 @@ impl Elastica {
     pub fn derivatives(&self, z: &[f64]) -> Derivatives {
         let ElasticaState { psi, force, phi, .. } = ElasticaState::new(z);
         let ([axial, bending], f) = (self.stiffness(), z.len() - 5);
-        let (lever, stiffness) = (self.lever(phi), self.rule.stiffness.view((1, 1), (f, f)));
-        let mut gradient = DVector::zeros(z.len());
-        gradient.rows_mut(0, f).gemv(bending, &stiffness, &psi, 0.0);
-        let mut hessian = DMatrix::zeros(z.len(), z.len());
-        hessian.view_mut((0, 0), (f, f)).zip_apply(&stiffness, |entry, k| *entry = bending * k);
+        let (size, lever) = (z.len(), self.lever(phi));
+        let mut gradient = DVector::zeros(size);
+        let mut hessian = DMatrix::zeros(size, size);
+        let (interior, others) = hessian.as_mut_slice().split_at_mut(size * f);
+        self.add_bending(&psi, gradient.as_mut_slice(), interior);
+        let mut stretching = Matrix2::zeros();
         let mut moment = bending * phi + axial * force.dot(&quarter_turn(lever));
         let mut turning = bending - axial * force.dot(&lever);
         let (mut closure, mut coupling) = (self.base_to_base(z), axial * quarter_turn(lever));
@@ -179,17 +180,19 @@ impl Elastica {
             turning += xi * xi * stiffness;
             closure -= weight / axial * (1.0 + strain) * along;
             coupling += xi * mixed;
-            let mut stretching = hessian.fixed_view_mut::<2, 2>(f, f);
             stretching -= weight * (along * along.transpose());
             // The bases prescribe the directions at both ends, so these have no unknown `ψ`.
-            if (1..=f).contains(&i) {
-                gradient[i - 1] += torque;
-                hessian[(i - 1, i - 1)] += stiffness;
-                set(&mut hessian, [i - 1, f + 4], xi * stiffness);
-                set(&mut hessian, [i - 1, f], mixed.x);
-                set(&mut hessian, [i - 1, f + 1], mixed.y);
+            if let Some(row) = i.checked_sub(1).filter(|&row| row < f) {
+                let column = &mut interior[size * row..][..size];
+                gradient[row] += torque;
+                column[row] += stiffness;
+                for (k, value) in [(0, mixed.x), (1, mixed.y), (4, xi * stiffness)] {
+                    column[f + k] = value;
+                    others[size * k + row] = value;
+                }
             }
         }
+        hessian.fixed_view_mut::<2, 2>(f, f).copy_from(&stretching);
         let [closure, right] = [axial * closure, axial * force];
         gradient.rows_mut(f, 5).copy_from_slice(&[closure.x, closure.y, right.x, right.y, moment]);
         hessian[(f + 4, f + 4)] = turning;
@@ -198,6 +201,22 @@ impl Elastica {
             set(&mut hessian, [f + axis, f + 4], coupling[axis]);
         }
         Derivatives { gradient, hessian }
+    }
+
+    /// Adds the terms of `Σᵢⱼ ψᵢ Kᵢⱼ ψⱼ` in (M21) to the gradient and the columns of `ψ`.
+    ///
+    /// `columns` contains the columns of the Hessian one after another.
+    fn add_bending(&self, psi: &DVectorView<f64>, gradient: &mut [f64], columns: &mut [f64]) {
+        let ([_, bending], f) = (self.stiffness(), psi.len());
+        let stiffness = self.rule.stiffness.as_slice().chunks_exact(self.order() + 1).skip(1);
+        let columns = columns.chunks_exact_mut(gradient.len());
+        for ((column, stiffness), psi) in columns.zip(stiffness).zip(psi) {
+            let entries = column[..f].iter_mut().zip(&stiffness[1..]);
+            for ((entry, stiffness), gradient) in entries.zip(&mut gradient[..]) {
+                *entry = bending * stiffness;
+                *gradient += *entry * psi;
+            }
+        }
     }
 
     /// Computes the energies at a state `z` that satisfies the equations for `ψ` and `f`.
