@@ -127,6 +127,13 @@ pub(crate) struct Candidate<M> {
     pub(crate) is_positive: bool,
 }
 
+impl<M> From<Candidate<M>> for Equilibrium<M> {
+    fn from(Candidate { state, direction, .. }: Candidate<M>) -> Self {
+        let (arriving, leaving) = (direction.clone(), direction);
+        Self { state, arriving, leaving, event: None }
+    }
+}
+
 impl<S: System> Continuation<S> {
     /// Creates a path from the equilibrium `start`.
     ///
@@ -286,13 +293,54 @@ impl<S: System> Continuation<S> {
         state: State<S::Mode>,
         condition: &Condition,
     ) -> Option<Equilibrium<S::Mode>> {
+        self.corrected(state, condition).map(Equilibrium::from)
+    }
+
+    /// Solves for an equilibrium ahead of the current point, and checks it.
+    ///
+    /// Works like [`Continuation::solved`]. `None` also if the equilibrium violates a constraint,
+    /// or if it lies on a branch with another orientation (N7) than the current point.
+    pub fn solved_ahead(
+        &mut self,
+        state: State<S::Mode>,
+        condition: &Condition,
+    ) -> Option<Equilibrium<S::Mode>> {
+        let candidate = self.corrected(state, condition)?;
+        let guards = Newton::guards(&self.system, &candidate.state);
+        let is_valid = guards.iter().all(|guard| *guard >= -FLOOR);
+        let is_same_branch = candidate.is_positive == self.is_positive;
+        (is_valid && is_same_branch).then(|| candidate.into())
+    }
+
+    /// Steps to the event at which a constraint changes, starting Newton's method from `near`.
+    ///
+    /// The step may have any length, so the caller must know that no event lies between the current
+    /// point and this event. `None` if the event is not found ahead of the current point, or if it
+    /// has no outgoing branch; the current point then stays the same.
+    pub fn step_to_event(
+        &mut self,
+        near: State<S::Mode>,
+        constraint: usize,
+    ) -> Option<Equilibrium<S::Mode>> {
+        let candidate = self.known_event(near, constraint)?;
+        let point = self.accept(candidate).ok()?;
+        self.points += 1;
+        self.farthest = self.progress(&point.state.z).abs();
+        self.set_point(point.clone());
+        Some(point)
+    }
+
+    /// Corrects a state that is not a step of the path; `None` if Newton's method fails.
+    fn corrected(
+        &mut self,
+        state: State<S::Mode>,
+        condition: &Condition,
+    ) -> Option<Candidate<S::Mode>> {
         let iterations = self.newton.history.len();
         let corrected = self.correct(state, condition);
         // The history covers only the iterations of steps, not evaluations between points.
         self.newton.history.truncate(iterations);
-        let Candidate { state, direction, .. } = corrected.ok()?;
-        let (arriving, leaving) = (direction.clone(), direction);
-        Some(Equilibrium { state, arriving, leaving, event: None })
+        corrected.ok()
     }
 
     /// Makes `point` the first point and computes the direction of the path there.

@@ -76,6 +76,25 @@ impl<S: System> Continuation<S> {
         }
     }
 
+    /// Locates the event of `constraint` near `state`, anywhere on the smooth path ahead.
+    ///
+    /// `None` if Newton's method fails, or if another constraint is violated at the event.
+    pub(crate) fn known_event(
+        &mut self,
+        state: State<S::Mode>,
+        constraint: usize,
+    ) -> Option<Candidate<S::Mode>> {
+        let from = self.point_shared();
+        let located = self.locate_from(&from, state, constraint).ok()?;
+        let ahead = self.condition(&from);
+        let is_ahead = ahead.measure(&located.state.z) > ahead.value
+            && self.progress(&located.state.z).abs() <= self.system.target()
+            && located.is_positive == self.is_positive;
+        let guards = Newton::guards(&self.system, &located.state);
+        let is_first = self.first_violated(&guards).is_none_or(|first| first == constraint);
+        (is_ahead && is_first).then(|| self.mark_event(located, constraint, &guards))
+    }
+
     /// Returns the constraint with the guard that reaches zero first by linear extrapolation.
     ///
     /// The second value is the distance of this zero in units of the outgoing direction.

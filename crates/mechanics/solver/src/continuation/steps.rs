@@ -111,9 +111,7 @@ impl<S: System> Continuation<S> {
             let is_valid = !is_beyond_event && !slips_back && !self.bends(&from, &candidate);
             if is_special && is_valid {
                 (self.is_positive, self.is_unique) = (candidate.is_positive, false);
-                let Candidate { state, direction, .. } = candidate;
-                let (arriving, leaving) = (direction.clone(), direction);
-                return Some(Equilibrium { state, arriving, leaving, event: None });
+                return Some(candidate.into());
             }
         }
         None
@@ -194,7 +192,7 @@ impl<S: System> Continuation<S> {
     ///
     /// # Errors
     /// If the event has no outgoing branch.
-    fn accept(
+    pub(super) fn accept(
         &mut self,
         candidate: Candidate<S::Mode>,
     ) -> Result<Equilibrium<S::Mode>, Termination> {
