@@ -12,19 +12,21 @@ pub struct Common {
     pub friction: f64,
     /// Step sizes and tolerances of path following.
     pub solver: Settings,
-    /// Which measures and point data of a puncture path are computed.
+    /// Which measures and point data of a path are computed.
     pub detail: PathDetail,
 }
 
-/// Which measures and point data of a puncture path are computed.
+/// Which measures and point data of a puncture, or of bending of a sample, are computed.
 ///
-/// The equilibria of the path do not depend on this choice.
+/// The equilibria of a puncture do not depend on this choice. Bending of a design always computes
+/// all data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PathDetail {
     /// Only the measures of the critical state, of the first fold and of failure.
     ///
     /// All other measures have no value: largest load and stiffness, first contact, stiffness at
-    /// rest, stability and snaps.
+    /// rest, stability and snaps. In bending of a sample, the measures that depend on the final
+    /// rotation have no value: largest moment, axial energy, membrane strain and friction work.
     Critical,
     /// All measures, without the point data of [`Self::Whole`].
     Measures,

@@ -5,6 +5,7 @@ mod first_contact;
 mod frame;
 mod gap_by_gap;
 mod gap_curve;
+mod gap_order;
 mod measures;
 mod mesh;
 mod point;

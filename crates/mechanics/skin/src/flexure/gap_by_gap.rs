@@ -5,13 +5,14 @@ use membrane::GapEnergies;
 use solver::{Bracket, Newton};
 
 use super::accuracy::{Quantities, largest_change};
-use super::gap_curve::{GapCurve, KinkSide, Knot};
+use super::gap_curve::{GapCurve, Knot};
+use super::gap_order::GapOrder;
 use super::mesh::Resolution;
 use super::problem::{FlexureProblem, LOCKED};
 use super::strip::Strip;
 use super::{Flexure, FlexureMeasures};
-use crate::Status;
 use crate::contacts::Contacts;
+use crate::{PathDetail, Status};
 
 /// Relative tolerance of the moment at which the strip reaches its final rotation.
 const CLOSE: f64 = 1e-12;
@@ -23,6 +24,7 @@ const FLAT: f64 = 1e-11;
 ///
 /// It is relative to the distance from the stiffest point to the next breakpoint.
 const BESIDE: f64 = 1e-3;
+
 /// Relative increase of the stiffness that counts in this check.
 const STIFFER: f64 = 1e-9;
 
@@ -33,6 +35,14 @@ const ROUNDS: usize = 50;
 ///
 /// Extrapolation with the compliance before a gap closes would overshoot.
 const FARTHER: f64 = 2.0;
+
+/// Factor of the final rotation at which the final moment is estimated.
+///
+/// Interpolation up to the final moment is more accurate than extrapolation.
+const BEYOND: f64 = 1.02;
+
+/// Ratio of two compliances beyond which the larger one needs no exact value.
+const MUCH_SOFTER: f64 = 1.05;
 
 /// Divisor of the largest step size if there is friction.
 const FRICTION_REFINEMENT: f64 = 4.0;
@@ -80,7 +90,7 @@ impl From<&Flexure> for BentSample {
 /// `None` if a gap does not reach the final moment, or if its moment or rotation decreases before.
 /// Then the chain of all gaps has to be solved.
 pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutOfRange> {
-    let mut resolution = problem.coarsest();
+    let mut resolution = problem.coarsest(problem.common.detail);
     loop {
         let mut strip = UnevenStrip::new(problem, resolution)?;
         let Some(bent) = strip.bend() else { return Ok(None) };
@@ -94,6 +104,7 @@ struct UnevenStrip<'a> {
     problem: &'a FlexureProblem<'a>,
     resolution: Resolution,
     gaps: Vec<GapCurve>,
+    order: GapOrder,
 }
 
 impl<'a> UnevenStrip<'a> {
@@ -107,22 +118,49 @@ impl<'a> UnevenStrip<'a> {
         let gaps = (0..problem.solved)
             .map(|gap| Ok(GapCurve::new(problem.gap(gap, resolution)?, settings)))
             .collect::<Result<_, _>>()?;
-        Ok(Self { problem, resolution, gaps })
+        let order = GapOrder::new(&problem.row, problem.solved);
+        Ok(Self { problem, resolution, gaps, order })
     }
 
     /// Bends the strip to its final rotation; `None` if the gaps cannot be solved separately.
     fn bend(&mut self) -> Option<BentSample> {
-        let end = self.end()?;
-        let (measures, closing_range) = self.measures(end)?;
+        let beyond = self.pass_end()?;
+        if self.problem.common.detail == PathDetail::Critical {
+            let status = self.status(beyond);
+            let points = self.points(beyond)?;
+            // The strip has not reached its final rotation at any of these points.
+            if status == Status::Complete && self.rotation(points.farthest()) <= self.whole() {
+                let error = self.error(&points, &[points.stiffest]);
+                let measures = self.early_measures(&points, error);
+                return Some(self.bent(status, (measures, &points), beyond));
+            }
+        }
+        let end = self.end(beyond)?;
+        let points = self.points(end)?;
         let status = self.status(end);
+        let error = self.error(&points, &[points.stiffest, end]);
+        let measures = self.early_measures(&points, error);
+        let measures = self.with_final_measures(measures, end);
+        Some(self.bent(status, (measures, &points), end))
+    }
+
+    /// Builds the result of a strip that was bent up to the moment `end`.
+    fn bent(
+        &self,
+        status: Status,
+        (measures, points): (FlexureMeasures, &Points),
+        end: f64,
+    ) -> BentSample {
         let is_complete = status == Status::Complete;
-        Some(BentSample {
+        let closings =
+            points.closings.map(|closings| closings.map(|moment| self.curvature(moment)));
+        BentSample {
             status,
             measures: if is_complete { measures } else { measures.without_final_values() },
-            closing_range,
+            closing_range: closings.map(|[first, last]| last - first),
             points: self.gaps.iter().map(|gap| gap.knots_to(end).len()).sum(),
             iterations: self.gaps.iter().map(|gap| gap.iterations).sum(),
-        })
+        }
     }
 
     /// Audits all gaps under the final moment.
@@ -135,106 +173,165 @@ impl<'a> UnevenStrip<'a> {
         })
     }
 
-    /// Computes the measures of the strip bent up to the moment `end`.
-    ///
-    /// Also returns the width of the range of curvatures in which its gaps close.
-    fn measures(&mut self, end: f64) -> Option<(FlexureMeasures, Option<f64>)> {
-        let problem = self.problem;
+    /// Solves the strip at its first and last closing and where it is stiffest, up to `end`.
+    fn points(&mut self, end: f64) -> Option<Points> {
         let closings = self.gaps.iter().filter_map(GapCurve::first_closing);
         let closings: Vec<_> = closings.filter(|closing| *closing <= end).collect();
         let first = closings.iter().copied().reduce(f64::min);
         let last = closings.iter().copied().reduce(f64::max);
-        let locking = self.locking(end);
-        [first, last, locking]
-            .into_iter()
-            .flatten()
-            .try_for_each(|moment| self.solve_at(moment))?;
+        let closings = first.zip(last).map(<[f64; 2]>::from);
+        // At the first closing all other gaps are open, and (F8) is exact for their arcs.
+        if let Some([_, last]) = closings {
+            self.solve_at(last)?;
+        }
         // Without contact the stiffness is constant, so any moment serves.
         let stiffest = if first.is_some() { self.stiffest(end)? } else { 0.0 };
-        let error = match self.resolution.finer() {
-            // Without contact the membranes are arcs, which every resolution represents exactly.
-            Some(_) if first.is_none() => Some(0.0),
-            finer => finer.map(|finer| self.error(finer, stiffest, end)),
-        };
-        let friction_work = (problem.common.friction > 0.0)
-            .then(|| self.gaps.iter_mut().map(|gap| gap.friction_work(end)).sum());
-        let [first_contact, last_contact, locking] =
-            [first, last, locking].map(|moment| Some(self.curvature(moment?)));
+        Some(Points { closings, stiffest })
+    }
+
+    /// Computes the measures that do not depend on the end of bending.
+    fn early_measures(&self, points: &Points, error: Option<f64>) -> FlexureMeasures {
+        let problem = self.problem;
         let [compliance, initial_compliance] =
-            [self.least_compliance(stiffest), self.compliance(0.0, KinkSide::Behind)]
+            [self.least_compliance(points.stiffest), self.compliance(0.0)]
                 .map(|compliance| compliance * problem.bending_stiffness() / problem.length());
-        let mut sums = Sums::default();
-        self.knots(end).for_each(|(gap, knot)| sums.add(gap.strip(), knot));
-        let gaps = self.gaps.iter();
         let measures = FlexureMeasures {
             compliance: Some(compliance),
             initial_compliance: Some(initial_compliance),
-            contact: Some(first.is_some()),
-            first_contact_curvature: first_contact,
-            max_moment: Some(self.direction() * end / problem.bending_stiffness()),
-            axial_energy_share: Some(sums.axial_energy / sums.energy),
-            membrane_strain_max: gaps.clone().map(|gap| gap.largest_strain(end)).reduce(f64::max),
+            contact: Some(points.closings.is_some()),
+            first_contact_curvature: points.closings.map(|[first, _]| self.curvature(first)),
             error,
-            friction_work,
-            locking_curvature: locking,
             contact_curvature: problem.contact_curvature,
             gaps: problem.gaps,
             ..FlexureMeasures::default()
         };
-        let closing_range = last_contact.zip(first_contact).map(|(last, first)| last - first);
-        Some((measures.in_closed_form(problem.row.gap_fraction()), closing_range))
+        measures.in_closed_form(problem.row.gap_fraction())
     }
 
-    /// Finds the moment at which the strip reaches its final rotation.
-    fn end(&mut self) -> Option<f64> {
-        let whole = self.problem.end_rotation().abs();
-        let mut highest = whole / self.compliance(0.0, KinkSide::Behind);
+    /// Adds the measures of the whole path up to the moment `end`.
+    fn with_final_measures(&mut self, measures: FlexureMeasures, end: f64) -> FlexureMeasures {
+        let problem = self.problem;
+        let friction_work = (problem.common.friction > 0.0)
+            .then(|| self.gaps.iter_mut().map(|gap| gap.friction_work(end)).sum());
+        let mut sums = Sums::default();
+        self.knots(end).for_each(|(gap, knot)| sums.add(gap.strip(), knot));
+        let measures = FlexureMeasures {
+            max_moment: Some(self.direction() * end / problem.bending_stiffness()),
+            axial_energy_share: Some(sums.axial_energy / sums.energy),
+            membrane_strain_max: self
+                .gaps
+                .iter()
+                .map(|gap| gap.largest_strain(end))
+                .reduce(f64::max),
+            friction_work,
+            locking_curvature: self.locking(end).map(|moment| self.curvature(moment)),
+            ..measures
+        };
+        measures.in_closed_form(problem.row.gap_fraction())
+    }
+
+    /// Extends all curves to a moment at which the strip has passed its final rotation.
+    fn pass_end(&mut self) -> Option<f64> {
+        let whole = self.whole();
+        let estimate = self.estimated_end(whole);
+        let mut highest = estimate.unwrap_or(whole / self.compliance(0.0));
         for _ in 0..ROUNDS {
-            self.gaps.iter_mut().try_for_each(|gap| gap.follow_to(highest))?;
-            let moment = self.moment_at(whole, highest);
-            let compliance = self.compliance(moment, KinkSide::Behind);
-            if whole - self.rotation(moment) > CLOSE * moment * compliance {
-                // The highest moment so far does not reach the final rotation.
-                let missing = (whole - self.rotation(moment)) / compliance;
-                highest += missing.min((FARTHER - 1.0) * highest);
-                continue;
+            self.extend_to(highest)?;
+            let missing = whole - self.rotation(highest);
+            if missing <= 0.0 {
+                return Some(highest);
             }
+            let step = missing / self.compliance(highest);
+            highest += (BEYOND * step).min((FARTHER - 1.0) * highest);
+        }
+        None
+    }
+
+    /// Finds the moment, at most `highest`, at which the strip reaches its final rotation.
+    fn end(&mut self, highest: f64) -> Option<f64> {
+        let whole = self.whole();
+        for _ in 0..ROUNDS {
+            let moment = moment_at(whole, highest, |moment| self.rotation(moment));
             self.solve_at(moment)?;
             let off = whole - self.rotation(moment);
-            if off.abs() <= CLOSE * moment * self.compliance(moment, KinkSide::Behind) {
+            if off.abs() <= CLOSE * moment * self.compliance(moment) {
                 return Some(moment);
             }
         }
         None
     }
 
+    /// Estimates the moment at which the strip reaches its final rotation.
+    ///
+    /// Follows the first gap until it rotates by slightly more than the mean of all gaps.
+    fn estimated_end(&mut self, whole: f64) -> Option<f64> {
+        let rotation = BEYOND * whole / self.gaps.len() as f64;
+        let gap = &mut self.gaps[self.order.first];
+        let highest = gap.follow_to_rotation(rotation)?;
+        Some(moment_at(rotation, highest, |moment| gap.rotation(moment)))
+    }
+
+    /// Extends the curves of all gaps to a moment, and solves for their equilibria there.
+    fn extend_to(&mut self, moment: f64) -> Option<()> {
+        for &gap in &self.order.extremes {
+            self.gaps[gap].follow_to(moment)?;
+        }
+        // The state of a gap with friction depends on its path from rest.
+        if self.problem.common.friction == 0.0 {
+            self.extend_beside_extremes(moment)?;
+        }
+        self.gaps.iter_mut().try_for_each(|gap| gap.follow_to(moment))?;
+        self.solve_at(moment)
+    }
+
+    /// Extends the curves of all gaps without following their paths, if the extreme gaps permit it.
+    ///
+    /// The path of a gap is followed only up to first contact. `None` as for
+    /// [`GapCurve::follow_to`].
+    fn extend_beside_extremes(&mut self, moment: f64) -> Option<()> {
+        for &pair in &self.order.pairs {
+            let [gap, similar] = self.gaps.get_disjoint_mut(pair).ok()?;
+            gap.close_beside(similar, moment)?;
+        }
+        if !self.softens_after_closing(moment) {
+            return Some(());
+        }
+        for &gap in &self.order.extremes {
+            self.gaps[gap].solve_at(moment)?;
+        }
+        for &pair in &self.order.pairs {
+            let [gap, similar] = self.gaps.get_disjoint_mut(pair).ok()?;
+            // If this fails, the caller follows the path of the gap.
+            gap.skip_to(similar, moment);
+        }
+        Some(())
+    }
+
+    /// Returns true if the extreme gaps are stiffest when the last gap closes.
+    ///
+    /// Otherwise the search for the stiffest state needs all points of all paths.
+    fn softens_after_closing(&self, end: f64) -> bool {
+        let closings = self.gaps.iter().filter_map(GapCurve::first_closing);
+        let Some(last) = closings.filter(|closing| *closing <= end).reduce(f64::max) else {
+            return true;
+        };
+        let extremes: Vec<_> = self.order.extremes.iter().map(|&gap| &self.gaps[gap]).collect();
+        let knots = extremes.iter().flat_map(|gap| gap.knots_to(end)).map(|knot| knot.moment);
+        let mut moments: Vec<_> = knots.filter(|moment| *moment > last).chain([end]).collect();
+        moments.sort_unstable_by(f64::total_cmp);
+        let at_closing = compliance(&extremes, last);
+        let mut previous = at_closing;
+        moments.into_iter().all(|moment| {
+            let next = compliance(&extremes, moment);
+            let softens = next >= previous * (1.0 - FLAT) || next >= MUCH_SOFTER * at_closing;
+            previous = next;
+            softens
+        })
+    }
+
     /// Returns the curvature `κ*` of the strip under a moment.
     fn curvature(&self, moment: f64) -> f64 {
         self.direction() * self.rotation(moment) / self.problem.length()
-    }
-
-    /// Returns the moment at which the curves, interpolated by (F8), reach a rotation of the strip.
-    ///
-    /// Returns `highest` if the rotation is not reached up to this moment.
-    fn moment_at(&self, rotation: f64, highest: f64) -> f64 {
-        let at_highest = self.rotation(highest) - rotation;
-        if at_highest <= 0.0 {
-            return highest;
-        }
-        let mut bracket = Bracket::new((0.0, -rotation), (highest, at_highest));
-        // Regula falsi may move only one end of the bracket, so stop when the iterate no longer
-        // changes, not when the bracket is narrow.
-        let mut moment = highest;
-        for _ in 0..ROUNDS {
-            let next = bracket.secant();
-            let value = self.rotation(next) - rotation;
-            if value == 0.0 || (next - moment).abs() <= f64::EPSILON * highest {
-                return next;
-            }
-            bracket.narrow(next, value);
-            moment = next;
-        }
-        moment
     }
 
     /// Finds the moment at which the strip is stiffest, and solves all gaps there.
@@ -256,9 +353,9 @@ impl<'a> UnevenStrip<'a> {
         let breakpoints = self.breakpoints(end);
         let before = breakpoints.iter().rfind(|breakpoint| **breakpoint < best.0);
         let behind = breakpoints.iter().find(|breakpoint| **breakpoint > best.0);
-        for (side, breakpoint) in [(KinkSide::Before, before), (KinkSide::Behind, behind)] {
+        for (compliance, breakpoint) in self.compliances(best.0).into_iter().zip([before, behind]) {
             // If the best point is an event, check only its stiff side.
-            let is_stiff = self.compliance(best.0, side) <= best.1 * (1.0 + FLAT);
+            let is_stiff = compliance <= best.1 * (1.0 + FLAT);
             if let Some(breakpoint) = breakpoint.filter(|_| is_stiff) {
                 let beside = best.0 + BESIDE * (breakpoint - best.0);
                 self.solve_at(beside)?;
@@ -273,9 +370,9 @@ impl<'a> UnevenStrip<'a> {
     /// Returns the moments, in ascending order, between which the compliance is smooth.
     ///
     /// These are the events of all gaps, at which the compliance may jump. The equilibria of the
-    /// first gap are added as samples.
+    /// first gap in the order are added as samples.
     fn breakpoints(&self, end: f64) -> Vec<f64> {
-        let one = self.gaps.first().into_iter().flat_map(|gap| gap.knots_to(end));
+        let one = self.gaps[self.order.first].knots_to(end).iter();
         let all = self.gaps.iter().flat_map(|gap| gap.knots_to(end));
         let breakpoints = one.chain(all.filter(|knot| knot.is_event())).map(|knot| knot.moment);
         let mut breakpoints: Vec<_> = breakpoints.collect();
@@ -302,13 +399,13 @@ impl<'a> UnevenStrip<'a> {
     fn least_within(&self, [mut low, mut high]: [f64; 2]) -> (f64, f64) {
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
         let mut inner = [high - golden * (high - low), low + golden * (high - low)]
-            .map(|moment| (moment, self.compliance(moment, KinkSide::Before)));
+            .map(|moment| (moment, self.compliance(moment)));
         for _ in 0..SECTIONS {
             let is_below = inner[0].1 < inner[1].1;
             *(if is_below { &mut high } else { &mut low }) = inner[usize::from(is_below)].0;
             let step = golden * (high - low);
             let moment = if is_below { high - step } else { low + step };
-            let value = (moment, self.compliance(moment, KinkSide::Before));
+            let value = (moment, self.compliance(moment));
             inner = if is_below { [value, inner[0]] } else { [inner[1], value] };
         }
         if inner[0].1 < inner[1].1 { inner[0] } else { inner[1] }
@@ -320,25 +417,33 @@ impl<'a> UnevenStrip<'a> {
     fn locking(&self, end: f64) -> Option<f64> {
         let sticks =
             self.knots(end).any(|(_, knot)| Contacts::stick_slip_counts(&knot.point.state)[0] > 0);
-        let stiffened =
-            self.compliance(0.0, KinkSide::Behind) / self.compliance(end, KinkSide::Behind);
+        let stiffened = self.compliance(0.0) / self.compliance(end);
         let knots = self.gaps.iter().flat_map(|gap| gap.knots_to(end));
         let changes = knots.filter(|knot| knot.is_event()).map(|knot| knot.moment);
         changes.reduce(f64::max).filter(|_| sticks && stiffened >= LOCKED)
     }
 
-    /// Estimates the discretisation error at the moments `stiffest` and `end`.
-    fn error(&self, finer: Resolution, stiffest: f64, end: f64) -> f64 {
-        let moments = [stiffest, end].into_iter().skip(usize::from(stiffest == end));
+    /// Estimates the largest discretisation error at some moments; `None` if it is not estimated.
+    fn error(&self, points: &Points, moments: &[f64]) -> Option<f64> {
+        let finer = self.resolution.finer()?;
+        if points.closings.is_none() {
+            // Without contact the membranes are arcs, which every resolution represents exactly.
+            return Some(0.0);
+        }
         // If a state has no solution on the finer membrane, its error counts as infinite.
-        moments
-            .map(|moment| self.change(finer, moment).unwrap_or(f64::INFINITY))
-            .fold(0.0, f64::max)
+        let errors =
+            moments.iter().map(|moment| self.change(finer, *moment).unwrap_or(f64::INFINITY));
+        errors.reduce(f64::max)
     }
 
+    /// Computes the largest relative change of any measure on a finer membrane at a moment.
+    ///
+    /// The strip is represented by the gaps with the least and the largest width, clearance and
+    /// slant, and one gap near the mean.
     fn change(&self, finer: Resolution, moment: f64) -> Option<f64> {
         let (mut ours, mut theirs, mut newton) = (Sums::default(), Sums::default(), None);
-        for (number, gap) in self.gaps.iter().enumerate() {
+        for &number in &self.order.extremes {
+            let gap = &self.gaps[number];
             let strip = self.problem.gap(number, finer).ok()?;
             let newton = newton.get_or_insert_with(|| Newton::new(&strip));
             let knot = gap.resolved(moment, &strip, newton)?;
@@ -355,6 +460,11 @@ impl<'a> UnevenStrip<'a> {
         self.gaps.iter_mut().try_for_each(|gap| gap.solve_at(moment))
     }
 
+    /// Returns the magnitude of the final rotation of the strip.
+    fn whole(&self) -> f64 {
+        self.problem.end_rotation().abs()
+    }
+
     /// Returns 1 with the scales on the inside of the bend, −1 with the scales on the outside.
     fn direction(&self) -> f64 {
         self.problem.end_rotation().signum()
@@ -364,13 +474,21 @@ impl<'a> UnevenStrip<'a> {
         self.gaps.iter().map(|gap| gap.rotation(moment)).sum()
     }
 
-    fn compliance(&self, moment: f64, side: KinkSide) -> f64 {
-        self.gaps.iter().map(|gap| gap.compliance(moment, side)).sum()
+    /// Returns the compliances of the strip just below and just above a moment.
+    fn compliances(&self, moment: f64) -> [f64; 2] {
+        let of_gaps = self.gaps.iter().map(|gap| gap.compliances(moment));
+        of_gaps.fold([0.0; 2], |sums, of_gap| [0, 1].map(|side| sums[side] + of_gap[side]))
+    }
+
+    /// Returns the compliance just above a moment.
+    fn compliance(&self, moment: f64) -> f64 {
+        self.compliances(moment)[1]
     }
 
     /// Returns the smaller one of the compliances just below and just above a moment.
     fn least_compliance(&self, moment: f64) -> f64 {
-        self.compliance(moment, KinkSide::Before).min(self.compliance(moment, KinkSide::Behind))
+        let [below, above] = self.compliances(moment);
+        below.min(above)
     }
 
     /// Iterates over the gaps, each with its equilibrium under a moment that was solved for.
@@ -379,9 +497,53 @@ impl<'a> UnevenStrip<'a> {
     }
 }
 
+/// Returns the sum of the compliances of some gaps just above a moment.
+fn compliance(gaps: &[&GapCurve], moment: f64) -> f64 {
+    gaps.iter().map(|gap| gap.compliances(moment)[1]).sum()
+}
+
+/// Returns the moment at which an increasing `rotation_at` reaches a rotation.
+///
+/// Returns `highest` if the rotation is not reached up to this moment.
+fn moment_at(rotation: f64, highest: f64, rotation_at: impl Fn(f64) -> f64) -> f64 {
+    let at_highest = rotation_at(highest) - rotation;
+    if at_highest <= 0.0 {
+        return highest;
+    }
+    let mut bracket = Bracket::new((0.0, -rotation), (highest, at_highest));
+    // Regula falsi may move only one end of the bracket, so stop when the iterate no longer
+    // changes, not when the bracket is narrow.
+    let mut moment = highest;
+    for _ in 0..ROUNDS {
+        let next = bracket.secant();
+        let value = rotation_at(next) - rotation;
+        if value == 0.0 || (next - moment).abs() <= f64::EPSILON * highest {
+            return next;
+        }
+        bracket.narrow(next, value);
+        moment = next;
+    }
+    moment
+}
+
 /// Returns the `(moment, value)` pair of lesser value; the first one if both are equal.
 fn lesser(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
     if other.1 < one.1 { other } else { one }
+}
+
+/// Moments at which a strip is solved.
+struct Points {
+    /// First contact in the gap that closes first, and in the gap that closes last.
+    closings: Option<[f64; 2]>,
+    /// Moment of the largest stiffness; 0 if no gap closes.
+    stiffest: f64,
+}
+
+impl Points {
+    /// Returns the largest moment.
+    fn farthest(&self) -> f64 {
+        self.closings.map_or(self.stiffest, |[_, last]| last.max(self.stiffest))
+    }
 }
 
 /// Sums of quantities of all gaps under one moment; the strain is the largest of all gaps.

@@ -1,6 +1,6 @@
 //! Curve of the rotation of one gap over its moment, solved on demand.
 
-use solver::{Continuation, Event, Newton, Settings};
+use solver::{Change, Continuation, Event, Newton, Settings, System as _};
 
 use super::strip::Strip;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
@@ -14,15 +14,6 @@ const ROUND_OFF: f64 = 1e-12;
 /// The last iteration converges quadratically, so the error of the state is far smaller than the
 /// tolerance.
 const ESTIMATED: f64 = 1e-6;
-
-/// Side of a moment at which the curve has a kink.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum KinkSide {
-    /// Smaller moments.
-    Before,
-    /// Larger moments.
-    Behind,
-}
 
 /// Equilibrium of a gap; moment and rotation are positive in the direction of bending.
 #[derive(Debug)]
@@ -55,6 +46,13 @@ impl Knot {
     pub(super) fn is_event(&self) -> bool {
         matches!(self.point.event, Some(Event::Changed(_)))
     }
+
+    /// Returns true if moment and rotation grow from `before` to this equilibrium and beyond.
+    fn is_regular_after(&self, before: &Self) -> bool {
+        let rises = [(self.moment, before.moment), (self.rotation, before.rotation)];
+        rises.into_iter().all(|(now, before)| now >= before - ROUND_OFF * before)
+            && self.compliances.iter().all(|compliance| *compliance > 0.0 && compliance.is_finite())
+    }
 }
 
 /// The curve of a gap: its equilibria ("knots") sorted by moment.
@@ -73,6 +71,8 @@ impl Knot {
 pub(super) struct GapCurve {
     path: Continuation<Strip>,
     knots: Vec<Knot>,
+    /// Moment up to which the path has been followed.
+    followed: f64,
     pub(super) iterations: usize,
 }
 
@@ -82,7 +82,7 @@ impl GapCurve {
         let rest = SkinState::at_rest(&strip);
         let path = Continuation::new(strip, rest, settings);
         let knots = vec![Knot::new(path.system(), path.point().clone())];
-        Self { path, knots, iterations: 0 }
+        Self { path, knots, followed: 0.0, iterations: 0 }
     }
 
     pub(super) fn strip(&self) -> &Strip {
@@ -94,27 +94,91 @@ impl GapCurve {
     /// `None` if the path ends earlier. Also `None` if the moment or the rotation decreases,
     /// because then the moment does not determine the state of the gap.
     pub(super) fn follow_to(&mut self, moment: f64) -> Option<()> {
-        loop {
-            let last = self.knots.last()?;
-            if last.moment >= moment {
-                return Some(());
+        if self.knots.last()?.moment < moment {
+            // Equilibria beyond the path would not be in order with further points of the path.
+            self.knots.retain(|knot| knot.moment <= self.followed);
+            while self.followed < moment {
+                self.follow()?;
             }
-            let point = self.path.next()?;
-            self.iterations += self.path.take_history().len();
-            let knot = Knot::new(self.path.system(), point);
-            let rises = [(knot.moment, last.moment), (knot.rotation, last.rotation)];
-            let is_regular =
-                rises.into_iter().all(|(now, before)| now >= before - ROUND_OFF * before)
-                    && knot
-                        .compliances
-                        .iter()
-                        .all(|compliance| *compliance > 0.0 && compliance.is_finite());
-            if !is_regular {
-                return None;
-            }
-            let moment = knot.moment.max(last.moment);
-            self.knots.push(Knot { moment, ..knot });
         }
+        Some(())
+    }
+
+    /// Follows the path until the gap rotates by at least `rotation`, and returns its moment there.
+    ///
+    /// `None` as for [`Self::follow_to`].
+    pub(super) fn follow_to_rotation(&mut self, rotation: f64) -> Option<f64> {
+        while self.knots.last()?.rotation < rotation {
+            self.follow()?;
+        }
+        Some(self.followed)
+    }
+
+    /// Follows the path up to first contact, or to at least a moment if this is earlier.
+    ///
+    /// Starts from the first contact of a `similar` gap if possible. `None` as for
+    /// [`Self::follow_to`].
+    pub(super) fn close_beside(&mut self, similar: &Self, moment: f64) -> Option<()> {
+        if self.followed == 0.0 && self.step_to_closing(similar).is_some() {
+            return Some(());
+        }
+        while self.followed < moment && self.first_closing().is_none() {
+            self.follow()?;
+        }
+        Some(())
+    }
+
+    /// Steps from rest to first contact, starting from the first contact of a `similar` gap.
+    ///
+    /// Without contact the membrane is an arc, so no other event lies between. Returns `None`
+    /// without a step if this fails.
+    fn step_to_closing(&mut self, similar: &Self) -> Option<()> {
+        let closing = similar.knots.iter().find(|knot| Contacts::closed(&knot.point.state) > 0)?;
+        let Some(Event::Changed(changes)) = &closing.point.event else { return None };
+        let &[Change { constraint, activated: true }] = changes.as_slice() else { return None };
+        let near =
+            SkinState { z: closing.point.state.z.clone(), ..self.knots[0].point.state.clone() };
+        let point = self.path.step_to_event(near, constraint)?;
+        self.append(point)
+    }
+
+    /// Follows the path by one point; `None` as for [`Self::follow_to`].
+    fn follow(&mut self) -> Option<()> {
+        let point = self.path.next()?;
+        self.append(point)
+    }
+
+    /// Appends a point of the path to the knots; `None` as for [`Self::follow_to`].
+    fn append(&mut self, point: SkinPoint) -> Option<()> {
+        self.iterations += self.path.take_history().len();
+        let last = self.knots.last()?;
+        let knot = Knot::new(self.path.system(), point);
+        if !knot.is_regular_after(last) {
+            return None;
+        }
+        self.followed = knot.moment.max(last.moment);
+        self.knots.push(Knot { moment: self.followed, ..knot });
+        Some(())
+    }
+
+    /// Solves for the equilibrium under a moment beyond the end of the curve.
+    ///
+    /// Starts from the equilibrium of a `similar` gap under this moment. `None` if the contacts of
+    /// this equilibrium differ from the contacts at the end of the followed path, if Newton's
+    /// method fails, or if the equilibrium is not valid.
+    pub(super) fn skip_to(&mut self, similar: &Self, moment: f64) -> Option<()> {
+        let last = self.knots.last().filter(|last| last.moment < moment)?;
+        let (here, near) = (&self.path.point().state, &similar.knot(moment)?.point.state);
+        let is_alike =
+            near.active == here.active && self.strip().is_same_form(&near.mode, &here.mode);
+        if !is_alike {
+            return None;
+        }
+        let guess = SkinState { z: near.z.clone(), ..here.clone() };
+        let condition = self.strip().under_moment(moment);
+        let point = self.path.solved_ahead(guess, &condition)?;
+        let knot = Knot { moment, ..Knot::new(self.path.system(), point) };
+        knot.is_regular_after(last).then(|| self.knots.push(knot))
     }
 
     /// Solves for the equilibrium under a moment that the path has already passed.
@@ -127,12 +191,15 @@ impl GapCurve {
             return Some(());
         }
         let segment = Segment { from, to };
-        let (guess, range) = (segment.state(self.strip(), moment), from.rotation..=to.rotation);
+        let (guess, [low, high]) =
+            (segment.state(self.strip(), moment), [from.rotation, to.rotation]);
         let condition = self.strip().under_moment(moment);
         let point = self.path.solved(guess, &condition)?;
         let knot = Knot { moment, ..Knot::new(self.path.system(), point) };
         // A rotation outside the segment means that Newton's method found another branch.
-        range.contains(&knot.rotation).then(|| self.knots.insert(next, knot))
+        let rotation = knot.rotation.clamp(low, high);
+        let is_inside = (rotation - knot.rotation).abs() <= ROUND_OFF * high;
+        is_inside.then(|| self.knots.insert(next, Knot { rotation, ..knot }))
     }
 
     /// Returns the equilibria with moments up to the given moment.
@@ -159,12 +226,13 @@ impl GapCurve {
         }
     }
 
-    /// Returns the compliance `dθ/dM` at a moment, from an equilibrium or interpolated by (F8).
-    pub(super) fn compliance(&self, moment: f64, side: KinkSide) -> f64 {
-        match (self.find(moment), side) {
-            (Ok([knot, _]), KinkSide::Before) => knot.compliances[0],
-            (Ok([_, knot]), KinkSide::Behind) => knot.compliances[1],
-            (Err(segment), _) => segment.compliance(moment),
+    /// Returns the compliances `dθ/dM` just below and just above a moment.
+    ///
+    /// They are the compliances of an equilibrium or interpolated by (F8).
+    pub(super) fn compliances(&self, moment: f64) -> [f64; 2] {
+        match self.find(moment) {
+            Ok([first, last]) => [first.compliances[0], last.compliances[1]],
+            Err(segment) => [segment.compliance(moment); 2],
         }
     }
 

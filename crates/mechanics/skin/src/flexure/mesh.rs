@@ -3,6 +3,8 @@
 use geometry::OutOfRange;
 use membrane::{Elastica, GapMembrane, Membrane, Section, Span};
 
+use crate::PathDetail;
+
 /// Selects the discretisation of the membrane between two scales.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MembraneMesh {
@@ -38,7 +40,11 @@ impl Resolution {
     /// finer one. Returns `None` if the error is acceptable or unknown, or if the order is already
     /// the largest.
     pub(crate) fn better(self, error: Option<f64>) -> Option<Self> {
-        let suffices = error.is_none_or(|error| error <= TOLERANCE);
+        let tolerance = match self {
+            Self::Order(order) if order < FIRST_ORDER => EARLY_TOLERANCE,
+            _ => TOLERANCE,
+        };
+        let suffices = error.is_none_or(|error| error <= tolerance);
         self.finer().filter(|finer| {
             !suffices && !matches!(finer, Self::Order(order) if *order > LAST_ORDER)
         })
@@ -71,10 +77,23 @@ const ORDER_STEP: usize = 6;
 /// is not valid for these.
 const LAST_ORDER: usize = 48;
 
+/// Initial order for the stiffest state of an imperfect strip.
+///
+/// Its forces are much smaller than at the end of bending, so the boundary layers are wide.
+const EARLY_ORDER: usize = 6;
+
+/// Largest relative change of a measure by refinement at which [`EARLY_ORDER`] suffices.
+///
+/// Tables then hardly differ from tables with [`FIRST_ORDER`].
+const EARLY_TOLERANCE: f64 = 1e-7;
+
 impl MembraneMesh {
     /// Returns the initial resolution.
-    pub(crate) fn coarsest(self) -> Resolution {
+    ///
+    /// With [`PathDetail::Critical`] only the stiffest state has to be resolved.
+    pub(crate) fn coarsest(self, detail: PathDetail) -> Resolution {
         match self {
+            Self::Auto if detail == PathDetail::Critical => Resolution::Order(EARLY_ORDER),
             Self::Auto => Resolution::Order(FIRST_ORDER),
             Self::Elements(count) => Resolution::Elements(count),
         }

@@ -15,7 +15,7 @@ use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::path_location::{PathLocation, PointLocator};
 use crate::record::{PathFunction, Record};
-use crate::{Common, Design, Sample, Status, Unloading};
+use crate::{Common, Design, PathDetail, Sample, Status, Unloading};
 
 /// A strip bent to the end of its path.
 pub(crate) struct Bent {
@@ -171,9 +171,9 @@ impl<'a> FlexureProblem<'a> {
         Ok(self.flexure(self.resolved(&[], &[])?.0))
     }
 
-    /// Returns the initial resolution.
-    pub(super) fn coarsest(&self) -> Resolution {
-        self.parameters.elements_per_gap.coarsest()
+    /// Returns the initial resolution for measures of this `detail`.
+    pub(super) fn coarsest(&self, detail: PathDetail) -> Resolution {
+        self.parameters.elements_per_gap.coarsest(detail)
     }
 
     /// Bends the strip; refines the membrane until the discretisation error is acceptable.
@@ -185,7 +185,7 @@ impl<'a> FlexureProblem<'a> {
         functions: &[PathFunction<Strip>],
         end_rotations: &[f64],
     ) -> Result<(Bent, Resolution), OutOfRange> {
-        let mut resolution = self.coarsest();
+        let mut resolution = self.coarsest(PathDetail::Whole);
         loop {
             let bent = self.bend(resolution, functions, end_rotations)?;
             // A path that stopped early is not refined.

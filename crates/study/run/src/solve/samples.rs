@@ -40,6 +40,7 @@ pub(super) fn puncture(
 /// Adds statistics of their measures to `statistics`, and counts each sample in `work`.
 pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &DesignWork<'_>) {
     let (mut compliance, mut closing_range) = (Vec::new(), Vec::new());
+    let case = &case.with_detail(PathDetail::Critical);
     for number in 1..=case.samples.count as u64 {
         let flexure = imperfect_row(case, number).and_then(|row| bent(case, &row));
         work.strip_done();
