@@ -253,6 +253,27 @@ impl Tangent for BlockMatrix {
         }
     }
 
+    /// Adds `values` to successive entries of a row from `column` on, unless the row is left out.
+    ///
+    /// The columns must be successive unknowns of one block, and none of them may be left out.
+    #[inline(always)]
+    fn add_row(&mut self, row: usize, column: usize, values: impl ExactSizeIterator<Item = f64>) {
+        let (row, column) = (self.positions[row], self.positions[column]);
+        if row == LEFT_OUT || values.len() == 0 {
+            return;
+        }
+        let (first, step) = match self.part(row, column) {
+            Part::Within => (self.within[row].wrapping_add(column), 1),
+            Part::Columns => (self.coupling[row].wrapping_add(self.in_links[column]), 1),
+            Part::Rows => {
+                let first = self.behind(column) + self.in_links[row];
+                (self.coupling[column].wrapping_add(first), self.width())
+            }
+        };
+        let entries = self.values[first..].iter_mut().step_by(step);
+        entries.zip(values).for_each(|(entry, value)| *entry += value);
+    }
+
     /// Adds `values` along the diagonal that starts at (`row`, `column`).
     ///
     /// The rows must be successive unknowns of one block, and none of them may be left out. The

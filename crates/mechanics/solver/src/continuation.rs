@@ -298,14 +298,19 @@ impl<S: System> Continuation<S> {
 
     /// Solves for an equilibrium ahead of the current point, and checks it.
     ///
-    /// Works like [`Continuation::solved`]. `None` also if the equilibrium violates a constraint,
-    /// or if it lies on a branch with another orientation (N7) than the current point.
+    /// Works like [`Continuation::solved`] with another tolerance. `None` also if the equilibrium
+    /// violates a constraint, or if it lies on a branch with another orientation (N7) than the
+    /// current point.
     pub fn solved_ahead(
         &mut self,
         state: State<S::Mode>,
         condition: &Condition,
+        tolerance: f64,
     ) -> Option<Equilibrium<S::Mode>> {
-        let candidate = self.corrected(state, condition)?;
+        let own = std::mem::replace(&mut self.settings.tolerance, tolerance);
+        let candidate = self.corrected(state, condition);
+        self.settings.tolerance = own;
+        let candidate = candidate?;
         let guards = Newton::guards(&self.system, &candidate.state);
         let is_valid = guards.iter().all(|guard| *guard >= -FLOOR);
         let is_same_branch = candidate.is_positive == self.is_positive;

@@ -6,6 +6,8 @@ pub trait Tangent {
     fn add(&mut self, row: usize, column: usize, value: f64);
 
     /// Adds `values` to successive entries of a row from `column` on.
+    ///
+    /// The columns must belong to one block, and none of them to an inactive constraint.
     fn add_row(&mut self, row: usize, column: usize, values: impl ExactSizeIterator<Item = f64>) {
         for (k, value) in values.enumerate() {
             self.add(row, column + k, value);

@@ -93,7 +93,15 @@ pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutO
     let mut resolution = problem.coarsest(problem.common.detail);
     loop {
         let mut strip = UnevenStrip::new(problem, resolution)?;
-        let Some(bent) = strip.bend() else { return Ok(None) };
+        let Some(bent) = strip.bend() else {
+            // A coarse membrane may also fail because it does not resolve the end of bending.
+            let usual = problem.coarsest(PathDetail::Whole);
+            if resolution.is_coarser_than(usual) {
+                resolution = usual;
+                continue;
+            }
+            return Ok(None);
+        };
         let Some(finer) = resolution.better(bent.measures.error) else { return Ok(Some(bent)) };
         resolution = finer;
     }
@@ -105,6 +113,8 @@ struct UnevenStrip<'a> {
     resolution: Resolution,
     gaps: Vec<GapCurve>,
     order: GapOrder,
+    /// Gaps that represent the strip in checks: all gaps, or the gaps with a followed path.
+    checked: Vec<usize>,
 }
 
 impl<'a> UnevenStrip<'a> {
@@ -119,7 +129,8 @@ impl<'a> UnevenStrip<'a> {
             .map(|gap| Ok(GapCurve::new(problem.gap(gap, resolution)?, settings)))
             .collect::<Result<_, _>>()?;
         let order = GapOrder::new(&problem.row, problem.solved);
-        Ok(Self { problem, resolution, gaps, order })
+        let checked = (0..problem.solved).collect();
+        Ok(Self { problem, resolution, gaps, order, checked })
     }
 
     /// Bends the strip to its final rotation; `None` if the gaps cannot be solved separately.
@@ -294,8 +305,10 @@ impl<'a> UnevenStrip<'a> {
             gap.close_beside(similar, moment)?;
         }
         if !self.softens_after_closing(moment) {
+            self.checked = (0..self.gaps.len()).collect();
             return Some(());
         }
+        self.checked.clone_from(&self.order.extremes);
         for &gap in &self.order.extremes {
             self.gaps[gap].solve_at(moment)?;
         }
@@ -315,14 +328,14 @@ impl<'a> UnevenStrip<'a> {
         let Some(last) = closings.filter(|closing| *closing <= end).reduce(f64::max) else {
             return true;
         };
-        let extremes: Vec<_> = self.order.extremes.iter().map(|&gap| &self.gaps[gap]).collect();
-        let knots = extremes.iter().flat_map(|gap| gap.knots_to(end)).map(|knot| knot.moment);
+        let extremes = self.order.extremes.iter().map(|&gap| &self.gaps[gap]);
+        let knots = extremes.clone().flat_map(|gap| gap.knots_to(end)).map(|knot| knot.moment);
         let mut moments: Vec<_> = knots.filter(|moment| *moment > last).chain([end]).collect();
         moments.sort_unstable_by(f64::total_cmp);
-        let at_closing = compliance(&extremes, last);
+        let at_closing = compliances(extremes.clone(), last)[1];
         let mut previous = at_closing;
         moments.into_iter().all(|moment| {
-            let next = compliance(&extremes, moment);
+            let next = compliances(extremes.clone(), moment)[1];
             let softens = next >= previous * (1.0 - FLAT) || next >= MUCH_SOFTER * at_closing;
             previous = next;
             softens
@@ -349,6 +362,10 @@ impl<'a> UnevenStrip<'a> {
             if found < best.1 {
                 best = (moment, found);
             }
+            if found == promised {
+                // All gaps had been solved there, so the next prediction would be the same.
+                break;
+            }
         }
         let breakpoints = self.breakpoints(end);
         let before = breakpoints.iter().rfind(|breakpoint| **breakpoint < best.0);
@@ -358,8 +375,13 @@ impl<'a> UnevenStrip<'a> {
             let is_stiff = compliance <= best.1 * (1.0 + FLAT);
             if let Some(breakpoint) = breakpoint.filter(|_| is_stiff) {
                 let beside = best.0 + BESIDE * (breakpoint - best.0);
-                self.solve_at(beside)?;
-                if self.least_compliance(beside) < best.1 * (1.0 - STIFFER) {
+                for &gap in &self.checked {
+                    self.gaps[gap].solve_at(beside)?;
+                }
+                let checked = self.checked.iter().map(|&gap| &self.gaps[gap]);
+                let [here, beside] =
+                    [best.0, beside].map(|moment| least(compliances(checked.clone(), moment)));
+                if beside < here * (1.0 - STIFFER) {
                     return None;
                 }
             }
@@ -476,8 +498,7 @@ impl<'a> UnevenStrip<'a> {
 
     /// Returns the compliances of the strip just below and just above a moment.
     fn compliances(&self, moment: f64) -> [f64; 2] {
-        let of_gaps = self.gaps.iter().map(|gap| gap.compliances(moment));
-        of_gaps.fold([0.0; 2], |sums, of_gap| [0, 1].map(|side| sums[side] + of_gap[side]))
+        compliances(self.gaps.iter(), moment)
     }
 
     /// Returns the compliance just above a moment.
@@ -487,8 +508,7 @@ impl<'a> UnevenStrip<'a> {
 
     /// Returns the smaller one of the compliances just below and just above a moment.
     fn least_compliance(&self, moment: f64) -> f64 {
-        let [below, above] = self.compliances(moment);
-        below.min(above)
+        least(self.compliances(moment))
     }
 
     /// Iterates over the gaps, each with its equilibrium under a moment that was solved for.
@@ -497,9 +517,15 @@ impl<'a> UnevenStrip<'a> {
     }
 }
 
-/// Returns the sum of the compliances of some gaps just above a moment.
-fn compliance(gaps: &[&GapCurve], moment: f64) -> f64 {
-    gaps.iter().map(|gap| gap.compliances(moment)[1]).sum()
+/// Returns the sums of the compliances of some gaps just below and just above a moment.
+fn compliances<'a>(gaps: impl Iterator<Item = &'a GapCurve>, moment: f64) -> [f64; 2] {
+    gaps.map(|gap| gap.compliances(moment))
+        .fold([0.0; 2], |sums, of_gap| [sums[0] + of_gap[0], sums[1] + of_gap[1]])
+}
+
+/// Returns the smaller one of two compliances.
+fn least([below, above]: [f64; 2]) -> f64 {
+    below.min(above)
 }
 
 /// Returns the moment at which an increasing `rotation_at` reaches a rotation.

@@ -9,8 +9,10 @@ use crate::record::Work;
 /// Relative decrease of moment or rotation between equilibria that counts as round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Tolerance of Newton's method for states on a finer membrane, which only serve an error estimate.
+/// Tolerance of Newton's method for states that enter no result.
 ///
+/// These are states on a finer membrane, for an error estimate, and states beyond the end of
+/// bending, which limit the range of (F8).
 /// The last iteration converges quadratically, so the error of the state is far smaller than the
 /// tolerance.
 const ESTIMATED: f64 = 1e-6;
@@ -176,7 +178,7 @@ impl GapCurve {
         }
         let guess = SkinState { z: near.z.clone(), ..here.clone() };
         let condition = self.strip().under_moment(moment);
-        let point = self.path.solved_ahead(guess, &condition)?;
+        let point = self.path.solved_ahead(guess, &condition, ESTIMATED)?;
         let knot = Knot { moment, ..Knot::new(self.path.system(), point) };
         knot.is_regular_after(last).then(|| self.knots.push(knot))
     }

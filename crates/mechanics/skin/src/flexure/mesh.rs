@@ -50,10 +50,16 @@ impl Resolution {
         })
     }
 
+    /// Returns true for a spectral element of lower order than `other`.
+    pub(crate) fn is_coarser_than(self, other: Self) -> bool {
+        matches!((self, other), (Self::Order(own), Self::Order(other)) if own < other)
+    }
+
     /// Returns the next finer resolution; `None` for co-rotational elements.
     pub(crate) fn finer(self) -> Option<Self> {
         match self {
             Self::Elements(_) => None,
+            Self::Order(order) if order < FIRST_ORDER => Some(Self::Order(FIRST_ORDER)),
             Self::Order(order) => Some(Self::Order(order + ORDER_STEP)),
         }
     }
@@ -80,7 +86,7 @@ const LAST_ORDER: usize = 48;
 /// Initial order for the stiffest state of an imperfect strip.
 ///
 /// Its forces are much smaller than at the end of bending, so the boundary layers are wide.
-const EARLY_ORDER: usize = 6;
+const EARLY_ORDER: usize = 4;
 
 /// Largest relative change of a measure by refinement at which [`EARLY_ORDER`] suffices.
 ///

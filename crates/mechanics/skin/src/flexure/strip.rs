@@ -3,7 +3,7 @@
 use contact::ContactLaw;
 use geometry::{Body, Vec2};
 use membrane::{Derivatives, GapEnergies, Membrane, Section};
-use solver::{Blocks, Change, Condition, Control, Residual, System, Tangent};
+use solver::{Blocks, Change, Condition, Control, LARGEST_BLOCK, LINK, Residual, System, Tangent};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
@@ -15,6 +15,8 @@ use crate::contacts::{Contacts, SkinMode, SkinState, pair_constraints};
 /// λ λ' λ" λ λ' λ" · interior · x y φ | … | λ λ' λ" λ λ' λ" · interior · x y φ · M
 /// └──────── gap 0 and scale 1 ───────┘     └──── gap n − 1 and scale n ────┘
 /// ```
+///
+/// The order of a single gap with few interior unknowns is `interior · λ λ' λ" λ λ' λ" · x y φ · M`.
 ///
 /// `interior` stands for the unknowns of the membrane of a gap. The interior unknowns and the
 /// displacements `x y` are in the frame of the scale on the left of the gap. The rotation `φ` of a
@@ -49,23 +51,47 @@ impl StripLayout {
 
     /// Returns the index of the first membrane unknown of a gap.
     fn membrane(self, gap: usize) -> usize {
-        self.block() * gap + self.pair
+        self.block() * gap + if self.has_interior_block() { 0 } else { self.pair }
+    }
+
+    /// Returns the indices of the unknowns of a membrane: interior, then right scale.
+    fn of_membrane(self, gap: usize) -> impl Iterator<Item = usize> {
+        let (start, end) = (self.membrane(gap), self.block() * (gap + 1));
+        (start..start + self.interior).chain(end - 3..end)
     }
 
     fn force(self, force: usize) -> usize {
-        self.block() * (force / self.pair) + force % self.pair
+        let before = if self.has_interior_block() { self.interior } else { 0 };
+        self.block() * (force / self.pair) + before + force % self.pair
     }
 
-    /// Returns the block structure: one block for each free scale.
+    /// Returns true if the interior unknowns form a block.
     ///
-    /// A block holds the displacements of a scale and the contact forces between this scale and the
-    /// next one. The first block also holds the contact forces between the fixed scale and its
-    /// neighbour. `None` with interior membrane unknowns, because blocks would be too large.
+    /// In a single gap they are coupled only with the displacements of the right scale. In a chain
+    /// they are also coupled with the rotation of the left scale.
+    fn has_interior_block(self) -> bool {
+        self.gaps == 1 && (LINK..=LARGEST_BLOCK).contains(&self.interior)
+    }
+
+    /// Returns the block structure, or `None` if blocks would be too large.
+    ///
+    /// Without interior unknowns there is one block for each free scale. A block holds the
+    /// displacements of a scale and the contact forces between this scale and the next one. The
+    /// first block also holds the contact forces between the fixed scale and its neighbour.
+    ///
+    /// A single gap has two blocks: its interior unknowns, and all others.
     fn blocks(self) -> Option<Blocks> {
-        let links: Vec<_> = (1..=self.gaps).filter_map(|scale| self.scale(scale)).collect();
-        let starts = [0].into_iter().chain(links.iter().copied().skip(1)).collect();
+        let mut links: Vec<_> = (1..=self.gaps).filter_map(|scale| self.scale(scale)).collect();
+        let mut starts: Vec<_> = [0].into_iter().chain(links.iter().copied().skip(1)).collect();
+        if self.has_interior_block() {
+            // No block is farther from the root than the interior, so its link is not used.
+            links.insert(0, 0);
+            starts.push(self.interior);
+        } else if self.interior > 0 {
+            return None;
+        }
         // The moment and the controls belong to the last scale, so its block must be the root.
-        (self.interior == 0).then_some(Blocks { starts, links, root: self.gaps - 1, reach: 1 })
+        Some(Blocks { root: starts.len() - 1, starts, links, reach: 1 })
     }
 
     fn moment(self) -> usize {
@@ -133,7 +159,9 @@ impl Strip {
         let mut units = vec![1.0; layout.size()];
         for gap in 0..gaps {
             let of_gap = membranes[gap.min(membranes.len() - 1)].units();
-            units[layout.membrane(gap)..][..of_gap.len()].copy_from_slice(of_gap.as_slice());
+            for (unknown, unit) in layout.of_membrane(gap).zip(of_gap.iter()) {
+                units[unknown] = *unit;
+            }
         }
         let last = layout.moment() - 3;
         // Displacements of the last scale are relative to its neighbour, so scale them with the
@@ -233,14 +261,16 @@ impl Strip {
     ///
     /// `None` for co-rotational elements, which are not refined.
     pub(crate) fn transferred(&self, state: &SkinState, finer: &Self) -> Option<SkinState> {
-        let mut z = Vec::with_capacity(finer.layout.size());
-        for gap in 0..self.layout.gaps {
-            let start = self.layout.membrane(gap);
-            let membrane = &state.z[start..start + self.layout.interior + 3];
-            z.extend_from_slice(&state.z[start - self.layout.pair..start]);
-            z.extend(self.membrane(gap).transferred(membrane, finer.membrane(gap))?);
+        let (ours, theirs) = (self.layout, finer.layout);
+        let mut z = vec![state.z[ours.moment()]; theirs.size()];
+        for gap in 0..ours.gaps {
+            let membrane: Vec<_> = ours.of_membrane(gap).map(|unknown| state.z[unknown]).collect();
+            let membrane = self.membrane(gap).transferred(&membrane, finer.membrane(gap))?;
+            theirs.of_membrane(gap).zip(membrane).for_each(|(unknown, value)| z[unknown] = value);
         }
-        z.push(state.z[self.layout.moment()]);
+        for force in 0..ours.pair * ours.gaps {
+            z[theirs.force(force)] = state.z[ours.force(force)];
+        }
         // Constraints and modes belong to contacts, so they do not depend on the resolution.
         Some(SkinState { z, active: state.active.clone(), mode: state.mode.clone() })
     }
@@ -281,10 +311,8 @@ impl Strip {
     ///
     /// Unknowns that vanish by [`Self::straight`] are omitted.
     fn acting(&self, state: &SkinState, gap: usize) -> Vec<f64> {
-        let start = self.layout.membrane(gap);
-        let end = start + self.layout.interior + 3;
-        let first = start + self.straight(&state.active, gap);
-        let mut seen = state.z[first..end].to_vec();
+        let acting = self.layout.of_membrane(gap).skip(self.straight(&state.active, gap));
+        let mut seen: Vec<_> = acting.map(|unknown| state.z[unknown]).collect();
         if let (Some(frame), Some(rotation)) = (self.layout.rotation(gap), seen.last_mut()) {
             *rotation -= state.z[frame];
         }
@@ -302,16 +330,21 @@ impl Strip {
         let acting = self.acting(state, gap);
         let Derivatives { gradient, hessian } = self.membrane(gap).derivatives(&acting);
         let last = acting.len() - 1;
-        let first = self.layout.membrane(gap) + self.layout.interior + 2 - last;
+        let (interior, scale) = (last - 2, self.layout.block() * (gap + 1) - 3);
+        let first = self.layout.membrane(gap) + self.layout.interior - interior;
         // The membrane depends on the rotation of the right scale minus the rotation of the left
         // scale, so its equations also contribute to the rotation of the left scale, with sign −1.
         let frame = self.layout.rotation(gap).map(|frame| (frame, last, -1.0));
-        let own = (0..=last).map(|k| (first + k, k, 1.0));
-        for (unknown, row, sign) in own.chain(frame) {
+        let own = (first..first + interior).chain(scale..scale + 3).zip(0..);
+        for (unknown, row, sign) in own.map(|(unknown, row)| (unknown, row, 1.0)).chain(frame) {
             residual.add(unknown, sign * gradient[row]);
             // The matrix is symmetric, and its columns are contiguous.
-            let entries = hessian.column(row);
-            matrix.add_row(unknown, first, entries.iter().map(|entry| sign * entry));
+            let entries = &hessian.as_slice()[acting.len() * row..][..acting.len()];
+            // Contact forces may separate the columns.
+            let successive = if first + interior == scale { acting.len() } else { interior };
+            let (by_first, by_scale) = entries.split_at(successive);
+            matrix.add_row(unknown, first, by_first.iter().map(|entry| sign * entry));
+            matrix.add_row(unknown, scale, by_scale.iter().map(|entry| sign * entry));
             if let Some((frame, ..)) = frame {
                 matrix.add(unknown, frame, -sign * entries[last]);
             }
@@ -333,6 +366,11 @@ impl System for Strip {
 
     fn blocks(&self) -> Option<&Blocks> {
         self.blocks.as_ref()
+    }
+
+    fn is_in_blocks(&self, state: &SkinState) -> bool {
+        // Without a force, the interior block would be singular at zero rotation.
+        !self.layout.has_interior_block() || self.straight(&state.active, 0) == 0
     }
 
     fn load(&self) -> usize {
