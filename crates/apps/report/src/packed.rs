@@ -9,7 +9,8 @@ use flate2::write::DeflateEncoder;
 ///
 /// Drawings shrink to a tenth of their size.
 pub(crate) fn write_packed(out: &mut impl Write, id: &str, bytes: &[u8]) -> io::Result<()> {
-    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
+    // The best compression takes more than twice as long, for a page that is 1.5 % smaller.
+    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
     encoder.write_all(bytes)?;
     let text = in_sevens(&encoder.finish()?);
     writeln!(out, "<script type=\"text/plain\" id=\"{id}\">{text}</script>")
