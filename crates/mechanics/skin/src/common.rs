@@ -22,6 +22,11 @@ pub struct Common {
 /// all data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PathDetail {
+    /// Only the measures of the critical state and of failure.
+    ///
+    /// Folds of the surface are located only for failure. The measures at the first fold have no
+    /// value otherwise, and the largest force without a fold never has one.
+    End,
     /// Only the measures of the critical state, of the first fold and of failure.
     ///
     /// All other measures have no value: largest load and stiffness, first contact, stiffness at

@@ -90,6 +90,15 @@ pub fn is_along_path(name: &str) -> bool {
     about(name).is_some_and(|(value, _)| value.is_along_path())
 }
 
+/// Returns true if the values of a column may belong to the first fold of the surface.
+///
+/// [`skin::PathDetail::End`] omits these values.
+///
+/// `name` may also be the name of a derived column, such as a quantile.
+pub fn is_at_fold(name: &str) -> bool {
+    about(name).is_some_and(|(value, _)| value.is_at_fold())
+}
+
 /// Returns true if a column exists only in sweeps that set the parameter `key` or an alternative.
 ///
 /// `name` may also be the name of a derived column, such as a quantile.

@@ -228,7 +228,8 @@ impl Problem<'_> {
     /// Returns this problem with other parameters, for the measures of the critical state.
     fn with<'p>(&'p self, parameters: &'p PunctureParameters) -> Problem<'p> {
         let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
-        let common = Common { detail: PathDetail::Critical, ..self.common };
+        let detail = self.common.detail.min(PathDetail::Critical);
+        let common = Common { detail, ..self.common };
         Problem { stiffness, endless, common, parameters, ..*self }
     }
 

@@ -194,7 +194,7 @@ impl PunctureMeasures {
             fold_force: fold.map(|fold| fold.force),
             fold_displacement: fold.map(|fold| fold.displacement),
             fold_tilt_deg: fold.map(|fold| fold.tilt_deg),
-            sound_force: Some(fold.map_or(end.force, |fold| fold.force)),
+            sound_force: chain.measures_folds().then(|| fold.map_or(end.force, |fold| fold.force)),
             friction_work: record.path.last().and_then(|point| point.friction_work),
             unique: chain.contacts.has_friction().then(|| path.is_unique()),
             ..Self::default()

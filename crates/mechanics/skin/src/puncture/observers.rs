@@ -71,7 +71,10 @@ impl PathObservers {
         self.force.follow(path, from, to);
         self.requested.follow(path, from, to);
         let is_unfolded = self.folds.first.is_none();
-        self.folds.follow(path, [from, to], events_before);
+        // A fold is a failure, so failures need the folds.
+        if path.system().measures_folds() || self.failure.is_some() {
+            self.folds.follow(path, [from, to], events_before);
+        }
         if let Some(failure) = &mut self.failure {
             failure.follow(path, segment, self.folds.first.as_ref().filter(|_| is_unfolded));
         }

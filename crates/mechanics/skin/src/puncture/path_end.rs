@@ -52,8 +52,9 @@ const MOST_FOLD_STEPS: usize = 8;
 /// End of the path of a completed puncture, as a start for punctures of similar designs.
 ///
 /// The ends of similar designs follow by Newton's method, without following their paths. This
-/// requires [`PathDetail::Critical`], because other measures belong to points before the end. It
-/// excludes friction, guided needles and failure modes, which depend on the whole path.
+/// requires [`PathDetail::Critical`], because other measures belong to points before the end, and
+/// because gaps that almost fold are also close to other branches. Similar designs may have
+/// [`PathDetail::End`]. Friction, guided needles and failure modes depend on the whole path.
 #[derive(Clone, Debug)]
 pub struct PunctureEnd {
     /// Layout of the solved part of the row.
@@ -115,7 +116,8 @@ impl PunctureEnd {
     /// `None` if an event before the end may be different on the path of a similar design.
     pub(super) fn new(problem: &Problem, followed: &Followed) -> Option<Self> {
         let Followed { watch, path, status, .. } = followed;
-        if !problem.has_end() || *status != Status::Complete {
+        let has_folds = problem.common.detail == PathDetail::Critical;
+        if !has_folds || !problem.has_end() || *status != Status::Complete {
             return None;
         }
         let is_dip_wide = watch.folds.least_dip >= LEAST_STRETCH;
@@ -184,7 +186,7 @@ impl PunctureParameters {
 impl Problem<'_> {
     /// Returns true if the end of the path may be a start for similar designs.
     fn has_end(&self) -> bool {
-        self.common.detail == PathDetail::Critical
+        self.common.detail <= PathDetail::Critical
             && matches!(self.rows, Rows::Even(_))
             && self.law.friction() == 0.0
             && self.parameters.depend_on_end_only()
@@ -280,8 +282,10 @@ impl Problem<'_> {
 
     /// Builds the result of an end that was `found` from `near`, the end of a similar design.
     fn result_near(&self, found: Followed, near: &PunctureEnd) -> Result<Puncture, OutOfRange> {
-        let end = self.moved_end(&found, near);
-        self.with_positions(found, Some(end), Some(near))
+        // Without its folds, the end is no start for other designs.
+        let has_folds = self.common.detail == PathDetail::Critical;
+        let end = has_folds.then(|| self.moved_end(&found, near));
+        self.with_positions(found, end, Some(near))
     }
 
     /// Finds the first fold of the surface before the end of the path at `point`.
@@ -294,6 +298,9 @@ impl Problem<'_> {
         end: &PunctureEnd,
         point: &SkinPoint,
     ) -> Option<FoldObserver> {
+        if !chain.measures_folds() {
+            return Some(FoldObserver::default());
+        }
         let (mut first, mut nearest) = (None, (1.0, point.clone()));
         // At the fold of one gap, another gap may be folded already. Continue with this gap.
         while let Some(pair) =

@@ -232,6 +232,9 @@ impl Problem<'_> {
         let failed = failed
             .and_then(|(mode, point)| chain.limit_at(point, *mode).or_else(|| folded.clone()));
         let (mut at_end, at_fold) = at_end_and_fold(folded.is_some(), is_bent);
+        if !chain.measures_folds() {
+            at_end.retain(|quantity| quantity.measure != "sound_force");
+        }
         // If the path ends before this depth, the measure is the force at its end.
         if !is_bent && !marked.points.is_empty() && deep.is_none() {
             at_end.push(force("force_at_depth"));

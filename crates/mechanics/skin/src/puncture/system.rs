@@ -251,9 +251,14 @@ impl Chain {
         }
     }
 
-    /// Returns true if only the measures of [`PathDetail::Critical`] are computed.
+    /// Returns true if at most the measures of [`PathDetail::Critical`] are computed.
     pub(super) fn is_critical_only(&self) -> bool {
-        self.detail == PathDetail::Critical
+        self.detail <= PathDetail::Critical
+    }
+
+    /// Returns true if folds of the surface are measured.
+    pub(super) fn measures_folds(&self) -> bool {
+        self.detail >= PathDetail::Critical
     }
 
     /// Returns true if all data of path tables and drawings are recorded.

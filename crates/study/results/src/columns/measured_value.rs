@@ -214,6 +214,11 @@ impl MeasuredValue {
         self.measure() == Some(Measure::Puncture) && (is_before_end || self.needs_path)
     }
 
+    /// Returns true if the value may belong to the first fold of the surface.
+    pub(super) fn is_at_fold(&self) -> bool {
+        matches!(self.point, PathPoint::Fold | PathPoint::FoldOrEnd)
+    }
+
     /// Returns true if `parameter` defines how the value is measured.
     ///
     /// Designs with different values of such a parameter cannot be compared. The dimensionless

@@ -144,7 +144,8 @@ impl Evaluator {
     ) -> Option<DesignRow> {
         let (wanted, mut derivatives) = (Wanted::Only(parameters), Vec::new());
         let needed = self.parts.map_or(*case, |parts| parts.of_case(case));
-        let solved = needed.with_detail(self.detail);
+        let detail = self.parts.map_or(self.detail, |parts| self.detail.min(parts.detail_near));
+        let solved = needed.with_detail(detail);
         let punctured = self.puncture_near(&solved, wanted, end, &mut derivatives)?;
         let (meter, punctured) = (WorkMeter::default(), (Some(Ok(punctured)), derivatives));
         let row = self.with_puncture(number, &solved, wanted, &meter, punctured).row;
