@@ -136,7 +136,7 @@ impl<'a> UnevenStrip<'a> {
     /// Bends the strip to its final rotation; `None` if the gaps cannot be solved separately.
     fn bend(&mut self) -> Option<BentSample> {
         let beyond = self.pass_end()?;
-        if self.problem.common.detail == PathDetail::Critical {
+        if self.problem.common.detail <= PathDetail::Critical {
             let status = self.status(beyond);
             let points = self.points(beyond)?;
             // The strip has not reached its final rotation at any of these points.

@@ -96,10 +96,10 @@ const EARLY_TOLERANCE: f64 = 1e-7;
 impl MembraneMesh {
     /// Returns the initial resolution.
     ///
-    /// With [`PathDetail::Critical`] only the stiffest state has to be resolved.
+    /// Up to [`PathDetail::Critical`], only the stiffest state has to be resolved.
     pub(crate) fn coarsest(self, detail: PathDetail) -> Resolution {
         match self {
-            Self::Auto if detail == PathDetail::Critical => Resolution::Order(EARLY_ORDER),
+            Self::Auto if detail <= PathDetail::Critical => Resolution::Order(EARLY_ORDER),
             Self::Auto => Resolution::Order(FIRST_ORDER),
             Self::Elements(count) => Resolution::Elements(count),
         }
