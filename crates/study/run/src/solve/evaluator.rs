@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use results::columns::is_along_path;
+use results::columns::{is_along_path, is_at_fold};
 use results::{
     DesignResult, DesignRow, Failure, FlexureResult, Outcome, ParameterDerivative, PathEnd,
     PunctureResult, SampleStatistics, SolvedDesign, finite,
@@ -32,6 +32,8 @@ pub struct Evaluator {
     measures: Vec<Measure>,
     /// Detail of the recorded paths, for rows of tables and samples.
     detail: PathDetail,
+    /// Detail of punctures that start from the path end of a similar design.
+    detail_near: PathDetail,
     /// Parts of a design to solve; `None` solves every part, with full detail.
     parts: Option<Parts>,
     calibrations: Calibrations,
@@ -49,6 +51,7 @@ impl Evaluator {
         Self {
             measures: measures.to_vec(),
             detail: PathDetail::Measures,
+            detail_near: PathDetail::Measures,
             parts: None,
             calibrations: Calibrations::default(),
             across: AcrossCache::default(),
@@ -65,16 +68,19 @@ impl Evaluator {
     ) -> Self {
         let detail =
             if columns.any(is_along_path) { PathDetail::Measures } else { PathDetail::Critical };
-        Self { detail, ..Self::new(measures) }
+        Self { detail, detail_near: detail, ..Self::new(measures) }
     }
 
     /// Creates an evaluator that solves only the parts of a design on which `columns` depend.
     ///
     /// Other columns may lack a value. The parts are load positions, the row across, bodies between
-    /// two radii, and unloading.
+    /// two radii, and unloading. Punctures that start from the path end of a similar design locate
+    /// folds of the surface only if a column needs them.
     pub fn only_columns(measures: &[Measure], columns: &[&str]) -> Self {
-        let parts = Some(Parts::of(columns));
-        Self { parts, ..Self::for_columns(measures, columns.iter().copied()) }
+        let evaluator = Self::for_columns(measures, columns.iter().copied());
+        let folds = columns.iter().any(|column| is_at_fold(column));
+        let detail_near = if folds { evaluator.detail } else { PathDetail::End };
+        Self { parts: Some(Parts::of(columns)), detail_near, ..evaluator }
     }
 
     fn measures(&self, measure: Measure) -> bool {
@@ -144,8 +150,7 @@ impl Evaluator {
     ) -> Option<DesignRow> {
         let (wanted, mut derivatives) = (Wanted::Only(parameters), Vec::new());
         let needed = self.parts.map_or(*case, |parts| parts.of_case(case));
-        let detail = self.parts.map_or(self.detail, |parts| self.detail.min(parts.detail_near));
-        let solved = needed.with_detail(detail);
+        let solved = needed.with_detail(self.detail_near);
         let punctured = self.puncture_near(&solved, wanted, end, &mut derivatives)?;
         let (meter, punctured) = (WorkMeter::default(), (Some(Ok(punctured)), derivatives));
         let row = self.with_puncture(number, &solved, wanted, &meter, punctured).row;

@@ -1,7 +1,6 @@
 //! Parts of a design that must be solved for a given set of columns.
 
-use results::columns::{is_at_fold, needs_parameter};
-use skin::PathDetail;
+use results::columns::needs_parameter;
 use sweep::{Case, key};
 
 /// Parts of a design to solve besides its first puncture and its bending.
@@ -15,8 +14,6 @@ pub(super) struct Parts {
     between: bool,
     /// True if unloading is solved, for puncture and for bending.
     unloading: [bool; 2],
-    /// Detail of a puncture that is solved from the path end of a similar design.
-    pub(super) detail_near: PathDetail,
 }
 
 impl Parts {
@@ -28,10 +25,7 @@ impl Parts {
         // A first failure may occur across the row. The force across the row is compared with the
         // force at the weakest load position, so the load positions are needed, too.
         let across = across || failure;
-        let (places, unloading) = (places || across, [unload, unbend]);
-        let folds = columns.iter().any(|column| is_at_fold(column));
-        let detail_near = if folds { PathDetail::Critical } else { PathDetail::End };
-        Self { places, across, between, unloading, detail_near }
+        Self { places: places || across, across, between, unloading: [unload, unbend] }
     }
 
     /// Returns `case` without the parts that are not solved.
