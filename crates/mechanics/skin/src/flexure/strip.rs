@@ -311,8 +311,11 @@ impl Strip {
     ///
     /// Unknowns that vanish by [`Self::straight`] are omitted.
     fn acting(&self, state: &SkinState, gap: usize) -> Vec<f64> {
-        let acting = self.layout.of_membrane(gap).skip(self.straight(&state.active, gap));
-        let mut seen: Vec<_> = acting.map(|unknown| state.z[unknown]).collect();
+        let (start, end) = (self.layout.membrane(gap), self.layout.block() * (gap + 1));
+        let first = start + self.straight(&state.active, gap);
+        // Copy slices, because this is called for each tangent.
+        let mut seen =
+            [&state.z[first..start + self.layout.interior], &state.z[end - 3..end]].concat();
         if let (Some(frame), Some(rotation)) = (self.layout.rotation(gap), seen.last_mut()) {
             *rotation -= state.z[frame];
         }
