@@ -44,6 +44,9 @@ const BEYOND: f64 = 1.02;
 /// Ratio of two compliances beyond which the larger one needs no exact value.
 const MUCH_SOFTER: f64 = 1.05;
 
+/// Largest relative change by refinement of a state that is only audited.
+const AUDITED: f64 = 0.01;
+
 /// Divisor of the largest step size if there is friction.
 const FRICTION_REFINEMENT: f64 = 4.0;
 
@@ -90,20 +93,24 @@ impl From<&Flexure> for BentSample {
 /// `None` if a gap does not reach the final moment, or if its moment or rotation decreases before.
 /// Then the chain of all gaps has to be solved.
 pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutOfRange> {
+    let usual = problem.coarsest(PathDetail::Whole);
     let mut resolution = problem.coarsest(problem.common.detail);
+    let mut skips = true;
     loop {
-        let mut strip = UnevenStrip::new(problem, resolution)?;
-        let Some(bent) = strip.bend() else {
-            // A coarse membrane may also fail because it does not resolve the end of bending.
-            let usual = problem.coarsest(PathDetail::Whole);
-            if resolution.is_coarser_than(usual) {
-                resolution = usual;
-                continue;
+        match UnevenStrip::new(problem, resolution, skips)?.bend() {
+            Some(bent) if bent.status == Status::Complete => {
+                let Some(finer) = resolution.better(bent.measures.error) else {
+                    return Ok(Some(bent));
+                };
+                resolution = finer;
             }
-            return Ok(None);
-        };
-        let Some(finer) = resolution.better(bent.measures.error) else { return Ok(Some(bent)) };
-        resolution = finer;
+            // Confirm a failure with the usual membrane and with the paths of all gaps from rest.
+            _ if skips => {
+                skips = false;
+                resolution = if resolution.is_coarser_than(usual) { usual } else { resolution };
+            }
+            failed => return Ok(failed),
+        }
     }
 }
 
@@ -113,12 +120,16 @@ struct UnevenStrip<'a> {
     resolution: Resolution,
     gaps: Vec<GapCurve>,
     order: GapOrder,
-    /// Gaps that represent the strip in checks: all gaps, or the gaps with a followed path.
-    checked: Vec<usize>,
+    /// True if only the paths of the extreme gaps are followed, where they permit it.
+    skips: bool,
 }
 
 impl<'a> UnevenStrip<'a> {
-    fn new(problem: &'a FlexureProblem, resolution: Resolution) -> Result<Self, OutOfRange> {
+    fn new(
+        problem: &'a FlexureProblem,
+        resolution: Resolution,
+        skips: bool,
+    ) -> Result<Self, OutOfRange> {
         let mut settings = problem.common.solver;
         if problem.common.friction > 0.0 {
             // The accuracy of the dissipation depends on the step size. The path of a single gap
@@ -129,8 +140,9 @@ impl<'a> UnevenStrip<'a> {
             .map(|gap| Ok(GapCurve::new(problem.gap(gap, resolution)?, settings)))
             .collect::<Result<_, _>>()?;
         let order = GapOrder::new(&problem.row, problem.solved);
-        let checked = (0..problem.solved).collect();
-        Ok(Self { problem, resolution, gaps, order, checked })
+        // The state of a gap with friction depends on its path from rest.
+        let skips = skips && problem.common.friction == 0.0;
+        Ok(Self { problem, resolution, gaps, order, skips })
     }
 
     /// Bends the strip to its final rotation; `None` if the gaps cannot be solved separately.
@@ -140,7 +152,9 @@ impl<'a> UnevenStrip<'a> {
             let status = self.status(beyond);
             let points = self.points(beyond)?;
             // The strip has not reached its final rotation at any of these points.
-            if status == Status::Complete && self.rotation(points.farthest()) <= self.whole() {
+            let has_all = self.rotation(points.farthest()) <= self.whole();
+            let is_audited = self.error(&points, &[beyond]).is_none_or(|error| error <= AUDITED);
+            if status == Status::Complete && has_all && is_audited {
                 let error = self.error(&points, &[points.stiffest]);
                 let measures = self.early_measures(&points, error);
                 return Some(self.bent(status, (measures, &points), beyond));
@@ -287,8 +301,7 @@ impl<'a> UnevenStrip<'a> {
         for &gap in &self.order.extremes {
             self.gaps[gap].follow_to(moment)?;
         }
-        // The state of a gap with friction depends on its path from rest.
-        if self.problem.common.friction == 0.0 {
+        if self.skips {
             self.extend_beside_extremes(moment)?;
         }
         self.gaps.iter_mut().try_for_each(|gap| gap.follow_to(moment))?;
@@ -305,10 +318,8 @@ impl<'a> UnevenStrip<'a> {
             gap.close_beside(similar, moment)?;
         }
         if !self.softens_after_closing(moment) {
-            self.checked = (0..self.gaps.len()).collect();
             return Some(());
         }
-        self.checked.clone_from(&self.order.extremes);
         for &gap in &self.order.extremes {
             self.gaps[gap].solve_at(moment)?;
         }
@@ -375,13 +386,8 @@ impl<'a> UnevenStrip<'a> {
             let is_stiff = compliance <= best.1 * (1.0 + FLAT);
             if let Some(breakpoint) = breakpoint.filter(|_| is_stiff) {
                 let beside = best.0 + BESIDE * (breakpoint - best.0);
-                for &gap in &self.checked {
-                    self.gaps[gap].solve_at(beside)?;
-                }
-                let checked = self.checked.iter().map(|&gap| &self.gaps[gap]);
-                let [here, beside] =
-                    [best.0, beside].map(|moment| least(compliances(checked.clone(), moment)));
-                if beside < here * (1.0 - STIFFER) {
+                self.solve_at(beside)?;
+                if self.least_compliance(beside) < best.1 * (1.0 - STIFFER) {
                     return None;
                 }
             }
@@ -541,7 +547,8 @@ fn moment_at(rotation: f64, highest: f64, rotation_at: impl Fn(f64) -> f64) -> f
     // changes, not when the bracket is narrow.
     let mut moment = highest;
     for _ in 0..ROUNDS {
-        let next = bracket.secant();
+        // Curves may end at `highest`, which round-off of the secant may exceed.
+        let next = bracket.secant().min(highest);
         let value = rotation_at(next) - rotation;
         if value == 0.0 || (next - moment).abs() <= f64::EPSILON * highest {
             return next;

@@ -86,7 +86,7 @@ const LAST_ORDER: usize = 48;
 /// Initial order for the stiffest state of an imperfect strip.
 ///
 /// Its forces are much smaller than at the end of bending, so the boundary layers are wide.
-const EARLY_ORDER: usize = 4;
+const EARLY_ORDER: usize = 8;
 
 /// Largest relative change of a measure by refinement at which [`EARLY_ORDER`] suffices.
 ///
