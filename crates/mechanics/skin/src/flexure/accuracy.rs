@@ -1,7 +1,9 @@
 //! Estimates the discretisation error of the measures of a bent strip.
 
+use membrane::GapEnergies;
 use solver::{Newton, Settings};
 
+use super::gap_curve::Knot;
 use super::strip::Strip;
 use crate::contacts::SkinState;
 use crate::record::Skin;
@@ -49,4 +51,32 @@ pub(crate) fn change(
     let ours = quantities(strip, state.clone(), settings)?;
     let theirs = quantities(finer, strip.transferred(state, finer)?, settings)?;
     largest_change(ours, theirs)
+}
+
+/// Sums of quantities of all gaps under one moment; the strain is the largest of all gaps.
+#[derive(Default)]
+pub(super) struct Sums {
+    pub(super) rotation: f64,
+    pub(super) compliance: f64,
+    pub(super) axial_energy: f64,
+    pub(super) energy: f64,
+    strain: f64,
+}
+
+impl Sums {
+    /// Adds the quantities of one gap.
+    pub(super) fn add(&mut self, strip: &Strip, knot: &Knot) {
+        let state = &knot.point.state;
+        let GapEnergies { axial, bending } = strip.membrane_energy(state);
+        self.rotation += knot.rotation;
+        self.compliance += knot.compliance();
+        self.axial_energy += axial;
+        self.energy += axial + bending + strip.contacts.energy(state);
+        self.strain = self.strain.max(strip.largest_strain(state));
+    }
+
+    /// Returns the compared quantities of the strip.
+    pub(super) fn quantities(&self, moment: f64) -> Quantities {
+        [moment, self.compliance.recip(), self.axial_energy / self.energy, self.strain]
+    }
 }

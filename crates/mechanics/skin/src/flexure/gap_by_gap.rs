@@ -1,15 +1,13 @@
 //! Bending of a strip with unequal gaps, in which each gap is solved separately.
 
 use geometry::OutOfRange;
-use membrane::GapEnergies;
 use solver::{Bracket, Newton};
 
-use super::accuracy::{Quantities, largest_change};
+use super::accuracy::{Sums, largest_change};
 use super::gap_curve::{GapCurve, Knot};
 use super::gap_order::GapOrder;
 use super::mesh::Resolution;
 use super::problem::{FlexureProblem, LOCKED};
-use super::strip::Strip;
 use super::{Flexure, FlexureMeasures};
 use crate::contacts::Contacts;
 use crate::{PathDetail, Status};
@@ -95,8 +93,10 @@ impl From<&Flexure> for BentSample {
 pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutOfRange> {
     let usual = problem.coarsest(PathDetail::Whole);
     let mut resolution = problem.coarsest(problem.common.detail);
-    let mut skips = true;
+    // The state of a gap with friction depends on its path from rest.
+    let mut skips = problem.common.friction == 0.0;
     loop {
+        let is_early = resolution.is_coarser_than(usual);
         match UnevenStrip::new(problem, resolution, skips)?.bend() {
             Some(bent) if bent.status == Status::Complete => {
                 let Some(finer) = resolution.better(bent.measures.error) else {
@@ -105,9 +105,9 @@ pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutO
                 resolution = finer;
             }
             // Confirm a failure with the usual membrane and with the paths of all gaps from rest.
-            _ if skips => {
+            _ if skips || is_early => {
                 skips = false;
-                resolution = if resolution.is_coarser_than(usual) { usual } else { resolution };
+                resolution = if is_early { usual } else { resolution };
             }
             failed => return Ok(failed),
         }
@@ -140,8 +140,6 @@ impl<'a> UnevenStrip<'a> {
             .map(|gap| Ok(GapCurve::new(problem.gap(gap, resolution)?, settings)))
             .collect::<Result<_, _>>()?;
         let order = GapOrder::new(&problem.row, problem.solved);
-        // The state of a gap with friction depends on its path from rest.
-        let skips = skips && problem.common.friction == 0.0;
         Ok(Self { problem, resolution, gaps, order, skips })
     }
 
@@ -153,8 +151,10 @@ impl<'a> UnevenStrip<'a> {
             let points = self.points(beyond)?;
             // The strip has not reached its final rotation at any of these points.
             let has_all = self.rotation(points.farthest()) <= self.whole();
-            let is_audited = self.error(&points, &[beyond]).is_none_or(|error| error <= AUDITED);
-            if status == Status::Complete && has_all && is_audited {
+            if status == Status::Complete
+                && has_all
+                && self.error(&points, &[beyond]).is_none_or(|error| error <= AUDITED)
+            {
                 let error = self.error(&points, &[points.stiffest]);
                 let measures = self.early_measures(&points, error);
                 return Some(self.bent(status, (measures, &points), beyond));
@@ -576,31 +576,5 @@ impl Points {
     /// Returns the largest moment.
     fn farthest(&self) -> f64 {
         self.closings.map_or(self.stiffest, |[_, last]| last.max(self.stiffest))
-    }
-}
-
-/// Sums of quantities of all gaps under one moment; the strain is the largest of all gaps.
-#[derive(Default)]
-struct Sums {
-    rotation: f64,
-    compliance: f64,
-    axial_energy: f64,
-    energy: f64,
-    strain: f64,
-}
-
-impl Sums {
-    fn add(&mut self, strip: &Strip, knot: &Knot) {
-        let state = &knot.point.state;
-        let GapEnergies { axial, bending } = strip.membrane_energy(state);
-        self.rotation += knot.rotation;
-        self.compliance += knot.compliance();
-        self.axial_energy += axial;
-        self.energy += axial + bending + strip.contacts.energy(state);
-        self.strain = self.strain.max(strip.largest_strain(state));
-    }
-
-    fn quantities(&self, moment: f64) -> Quantities {
-        [moment, self.compliance.recip(), self.axial_energy / self.energy, self.strain]
     }
 }

@@ -11,10 +11,9 @@ const ROUND_OFF: f64 = 1e-12;
 
 /// Tolerance of Newton's method for states that enter no result.
 ///
-/// These are states on a finer membrane, for an error estimate, and states beyond the end of
-/// bending, which limit the range of (F8).
-/// The last iteration converges quadratically, so the error of the state is far smaller than the
-/// tolerance.
+/// They are states on a finer membrane, for an error estimate, and states beyond the end of bending,
+/// which limit the range of (F8). The last iteration converges quadratically, so the error of the
+/// state is far smaller than the tolerance.
 const ESTIMATED: f64 = 1e-6;
 
 /// Equilibrium of a gap; moment and rotation are positive in the direction of bending.
@@ -135,7 +134,7 @@ impl GapCurve {
     /// Without contact the membrane is an arc, so no other event lies between. Returns `None`
     /// without a step if this fails.
     fn step_to_closing(&mut self, similar: &Self) -> Option<()> {
-        let closing = similar.knots.iter().find(|knot| Contacts::closed(&knot.point.state) > 0)?;
+        let closing = similar.closing()?;
         let Some(Event::Changed(changes)) = &closing.point.event else { return None };
         let &[Change { constraint, activated: true }] = changes.as_slice() else { return None };
         let near =
@@ -216,8 +215,12 @@ impl GapCurve {
 
     /// Returns the moment of first contact; `None` if the gap has not closed so far.
     pub(super) fn first_closing(&self) -> Option<f64> {
-        let mut touching = self.knots.iter().filter(|knot| Contacts::closed(&knot.point.state) > 0);
-        touching.next().map(|knot| knot.moment)
+        self.closing().map(|knot| knot.moment)
+    }
+
+    /// Returns the equilibrium of first contact.
+    fn closing(&self) -> Option<&Knot> {
+        self.knots.iter().find(|knot| Contacts::closed(&knot.point.state) > 0)
     }
 
     /// Returns the rotation `θ` under a moment, from an equilibrium or interpolated by (F8).

@@ -114,7 +114,7 @@ fn separately_solved_gaps_match_the_chain() {
     }
 }
 
-/// Returns imperfect strips of random designs, some of which lock.
+/// Returns imperfect strips of random designs. Some of the strips lock.
 fn random_strips(count: usize, seed: u64) -> Vec<Uneven> {
     let mut random = SplitMix64(seed);
     let strips = random_designs(count, seed).into_iter().map(|design| Uneven {
